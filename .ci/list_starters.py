@@ -15,7 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from grader.exercise import Exercise, exercises  # noqa: E402 - the course in this folder
+from grader.exercise import Exercise, list_exercises  # noqa: E402 - the course in this folder
 from grader.package_files import STARTERS, digest_starter  # noqa: E402 - the same
 
 LIST = ROOT / STARTERS
@@ -28,11 +28,14 @@ def list_starters(old: dict[str, dict[str, str]]) -> str:
     Args:
         old: exercise -> file -> digest, as listed so far.
     """
-    return HEAD + "".join(_section(one, old.get(one.name, {})) for one in exercises(ROOT))
+    return HEAD + "".join(_section(one, old.get(one.name, {})) for one in list_exercises(ROOT))
 
 
 def _section(one: Exercise, old: dict[str, str]) -> str:
-    names = {name for name in old if (one.folder / name).is_file()} | {*one.files, *one.beside}
+    names = {name for name in old if (one.folder / name).is_file()} | {
+        *one.files,
+        *one.companion_files,
+    }
     lines = [
         f'"{name}" = "{digest_starter((one.folder / name).read_bytes())}"\n'
         for name in sorted(names)

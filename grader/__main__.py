@@ -19,7 +19,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from importlib.util import find_spec
 from pathlib import Path
 
-from grader.exec_process import INTERRUPTED, run
+from grader.exec_process import INTERRUPTED, run_process
 
 OLDEST = (3, 11)
 ROOT = Path(__file__).resolve().parent.parent
@@ -50,25 +50,25 @@ def main(arguments: list[str]) -> int:
             "Get one from python.org, and start the course with it.",
         )
     try:
-        if not missing_packages(arguments[:1]):
-            return _go(arguments)
+        if not find_missing_packages(arguments[:1]):
+            return _run_command(arguments)
         if not (ROOT / "pyproject.toml").is_file():
-            names = ", ".join(missing_packages(arguments[:1]))
+            names = ", ".join(find_missing_packages(arguments[:1]))
             return _give_up(f"{names} not installed", "python -m pip install sysid-course[test]")
-        if in_environment() or HOPPED in os.environ:
-            return _install_and_go(arguments)
-        return _hop(arguments)
+        if is_in_environment() or HOPPED in os.environ:
+            return _install_and_run(arguments)
+        return _run_in_environment(arguments)
     except KeyboardInterrupt:
         return INTERRUPTED
 
 
-def missing_packages(command: list[str]) -> list[str]:
+def find_missing_packages(command: list[str]) -> list[str]:
     """What has to be installed before a command can run: names of packages.
 
     Args:
         command: the command's name alone, or nothing.
     """
-    wanted = _wanted(testing=command == ["test"])
+    wanted = _read_requirements(testing=command == ["test"])
     if command in (["start"], ["test"]):
         wanted.append("sysid-course")  # lessons and tests run elsewhere, where only that finds us
     names = []
@@ -80,7 +80,7 @@ def missing_packages(command: list[str]) -> list[str]:
     return names
 
 
-def _wanted(*, testing: bool) -> list[str]:
+def _read_requirements(*, testing: bool) -> list[str]:
     """The packages pyproject.toml asks for; those only some machines need are pip's business."""
     import tomllib  # noqa: PLC0415 - an old Python has none, and must get as far as being told
 
@@ -95,38 +95,38 @@ def _wanted(*, testing: bool) -> list[str]:
     return [name[0] for name in names if name]
 
 
-def in_environment() -> bool:
+def is_in_environment() -> bool:
     """Whether this Python is one's own to install into: a virtual or a named conda environment."""
     prefix = Path(sys.prefix)
     conda = (prefix / "conda-meta").is_dir() and not (prefix / "condabin").is_dir()
     return sys.prefix != sys.base_prefix or conda
 
 
-def _go(arguments: list[str]) -> int:
+def _run_command(arguments: list[str]) -> int:
     """Everything is there: run the command itself."""
     if arguments[:1] == ["test"]:
         chosen = {(): (*EVERYTHING, "-m", "not slow"), ("--all",): EVERYTHING}
         options = chosen.get(tuple(arguments[1:]), arguments[1:])
         command = [sys.executable, "-m", "pytest", *options]
-        return run(command, cwd=ROOT)
-    from grader.cli import run as grade  # noqa: PLC0415 - needs what may not be installed yet
+        return run_process(command, cwd=ROOT)
+    from grader.cli import run_command as grade  # noqa: PLC0415 - needs what may not be installed yet
 
     return grade(arguments)
 
 
-def _hop(arguments: list[str]) -> int:
+def _run_in_environment(arguments: list[str]) -> int:
     """Go on in the course's own environment; make it if it is not there."""
     folder = ROOT / ".venv"
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     if not python.exists():
-        problem = _make(folder)
+        problem = _make_environment(folder)
         if problem:
             return _give_up(*problem)
     environment = dict(os.environ, **{HOPPED: "1"})
-    return run([str(python), "-m", "grader", *arguments], env=environment)
+    return run_process([str(python), "-m", "grader", *arguments], env=environment)
 
 
-def _make(folder: Path) -> tuple[str, str] | None:
+def _make_environment(folder: Path) -> tuple[str, str] | None:
     """Make a virtual environment; the problem and the advice if that does not work."""
     if find_spec("venv") is None or find_spec("ensurepip") is None:
         return (
@@ -135,13 +135,13 @@ def _make(folder: Path) -> tuple[str, str] | None:
         )
     if folder.exists() and not (folder / "pyvenv.cfg").is_file() and any(folder.iterdir()):
         return f"{folder} is there already, and no virtual environment", "Move it away."
-    _say(f"Making a place for the course's packages: {folder}")
-    made = _quietly([sys.executable, "-m", "venv", "--clear", str(folder)])
+    _print_line(f"Making a place for the course's packages: {folder}")
+    made = _run_quietly([sys.executable, "-m", "venv", "--clear", str(folder)])
     return (f"no virtual environment could be made: {made}", "") if made else None
 
 
-def _install_and_go(arguments: list[str]) -> int:
-    names = missing_packages(arguments[:1])
+def _install_and_run(arguments: list[str]) -> int:
+    names = find_missing_packages(arguments[:1])
     if INSTALLED in os.environ:
         return _give_up(
             f"{', '.join(names)} is still missing after installing",
@@ -150,30 +150,30 @@ def _install_and_go(arguments: list[str]) -> int:
     problem = _install(testing=arguments[:1] == ["test"])
     if problem:
         return _give_up(*problem)
-    _say("Installed.")
+    _print_line("Installed.")
     environment = dict(os.environ, **{INSTALLED: "1"})
-    return run([sys.executable, "-m", "grader", *arguments], env=environment)
+    return run_process([sys.executable, "-m", "grader", *arguments], env=environment)
 
 
 def _install(*, testing: bool) -> tuple[str, str] | None:
     """Install the course into this Python; the problem and the advice if that does not work."""
     size = SIZE_TO_TEST if testing else SIZE
-    _say(f"Installing what the course needs: up to {size}, which may take a few minutes ...")
+    _print_line(f"Installing what the course needs: up to {size}, which may take a few minutes ...")
     if find_spec("pip") is None:
-        _quietly([sys.executable, "-m", "ensurepip"])
+        _run_quietly([sys.executable, "-m", "ensurepip"])
     what = ".[test]" if testing else "."
     pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    said = _quietly([*pip, "-e", what], cwd=ROOT)
+    said = _run_quietly([*pip, "-e", what], cwd=ROOT)
     if not said:
         return None
-    _say(said)
+    _print_line(said)
     return (
         "pip could not install the course; its last words are above",
         "Is this machine online, and is there room on the disk? Then run the same command again.",
     )
 
 
-def _quietly(command: list[str], *, cwd: Path | None = None) -> str:
+def _run_quietly(command: list[str], *, cwd: Path | None = None) -> str:
     """Run a command; nothing if it went well, else the last lines of what it said went wrong."""
     done = subprocess.run(  # noqa: S603 - our own arguments, no shell
         command, cwd=cwd, capture_output=True, text=True, errors="replace", check=False
@@ -186,11 +186,11 @@ def _quietly(command: list[str], *, cwd: Path | None = None) -> str:
 
 
 def _give_up(what: str, advice: str) -> int:
-    _say(f"grade: {what}. {advice}".rstrip())
+    _print_line(f"grade: {what}. {advice}".rstrip())
     return COULD_NOT
 
 
-def _say(text: str) -> None:
+def _print_line(text: str) -> None:
     print(text, file=sys.stderr, flush=True)  # noqa: T201 - a command speaks
 
 

@@ -7,7 +7,7 @@ never the distance, and never the key.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from grader.check import Wrong, shorten
+from grader.check import WrongAnswer, shorten
 from grader.quantity import NotAUnitError, read_number, read_unit
 from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 
@@ -47,7 +47,7 @@ FAST_KA = Band(0.25, 0.50)  # kA where the mechanism is FAST
 
 
 @dataclass(frozen=True)
-class Asked:
+class AskedNumber:
     """A number that is asked for.
 
     Args:
@@ -66,7 +66,7 @@ class Asked:
         """Whether a value earns full marks."""
         return abs(value - self.expected) <= self.band.widths(self.expected)[0]
 
-    def tolerance(self, width: float, share: float) -> str:
+    def describe_tolerance(self, width: float, share: float) -> str:
         """A band in plain words: ``±3 %``, or ``±0.03 V`` where that is the wider."""
         if width > share * abs(self.expected):
             return f"±{width:g} {self.unit}"
@@ -74,14 +74,14 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Key:
+class AnswerKey:
     """The numbers asked for together, and the scene they belong to."""
 
-    asked: Mapping[str, Asked]
+    asked: Mapping[str, AskedNumber]
     scene: Scene = field(default_factory=Scene)
 
 
-def gains_asked(gains: Mapping[str, float], *, position: str) -> dict[str, Asked]:
+def ask_gains(gains: Mapping[str, float], *, position: str) -> dict[str, AskedNumber]:
     """Ask for gains.
 
     Args:
@@ -91,36 +91,36 @@ def gains_asked(gains: Mapping[str, float], *, position: str) -> dict[str, Asked
     units = {"kS": "V", "kG": "V", "kV": f"V·s/{position}", "kA": f"V·s²/{position}"}
     fast = "kA" in gains and gains["kA"] < FAST * gains.get("kV", 0.0)
     bands = {**BANDS, "kA": FAST_KA} if fast else BANDS
-    return {name: Asked(name, gains[name], units[name], bands[name]) for name in gains}
+    return {name: AskedNumber(name, gains[name], units[name], bands[name]) for name in gains}
 
 
-def read_answer_number(raw: object, asked: Asked) -> float:
+def read_answer_number(raw: object, asked: AskedNumber) -> float:
     """An answer as a number in the unit asked for.
 
     Raises:
-        Wrong: it is not a number, or not of that unit; the message says what it is instead.
+        WrongAnswer: it is not a number, or not of that unit; the message says what it is instead.
     """
     unit = f" (then it is in {asked.unit})" if asked.unit else ""
     ask = f"Write a number, such as {asked.name} = 0.5{unit}."
     if raw is None or raw == "":
-        raise Wrong("nothing yet", hint=ask)
+        raise WrongAnswer("nothing yet", hint=ask)
     if isinstance(raw, bool):
-        raise Wrong(f"{str(raw).lower()}, which is yes or no and not a number", hint=ask)
+        raise WrongAnswer(f"{str(raw).lower()}, which is yes or no and not a number", hint=ask)
     if isinstance(raw, int | float):
-        return _finite(raw, asked)
+        return _require_finite(raw, asked)
     if not isinstance(raw, str):
         kind = "list" if isinstance(raw, list) else type(raw).__name__
-        raise Wrong(f"a {kind}, not one number", hint=ask)
+        raise WrongAnswer(f"a {kind}, not one number", hint=ask)
     found = read_number(raw)
     if found is None:
-        raise Wrong(f'"{shorten(raw)}", which is not one number', hint=ask)
+        raise WrongAnswer(f'"{shorten(raw)}", which is not one number', hint=ask)
     value, unit = found
-    return _finite(value * _scale(unit, asked) if unit else value, asked)
+    return _require_finite(value * _find_scale(unit, asked) if unit else value, asked)
 
 
-def _finite(value: float, asked: Asked) -> float:
+def _require_finite(value: float, asked: AskedNumber) -> float:
     if not -LARGEST < value < LARGEST:
-        raise Wrong(
+        raise WrongAnswer(
             f"{'nan' if value != value else 'a number without end'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
             hint=f"{asked.name} came out of a division by zero, or of an empty column. Look at "
             "the data you fitted.",
@@ -128,18 +128,18 @@ def _finite(value: float, asked: Asked) -> float:
     return float(value)
 
 
-def _scale(unit: str, asked: Asked) -> float:
+def _find_scale(unit: str, asked: AskedNumber) -> float:
     """How many of the unit asked for one of the unit given is."""
     wanted = read_unit(asked.unit or "1")
     try:
         given = read_unit(unit)
     except NotAUnitError as part:
-        raise Wrong(
+        raise WrongAnswer(
             f"the unit {unit!r}, in which {str(part)!r} is not known",
             hint=f"Write {asked.unit}, or leave the unit out." if asked.unit else "It has no unit.",
         ) from None
     if given.powers != wanted.powers:
-        raise Wrong(
+        raise WrongAnswer(
             f"the unit {unit!r}, which does not measure {asked.name}",
             hint=f"Asked for: {asked.unit}. Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not.",
             misconception="M-UNITS",
@@ -147,7 +147,9 @@ def _scale(unit: str, asked: Asked) -> float:
     return given.factor / wanted.factor
 
 
-def judge_number(name: str, given: Mapping[str, object], key: Key, *, points: float) -> str | None:
+def judge_number(
+    name: str, given: Mapping[str, object], key: AnswerKey, *, points: float
+) -> str | None:
     """Judge one of the numbers.
 
     Args:
@@ -160,7 +162,7 @@ def judge_number(name: str, given: Mapping[str, object], key: Key, *, points: fl
         A note, if the answer was converted from another unit.
 
     Raises:
-        Wrong: it is not right; with what it may have been.
+        WrongAnswer: it is not right; with what it may have been.
     """
     asked, raw = key.asked[name], given.get(name)
     value = read_answer_number(raw, asked)
@@ -170,17 +172,17 @@ def judge_number(name: str, given: Mapping[str, object], key: Key, *, points: fl
         return f"{raw} is {shown}" if converted and f"{value:.4g}" not in str(raw) else None
     full, partial = asked.band.widths(asked.expected)
     away = abs(value - asked.expected)
-    near = asked.tolerance(full, asked.band.full)
+    near = asked.describe_tolerance(full, asked.band.full)
     earned, verdict = 0.0, f"outside the accepted {near}, by a lot"
     if away <= partial:
-        wider = asked.tolerance(partial, asked.band.partial)
+        wider = asked.describe_tolerance(partial, asked.band.partial)
         earned, verdict = HALF * points, f"close: within {wider}, not yet within {near}"
     elif away <= LITTLE * partial:
         verdict = f"outside the accepted {near}, by a little"
-    slips = diagnose(name, given, key)
+    slips = diagnose_number(name, given, key)
     codes = {slip.misconception for slip in slips}
-    said = _said(name, value, slips)
-    raise Wrong(
+    said = _describe_wrong_number(name, value, slips)
+    raise WrongAnswer(
         f"{shown}{'' if converted else ' (no unit given: read as asked)'}",
         hint="; ".join(part for part in (said, "" if said and not earned else verdict) if part),
         misconception=codes.pop() if len(codes) == 1 else "",
@@ -188,40 +190,44 @@ def judge_number(name: str, given: Mapping[str, object], key: Key, *, points: fl
     )
 
 
-def diagnose(name: str, given: Mapping[str, object], key: Key) -> tuple[WrongNumber, ...]:
+def diagnose_number(
+    name: str, given: Mapping[str, object], key: AnswerKey
+) -> tuple[WrongNumber, ...]:
     """The slips that would explain a wrong number; those another wrong number shares come alone."""
-    found = _suspects(name, given, key)
+    found = _find_wrong_numbers(name, given, key)
     for other in key.asked:
         if other != name and other in given:
-            shared = {slip.code for slip in _suspects(other, given, key)}
+            shared = {slip.code for slip in _find_wrong_numbers(other, given, key)}
             both = tuple(slip for slip in found if slip.code in shared)
             found = both or found
     return found if len(found) <= MANY else ()
 
 
-def _suspects(name: str, given: Mapping[str, object], key: Key) -> tuple[WrongNumber, ...]:
-    value = _value(name, given, key)
+def _find_wrong_numbers(
+    name: str, given: Mapping[str, object], key: AnswerKey
+) -> tuple[WrongNumber, ...]:
+    value = _read_value(name, given, key)
     asked = key.asked[name]
     if value is None or asked.right(value):
         return ()
     numbers = {other: one.expected for other, one in key.asked.items()}
     found = explain_wrong_number(name, value, right=asked.right, key=numbers, scene=key.scene)
     for other, one in key.asked.items():
-        theirs = _value(other, given, key)
+        theirs = _read_value(other, given, key)
         if other != name and theirs is not None and one.right(value) and asked.right(theirs):
             says = f"it would be right for {other}, and yours for {other} for {name}: swapped?"
             found += (WrongNumber("swapped", says, "M-ARGORDER"),)
     return found
 
 
-def _value(name: str, given: Mapping[str, object], key: Key) -> float | None:
+def _read_value(name: str, given: Mapping[str, object], key: AnswerKey) -> float | None:
     try:
         return read_answer_number(given.get(name), key.asked[name])
-    except Wrong:
+    except WrongAnswer:
         return None
 
 
-def _said(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
+def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
     if slips:
         return "; or ".join(slip.says for slip in slips)
     if value < 0:

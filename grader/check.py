@@ -4,12 +4,12 @@
     def ramp(facts: RoutineFacts) -> None:
         \"\"\"The quasistatic voltage rises by 0.5 V every second.\"\"\"
         if facts.ramp.value != 0.5:
-            raise Wrong(facts.ramp.text, hint="Volts.of(0.5).per(Second) is 0.5 V/s.")
+            raise WrongAnswer(facts.ramp.text, hint="Volts.of(0.5).per(Second) is 0.5 V/s.")
 
-A check that returns has passed; what it returns, if anything, is a note for the learner. Wrong
-says the answer is wrong, NotReached that there is nothing to look at yet, NotRun that it takes
-running the learner's code and that this was not allowed, and anything else that our own code broke,
-for which nobody is blamed.
+A check that returns has passed; what it returns, if anything, is a note for the learner.
+WrongAnswer says the answer is wrong, NotReachedError that there is nothing to look at yet,
+NotRunError that it takes running the learner's code and that this was not allowed, and anything
+else that our own code broke, for which nobody is blamed.
 """
 
 from collections.abc import Callable, Sequence
@@ -41,7 +41,7 @@ class Status(StrEnum):
     ERROR = "error"  # our code broke; no fault of the learner's
 
 
-class Wrong(Exception):  # noqa: N818 - a wrong answer is no error of the program
+class WrongAnswer(Exception):  # noqa: N818 - a wrong answer is no error of the program
     """The answer is wrong.
 
     Args:
@@ -61,11 +61,11 @@ class Wrong(Exception):  # noqa: N818 - a wrong answer is no error of the progra
         super().__init__(seen, hint)
 
 
-class NotReached(Exception):  # noqa: N818 - not an error of the program
+class NotReachedError(Exception):
     """There is nothing to look at yet; the message says what is missing."""
 
 
-class NotRun(Exception):  # noqa: N818 - not an error of the program
+class NotRunError(Exception):
     """Only running the learner's code could tell, and it was not run; the message says why."""
 
 
@@ -103,28 +103,28 @@ class Check(Generic[Subject]):
         description: the first line of the function's docstring.
         points: for a full pass.
         after: the checks that have to pass first.
-        look: the function.
+        judge: the function.
     """
 
     id: str
     description: str
     points: float
     after: tuple["Check[Subject]", ...]
-    look: Callable[[Subject], str | None]
+    judge: Callable[[Subject], str | None]
 
     def run(self, subject: Subject) -> Result:
         """Look at the subject; whatever happens is a result."""
         try:
-            note = self.look(subject) or ""
-        except Wrong as wrong:
+            note = self.judge(subject) or ""
+        except WrongAnswer as wrong:
             points = min(max(wrong.earned, 0.0), self.points)
             found = (wrong.seen, wrong.hint, wrong.misconception)
             return self._result(Status.FAILED, points, *found)
-        except (NotReached, Refusal) as reason:  # of a further file, for instance
+        except (NotReachedError, Refusal) as reason:  # of a further file, for instance
             return self._result(Status.NOT_REACHED, 0.0, str(reason))
         except MemoryError:  # whoever grades says it: this check is not broken
             raise
-        except NotRun as reason:
+        except NotRunError as reason:
             return self._result(Status.NOT_RUN, 0.0, str(reason))
         except Exception as error:  # noqa: BLE001 - whatever it is, the learner is not to blame
             return self._result(Status.ERROR, 0.0, f"{type(error).__name__}: {error}")
@@ -160,7 +160,7 @@ def check(
     return made
 
 
-def run_all(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Result, ...]:
+def run_checks(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Result, ...]:
     """Run the checks in order; one whose predecessor did not pass is not reached."""
     results: dict[str, Result] = {}
     for one in checks:

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from grader.check import Wrong, shorten
+from grader.check import WrongAnswer, shorten
 
 
 def normalize_choice(text: str) -> str:
@@ -22,18 +22,18 @@ def read_choice(
         also: other spellings -> the choice that is meant.
 
     Raises:
-        Wrong: nothing was given, or none of the choices.
+        WrongAnswer: nothing was given, or none of the choices.
     """
     ask = f"Choose one of: {', '.join(choices)}."
     if raw is None or raw == "":
-        raise Wrong("nothing yet", hint=ask)
+        raise WrongAnswer("nothing yet", hint=ask)
     if not isinstance(raw, str):
-        raise Wrong(f"{shorten(raw)}, which is not a word", hint=ask)
+        raise WrongAnswer(f"{shorten(raw)}, which is not a word", hint=ask)
     known = {normalize_choice(one): one for one in choices}
     known |= {normalize_choice(other): one for other, one in (also or {}).items()}
     found = known.get(normalize_choice(raw))
     if found is None:
-        raise Wrong(f'"{shorten(raw)}", which is none of them', hint=ask)
+        raise WrongAnswer(f'"{shorten(raw)}", which is none of them', hint=ask)
     return found
 
 
@@ -56,10 +56,10 @@ def check_choice(
         also: other spellings -> the choice that is meant.
 
     Raises:
-        Wrong: it is not the right one, or none of the choices.
+        WrongAnswer: it is not the right one, or none of the choices.
     """
     found = read_choice(raw, choices, also=also)
     if found == right:
         return
     hint, code = why(found)
-    raise Wrong(f'"{shorten(raw)}"', hint=hint, misconception=code)
+    raise WrongAnswer(f'"{shorten(raw)}"', hint=hint, misconception=code)

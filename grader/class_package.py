@@ -39,7 +39,7 @@ def read_class_package(course: Path) -> ClassPackage | None:
     """
     path = course / PLACE
     try:
-        return parse_issued(path.read_bytes())
+        return parse_class_package(path.read_bytes())
     except (FileNotFoundError, NotADirectoryError):
         return None
     except (OSError, ValueError):
@@ -50,7 +50,7 @@ def read_class_package(course: Path) -> ClassPackage | None:
         ) from None
 
 
-def parse_issued(content: bytes) -> ClassPackage:
+def parse_class_package(content: bytes) -> ClassPackage:
     """Read the content of a ``class.toml``.
 
     Raises:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sim.feedback.following import FollowedProfile
 
 
-class Drawn(Protocol):
+class Picture(Protocol):
     """A picture, as ``sim.plot`` makes them."""
 
     @property
@@ -44,7 +44,7 @@ class Consequence:
     """
 
     words: str
-    draw: Callable[[], Drawn]
+    draw: Callable[[], Picture]
 
 
 def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
@@ -56,7 +56,7 @@ def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
     told = " ".join(one.description for one in followed)
     words = f"Your numbers as feedforward, without feedback. {told}"
 
-    def draw() -> Drawn:
+    def draw() -> Picture:
         from sim.plot.consequence import make_profile_traces, plot_consequence  # noqa: PLC0415 - only who draws waits for it
 
         return plot_consequence(

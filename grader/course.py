@@ -11,7 +11,7 @@ from itertools import chain, count
 from pathlib import Path
 
 from grader.class_package import PLACE as ISSUED
-from grader.fingerprint import PACKAGES, fingerprint, fingerprint_packages
+from grader.fingerprint import PACKAGES, fingerprint_folders, fingerprint_packages
 from grader.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
@@ -43,7 +43,7 @@ def find_course(start: Path) -> Path:
     )
 
 
-def other_code(course: Path) -> str:
+def describe_other_code(course: Path) -> str:
     """What is to be said where a course folder holds other code than the one that is running.
 
     The folder one stands in decides about exercises and lessons; grader and sim are those of the
@@ -52,7 +52,7 @@ def other_code(course: Path) -> str:
     own = [course / one.name for one in PACKAGES]
     if not all((one / "__init__.py").is_file() for one in own) or own[0].samefile(PACKAGES[0]):
         return ""
-    if fingerprint_packages(own) == fingerprint():
+    if fingerprint_packages(own) == fingerprint_folders():
         return ""
     return (
         f"the grader and sim that run are those in {PACKAGES[0].parent}, and {course} holds other "
@@ -69,7 +69,7 @@ class Standing:
     hints: int = 0
 
     @property
-    def done(self) -> bool:
+    def is_done(self) -> bool:
         """Whether it has earned full marks."""
         return 0 < self.max_score <= self.score
 
@@ -86,28 +86,28 @@ class Progress:
     student: str = NOBODY
     standings: Mapping[str, Mapping[str, Standing]] = field(default_factory=dict)
 
-    def of(self, student: str, exercise: str) -> Standing:
+    def find_standing(self, student: str, exercise: str) -> Standing:
         """How far a learner is with an exercise."""
         return self.standings.get(student, {}).get(exercise, Standing())
 
-    def with_standing(self, student: str, exercise: str, standing: Standing) -> "Progress":
+    def replace_standing(self, student: str, exercise: str, standing: Standing) -> "Progress":
         """The same, with one standing changed."""
         mine = {**self.standings.get(student, {}), exercise: standing}
         return replace(self, standings={**self.standings, student: mine})
 
-    def with_score(
+    def add_score(
         self, student: str, exercise: str, *, score: float, max_score: float
     ) -> "Progress":
         """The same, with a score noted; a better one from before is kept."""
-        old = self.of(student, exercise)
+        old = self.find_standing(student, exercise)
         best = score if old.max_score != max_score else max(score, old.score)
         new = replace(old, score=best, max_score=max_score)
-        return self.with_standing(student, exercise, new)
+        return self.replace_standing(student, exercise, new)
 
-    def with_hints(self, student: str, exercise: str, hints: int) -> "Progress":
+    def add_hints(self, student: str, exercise: str, hints: int) -> "Progress":
         """The same, with so many hints shown; more from before are kept."""
-        old = self.of(student, exercise)
-        return self.with_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
+        old = self.find_standing(student, exercise)
+        return self.replace_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
 
 
 def load_progress(course: Path) -> tuple[Progress, str]:
@@ -120,11 +120,11 @@ def load_progress(course: Path) -> tuple[Progress, str]:
     path = course / PLACE
     try:
         text = path.read_text(encoding="utf-8")
-        return _parsed(tomllib.loads(text)), ""
+        return _parse_progress(tomllib.loads(text)), ""
     except FileNotFoundError:
         return Progress(), ""
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
-        aside = _free_name(path)
+        aside = _find_free_name(path)
         said = f"your progress in {path} could not be read; it starts anew"
         try:
             path.replace(aside)
@@ -133,14 +133,14 @@ def load_progress(course: Path) -> tuple[Progress, str]:
         return Progress(), f"{said}, and the damaged file is now {aside.name}."
 
 
-def _free_name(path: Path) -> Path:
+def _find_free_name(path: Path) -> Path:
     """Where a damaged file is set aside: nothing lies there yet."""
     first = path.with_name(f"{path.name}.bak")
     later = (path.with_name(f"{path.name}.{number}.bak") for number in count(2))
     return next(one for one in chain((first,), later) if not one.exists())
 
 
-def _parsed(raw: dict[str, object]) -> Progress:
+def _parse_progress(raw: dict[str, object]) -> Progress:
     """Progress from its file's content; whatever does not fit raises."""
     if not raw:  # a disk that was full, or a machine that lost its power
         raise ValueError
@@ -149,11 +149,11 @@ def _parsed(raw: dict[str, object]) -> Progress:
     if not isinstance(tables, dict):
         raise TypeError
     for student, exercises in tables.items():
-        standings[student] = {name: _standing(one) for name, one in exercises.items()}
+        standings[student] = {name: _parse_standing(one) for name, one in exercises.items()}
     return Progress(check_student_name(str(raw.get("student", NOBODY))), standings)
 
 
-def _standing(one: Mapping[str, object]) -> Standing:
+def _parse_standing(one: Mapping[str, object]) -> Standing:
     score, most, hints = one["score"], one["max_score"], one["hints"]
     if not (isinstance(score, int | float) and isinstance(most, int | float)):
         raise TypeError
@@ -175,17 +175,17 @@ def update_progress(course: Path, change: Callable[[Progress], Progress]) -> str
     path = course / PLACE
     try:
         path.parent.mkdir(exist_ok=True)
-        with _locked(path.with_name("progress.lock")):
+        with _lock_file(path.with_name("progress.lock")):
             before, said = load_progress(course)
             after = change(before)
             if after != before or said:
-                write_atomically(path, _text(after))
+                write_atomically(path, _format_progress(after))
     except OSError as error:
         return f"your progress could not be saved to {path}: {error.strerror or error}."
     return said
 
 
-def _text(progress: Progress) -> str:
+def _format_progress(progress: Progress) -> str:
     import tomlkit  # noqa: PLC0415 - reading needs no writer
 
     tables = {
@@ -199,7 +199,7 @@ def _text(progress: Progress) -> str:
 
 
 @contextmanager
-def _locked(path: Path) -> Iterator[None]:
+def _lock_file(path: Path) -> Iterator[None]:
     """Be the only process in here; the others wait.
 
     Where a file system knows no locks, nobody waits.

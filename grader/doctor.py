@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from grader.isolation import isolation_level
+from grader.isolation import find_isolation_level
 
 OLDEST = (3, 11)
 NEEDED = ("numpy", "scipy", "matplotlib", "numba", "jupyterlab", "ipywidgets", "tree-sitter")
@@ -34,45 +34,45 @@ class MachineFinding:
     advice: str = ""
 
 
-def examine(course: Path) -> Iterator[MachineFinding]:
+def examine_machine(course: Path) -> Iterator[MachineFinding]:
     """Look at this machine, one thing after another.
 
     Args:
         course: the course folder.
     """
-    yield _python()
-    yield _packages()
-    yield _engine()
-    yield _writing(course)
-    yield _terminal()
-    yield _isolation()
-    yield _container()
-    yield _robot()
-    yield _dask()
+    yield _check_python()
+    yield _check_packages()
+    yield _check_engine()
+    yield _check_writing(course)
+    yield _check_terminal()
+    yield _check_isolation()
+    yield _check_container()
+    yield _check_robot()
+    yield _check_dask()
 
 
-def _python() -> MachineFinding:
+def _check_python() -> MachineFinding:
     said = ".".join(map(str, sys.version_info[:3]))
     least = ".".join(map(str, OLDEST))
     right = sys.version_info[:2] >= OLDEST
     return MachineFinding("Python", said, right, advice=f"Install Python {least} or newer.")
 
 
-def _packages() -> MachineFinding:
-    lacking = [name for name in NEEDED if _version(name) is None]
+def _check_packages() -> MachineFinding:
+    lacking = [name for name in NEEDED if _find_version(name) is None]
     found = f"{', '.join(lacking)} missing" if lacking else "all there"
     advice = "In the course folder: python -m pip install -e ."
     return MachineFinding("packages", found, not lacking, advice=advice)
 
 
-def _version(name: str) -> str | None:
+def _find_version(name: str) -> str | None:
     try:
         return version(name)
     except PackageNotFoundError:
         return None
 
 
-def _engine() -> MachineFinding:
+def _check_engine() -> MachineFinding:
     from sim.physics.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
 
     ready = engine_is_cached()
@@ -82,21 +82,21 @@ def _engine() -> MachineFinding:
     )
 
 
-def _writing(course: Path) -> MachineFinding:
+def _check_writing(course: Path) -> MachineFinding:
     right = all(os.access(place, os.W_OK) for place in (course, course / "exercises"))
     found = f"{course}, {'which may be written' if right else 'which may not be written'}"
     return MachineFinding("course", found, right, advice="Copy the course to a folder of your own.")
 
 
-def _terminal() -> MachineFinding:
+def _check_terminal() -> MachineFinding:
     encoding = (sys.stdout.encoding or "ascii").lower()
     right = encoding.replace("-", "") == "utf8"
     advice = "Signs such as ✓ are shown as letters; set PYTHONUTF8=1 to see them."
     return MachineFinding("terminal", encoding, right, needed=False, advice=advice)
 
 
-def _isolation() -> MachineFinding:
-    found = isolation_level()
+def _check_isolation() -> MachineFinding:
+    found = find_isolation_level()
     right = found.startswith("isolated")
     advice = (
         "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or in "
@@ -105,10 +105,10 @@ def _isolation() -> MachineFinding:
     return MachineFinding("learners' code", found, right, needed=False, advice=advice)
 
 
-def _container() -> MachineFinding:
-    from grader.classroom.container import BUILD, answering_engines  # noqa: PLC0415 - beside its use
+def _check_container() -> MachineFinding:
+    from grader.classroom.container import BUILD, find_engines  # noqa: PLC0415 - beside its use
 
-    there = answering_engines()
+    there = find_engines()
     found = f"{' and '.join(there)} answers" if there else "neither docker nor podman answers"
     advice = (
         "For grade class --in docker: install Docker or Podman, start it, and in the course "
@@ -117,8 +117,8 @@ def _container() -> MachineFinding:
     return MachineFinding("container", found, bool(there), needed=False, advice=advice)
 
 
-def _robot() -> MachineFinding:
-    there = [f"{name} {_version(name)}" for name in ROBOT if _version(name)]
+def _check_robot() -> MachineFinding:
+    there = [f"{name} {_find_version(name)}" for name in ROBOT if _find_version(name)]
     right = len(there) == len(ROBOT)
     advice = 'To run RobotPy answers in simulation, too: python -m pip install -e ".[robot]"'
     return MachineFinding(
@@ -126,8 +126,8 @@ def _robot() -> MachineFinding:
     )
 
 
-def _dask() -> MachineFinding:
+def _check_dask() -> MachineFinding:
     right = importlib.util.find_spec("distributed") is not None
-    found = f"distributed {_version('distributed')}" if right else "not installed"
+    found = f"distributed {_find_version('distributed')}" if right else "not installed"
     advice = 'To grade on more than one machine: python -m pip install -e ".[cluster]"'
     return MachineFinding("cluster", found, right, needed=False, advice=advice)

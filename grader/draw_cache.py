@@ -15,7 +15,7 @@ from functools import cache, wraps
 from pathlib import Path
 from typing import TypeVar
 
-from grader.fingerprint import fingerprint
+from grader.fingerprint import fingerprint_folders
 from grader.variant import is_self_study, normalize_name
 from sim.support.work import cache as kept_files
 
@@ -26,7 +26,7 @@ _KEEPING = ContextVar("keeping", default=False)
 
 
 @contextmanager
-def draw_cache_enabled() -> Iterator[None]:
+def enable_draw_cache() -> Iterator[None]:
     """Keep what is drawn, as long as the block lasts."""
     token = _KEEPING.set(True)
     try:
@@ -35,7 +35,7 @@ def draw_cache_enabled() -> Iterator[None]:
         _KEEPING.reset(token)
 
 
-def cached_draw(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+def cache_draw_on_disk(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
     """Look for what was drawn before it is drawn again.
 
     Args:
@@ -44,7 +44,7 @@ def cached_draw(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
 
     @wraps(draw)
     def drawn(student: str) -> Drawn:
-        place = cache_path(Path(draw.__code__.co_filename).parent, student, "drawn")
+        place = find_cache_path(Path(draw.__code__.co_filename).parent, student, "drawn")
         if place is None:
             return draw(student)
         content = kept_files.read_cached(place)
@@ -60,7 +60,7 @@ def cached_draw(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
     return drawn
 
 
-def cache_path(exercise: Path, student: str, what: str) -> Path | None:
+def find_cache_path(exercise: Path, student: str, what: str) -> Path | None:
     """Where something of a student's exercise is kept; None where nothing is to be kept.
 
     Args:
@@ -70,15 +70,15 @@ def cache_path(exercise: Path, student: str, what: str) -> Path | None:
     """
     if not (_KEEPING.get() and is_self_study()):
         return None
-    whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_code(exercise)}"
+    whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_fingerprint_code(exercise)}"
     name = f"{exercise.name}-{hashlib.sha256(whole.encode()).hexdigest()[:20]}.{what}"
     return kept_files.cache_folder() / "drawn" / name
 
 
 @cache
-def _code(exercise: Path) -> str:
+def _fingerprint_code(exercise: Path) -> str:
     """What decides what is drawn: it does not change while one answer is graded."""
-    return fingerprint(exercise)
+    return fingerprint_folders(exercise)
 
 
 def write_draw(place: Path, content: bytes) -> None:

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 INTERRUPTED = 130  # what a shell reports for Ctrl+C
 
 
-def run(command: list[str], *, cwd: Path | None = None, env: dict[str, str] | None = None) -> int:
+def run_process(
+    command: list[str], *, cwd: Path | None = None, env: dict[str, str] | None = None
+) -> int:
     """Run a command and return its exit code.
 
     Args:
@@ -26,7 +28,7 @@ def run(command: list[str], *, cwd: Path | None = None, env: dict[str, str] | No
         env: its environment; None is ours.
     """
     running = subprocess.Popen(command, cwd=cwd, env=env)  # noqa: S603 - our own arguments, no shell
-    with _handing_on(running):
+    with _forward_signals(running):
         while True:
             try:
                 code = running.wait()
@@ -36,7 +38,7 @@ def run(command: list[str], *, cwd: Path | None = None, env: dict[str, str] | No
 
 
 @contextmanager
-def _handing_on(running: subprocess.Popen[bytes]) -> Iterator[None]:
+def _forward_signals(running: subprocess.Popen[bytes]) -> Iterator[None]:
     """While it runs, whoever ends us ends it: nothing is left behind."""
     try:
         before = signal.signal(signal.SIGTERM, lambda *_: running.terminate())

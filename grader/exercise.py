@@ -32,9 +32,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.check import Check, Result, Status, run_all, skip_check
+from grader.check import Check, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
-from grader.submission import find_files, whole_answer
+from grader.submission import find_files, find_whole_answer
 from sim.core.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
@@ -64,7 +64,7 @@ class Grade:
     reason: str = ""
 
     @property
-    def reached(self) -> bool:
+    def is_readable(self) -> bool:
         """Whether the answer could be read, so that there is something to tell about it."""
         return any(result.status is not Status.NOT_REACHED for result in self.checks)
 
@@ -114,12 +114,12 @@ class Exercise:
         return tuple(self.module.FILES)
 
     @property
-    def beside(self) -> tuple[str, ...]:
+    def companion_files(self) -> tuple[str, ...]:
         """The files to fill in that belong to the one graded, and stand beside it."""
         return tuple(getattr(self.module, "BESIDE", ()))
 
     @property
-    def logs(self) -> tuple[str, ...]:
+    def log_endings(self) -> tuple[str, ...]:
         """Endings of the logs of a learner's own robot that may belong to the answer."""
         return tuple(getattr(self.module, "LOG_ENDINGS", ()))
 
@@ -131,12 +131,12 @@ class Exercise:
         return heading[1] if heading else self.name
 
     @property
-    def personal(self) -> bool:
+    def is_personal(self) -> bool:
         """Whether each learner works on numbers or data of their own."""
         return hasattr(self.module, "prepare")
 
     @property
-    def runs(self) -> bool:
+    def runs_code(self) -> bool:
         """Whether it can run the code it is given, besides reading it."""
         return "run" in inspect.signature(self.module.read).parameters
 
@@ -167,13 +167,13 @@ class Exercise:
                 only read, and what only running can tell makes the exercise ungradable.
         """
         try:
-            whole = whole_answer(given, names=self.files, beside=self.beside)
+            whole = find_whole_answer(given, names=self.files, companion_files=self.companion_files)
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
         return best_grade([self._grade_file(file, student=student, run=run) for file in files])
 
-    def consequence(self, grade: Grade) -> Consequence | None:
+    def find_consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is all right, or nothing is to see.
 
         Args:
@@ -182,7 +182,7 @@ class Exercise:
         tell = getattr(self.module, "consequence", None)
         if tell is None or grade.file is None or grade.status != "failed":
             return None
-        asked = {"run": False} if self.runs else {}
+        asked = {"run": False} if self.runs_code else {}
         try:
             found = tell(self.module.read(grade.file, student=grade.student, **asked))
         except Refusal:  # it was readable a moment ago: somebody is saving it
@@ -190,13 +190,13 @@ class Exercise:
         return found if isinstance(found, Consequence) else None
 
     def _grade_file(self, file: Path, *, student: str, run: bool) -> Grade:
-        asked = {"run": run} if self.runs else {}
+        asked = {"run": run} if self.runs_code else {}
         try:
             subject = self.module.read(file, student=student, **asked)
         except Refusal as refusal:
             return replace(self._ungradable(str(refusal), student=student), file=file)
-        results = run_all(self.checks, subject)
-        score, most = (sum(points) for points in zip(*_points(results), strict=True))
+        results = run_checks(self.checks, subject)
+        score, most = (sum(points) for points in zip(*_sum_points(results), strict=True))
         broken = next((one for one in results if one.status is Status.ERROR), None)
         status = "passed" if score == most else "failed"
         reason = ""
@@ -217,7 +217,7 @@ class Exercise:
         return Grade(self.name, student, 0.0, most, "ungradable", results, reason=reason)
 
 
-def _points(results: Sequence[Result]) -> list[tuple[float, float]]:
+def _sum_points(results: Sequence[Result]) -> list[tuple[float, float]]:
     return [(result.points, result.max_points) for result in results] or [(0.0, 0.0)]
 
 
@@ -233,16 +233,16 @@ def best_grade(grades: Sequence[Grade]) -> Grade:
     return max(grades, key=rank)
 
 
-def exercises(course: Path) -> tuple[Exercise, ...]:
+def list_exercises(course: Path) -> tuple[Exercise, ...]:
     """The exercises of a course, in order of their numbers."""
     found = [
         Exercise(checks.parent.name, checks.parent)
         for checks in (course / "exercises").glob("*/checks.py")
     ]
-    return tuple(sorted(found, key=lambda one: (_number(one.name), one.name)))
+    return tuple(sorted(found, key=lambda one: (_read_number(one.name), one.name)))
 
 
-def _number(name: str) -> int:
+def _read_number(name: str) -> int:
     digits = re.search(r"\d+$", name)
     return int(digits[0]) if digits else sys.maxsize
 
@@ -253,7 +253,7 @@ def find_exercise(asked: str, course: Path) -> Exercise:
     Raises:
         BadRequest: there is none; the message lists those there are.
     """
-    there = exercises(course)
+    there = list_exercises(course)
     short = re.fullmatch(r"(?:exercise|ex|e)?[ _-]?0*(\d+)", asked.strip().lower().rstrip("/\\"))
     name = f"exercise{short[1]}" if short else asked.strip()
     for one in there:

@@ -8,7 +8,7 @@ KINDS = (".py", ".toml", ".md", ".java")  # of a course's files; its data are dr
 PACKAGES = tuple(Path(__file__).resolve().parents[1] / name for name in ("grader", "sim"))
 
 
-def fingerprint(*tops: Path) -> str:
+def fingerprint_folders(*tops: Path) -> str:
     """A text that changes with these folders, with the examiner and with the bench."""
     return fingerprint_packages((*tops, *PACKAGES))
 
@@ -17,13 +17,13 @@ def fingerprint_packages(tops: Iterable[Path]) -> str:
     """A text that changes with what an author wrote in these folders."""
     found = hashlib.sha256()
     for top in tops:
-        for path in authored_files(top):
+        for path in list_authored_files(top):
             found.update(f"{top.name}/{path.relative_to(top).as_posix()}\0".encode())
             found.update(hashlib.sha256(path.read_bytes()).digest())
     return found.hexdigest()
 
 
-def authored_files(top: Path) -> list[Path]:
+def list_authored_files(top: Path) -> list[Path]:
     """What an author wrote in a folder, in order."""
     return sorted(
         path

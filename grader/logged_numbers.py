@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.robotcode.facts import LoggedSignal, RoutineFacts
 from grader.robotcode.readings import PULSE_COUNT
 
@@ -38,20 +38,24 @@ def check_devices(facts: RoutineFacts, *, points: float) -> None:
         points: of the check, of which each wrong signal loses its share.
 
     Raises:
-        Wrong: one does not.
+        WrongAnswer: one does not.
     """
-    faults = [*_wrong_quantity(facts.logged), *_wrong_side(facts.logged), *_twice(facts)]
+    faults = [
+        *_find_wrong_quantity(facts.logged),
+        *_find_wrong_side(facts.logged),
+        *_find_shared_device(facts),
+    ]
     if faults:
         signals = {signal for signal, _, _ in faults}
         lost = sum(1 / 2 if name.endswith("voltage") else SHARE for name in signals)
         _, seen, hint = faults[0]
-        raise Wrong(seen, hint=hint, earned=max(round(points * (1.0 - lost), 1), 0.0))
+        raise WrongAnswer(seen, hint=hint, earned=max(round(points * (1.0 - lost), 1), 0.0))
 
 
 Fault = tuple[str, str, str]  # which signal of which motor, what was seen, and the advice
 
 
-def _wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
+def _find_wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
     for one in signals:
         moving = one.signal in MOVING and one.quantity in {*MOVING, "acceleration", "current"}
         wrong = moving or (one.signal == "voltage" and one.quantity in {*MOVING, "current"})
@@ -59,21 +63,21 @@ def _wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
             yield (
                 f"{one.motor} {one.signal}",
                 (
-                    f"{_at(one)}: the {one.signal} of {one.motor} is the {one.quantity} of "
+                    f"{_locate(one)}: the {one.signal} of {one.motor} is the {one.quantity} of "
                     f"{one.device}"
                 ),
                 f"Log the {one.signal} there: each value has its own method.",
             )
 
 
-def _wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
+def _find_wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
     for one in signals:
         for pair in SIDES:
-            named, asked = _side(one.motor, pair), _side(one.device, pair)
+            named, asked = _find_side(one.motor, pair), _find_side(one.device, pair)
             if named and asked and named != asked:
                 yield (
                     f"{one.motor} {one.signal}",
-                    f"{_at(one)}: {one.motor} gets the {one.signal} of {one.device}",
+                    f"{_locate(one)}: {one.motor} gets the {one.signal} of {one.device}",
                     (
                         f"Copied and not changed? Under the name {one.motor} belongs what the "
                         f"{named} motor did."
@@ -81,14 +85,14 @@ def _wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
                 )
 
 
-def _side(name: str, pair: tuple[str, str]) -> str:
+def _find_side(name: str, pair: tuple[str, str]) -> str:
     """The side that a name tells, of a pair; empty if it tells none or both."""
     words = [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
     found = [side for side in pair if side in words]
     return found[0] if len(found) == 1 else ""
 
 
-def _twice(facts: RoutineFacts) -> Iterator[Fault]:
+def _find_shared_device(facts: RoutineFacts) -> Iterator[Fault]:
     """Two motors of the log with one device, though each has a device of its own."""
     names = list(dict.fromkeys(one.motor for one in facts.logged if one.motor))
     types = [type_ for _, type_ in facts.devices]
@@ -104,7 +108,8 @@ def _twice(facts: RoutineFacts) -> Iterator[Fault]:
                 yield (
                     f"{one.motor} {signal}",
                     (
-                        f"{_at(one)}: {one.motor} gets the {signal} of {one.device}, and so does "
+                        f"{_locate(one)}: "
+                        f"{one.motor} gets the {signal} of {one.device}, and so does "
                         f"{before.motor}"
                     ),
                     (
@@ -112,10 +117,10 @@ def _twice(facts: RoutineFacts) -> Iterator[Fault]:
                         "own encoder say."
                     ),
                 )
-    yield from _mixed(facts)
+    yield from _find_mixed_devices(facts)
 
 
-def _mixed(facts: RoutineFacts) -> Iterator[Fault]:
+def _find_mixed_devices(facts: RoutineFacts) -> Iterator[Fault]:
     """The position of one device with the velocity of another of its kind."""
     for name in dict.fromkeys(one.motor for one in facts.logged):
         there = {one.signal: one for one in facts.logged if one.motor == name}
@@ -128,7 +133,7 @@ def _mixed(facts: RoutineFacts) -> Iterator[Fault]:
                 yield (
                     f"{name} {later}",
                     (
-                        f"{_at(other)}: the {later} of {name} comes from {other.device}, its "
+                        f"{_locate(other)}: the {later} of {name} comes from {other.device}, its "
                         f"{earlier} from {one.device}"
                     ),
                     "All three signals of a motor have to come from the same side.",
@@ -144,14 +149,21 @@ def check_all_logged(facts: RoutineFacts, *, demanded: int, points: float) -> No
         points: of the check, of which a missing motor loses its share.
 
     Raises:
-        Wrong: one is missing.
+        WrongAnswer: one is missing.
     """
     names = list(dict.fromkeys(one.motor for one in facts.logged))
     driven = list(dict.fromkeys(call.motor for call in facts.drive))
     for pair in SIDES:
-        sides = {_side(name, pair) for name in driven} - {""}
-        logged = {_side(text, pair) for one in facts.logged for text in (one.motor, one.device)}
-        if len(sides) > 1 and logged & sides and sides - logged and _apart(facts, pair):
+        sides = {_find_side(name, pair) for name in driven} - {""}
+        logged = {
+            _find_side(text, pair) for one in facts.logged for text in (one.motor, one.device)
+        }
+        if (
+            len(sides) > 1
+            and logged & sides
+            and sides - logged
+            and _turn_independently(facts, pair)
+        ):
             missing = min(sides - logged)
             _raise_missing(f"no {missing} motor in the log", 1 / 2, points)
     if len(names) < min(demanded, len(driven)):
@@ -160,7 +172,7 @@ def check_all_logged(facts: RoutineFacts, *, demanded: int, points: float) -> No
 
 
 def _raise_missing(seen: str, share: float, points: float) -> None:
-    raise Wrong(
+    raise WrongAnswer(
         seen,
         hint="The Mechanism drives two sides, and each has its own friction. Log every motor, each "
         "under its own name.",
@@ -168,7 +180,7 @@ def _raise_missing(seen: str, share: float, points: float) -> None:
     )
 
 
-def _apart(facts: RoutineFacts, pair: tuple[str, str]) -> bool:
+def _turn_independently(facts: RoutineFacts, pair: tuple[str, str]) -> bool:
     """Whether the motors of a class turn on their own, and not one shaft together."""
     coupled = r"elevator|lift|climb|telescop|slide|arm|wrist|pivot|hood|turret"
     one_shaft = coupled if pair == ("top", "bottom") else rf"{coupled}|shooter|flywheel"
@@ -188,7 +200,7 @@ def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | 
         A note on a motor that gets the other sign and may.
 
     Raises:
-        Wrong: a sign cannot be right.
+        WrongAnswer: a sign cannot be right.
     """
     flipped = [call for call in facts.drive if call.negative]
     for call in flipped:
@@ -206,7 +218,9 @@ def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | 
                 "invert it where it is made, and send both sides the same voltage."
             )
         if turned or not mirrored:
-            raise Wrong(f"{at}: the sign of the voltage is changed", hint=hint, earned=points / 2)
+            raise WrongAnswer(
+                f"{at}: the sign of the voltage is changed", hint=hint, earned=points / 2
+            )
     if flipped:
         return (
             f"{flipped[0].motor} gets the other sign. That is right only if it is mounted the "
@@ -219,12 +233,12 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
     """Whether voltage, position and velocity of each motor keep one sign.
 
     Raises:
-        Wrong: one is turned round and another is not.
+        WrongAnswer: one is turned round and another is not.
     """
     for one in signals:
         if one.unsigned and one.signal in {*MOVING, "voltage"}:
-            raise Wrong(
-                f"{_at(one)}: the {one.signal} of {one.motor} loses its sign",
+            raise WrongAnswer(
+                f"{_locate(one)}: the {one.signal} of {one.motor} loses its sign",
                 hint="Half of the tests run backward. Log the number with its sign.",
             )
     for name in dict.fromkeys(one.motor for one in signals):
@@ -237,8 +251,9 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
         down = [one for one, positive in found if not positive]
         if up and down:
             odd, rest = (down, up) if len(down) <= len(up) else (up, down)
-            raise Wrong(
-                f"{_at(odd[0])}: the {odd[0].signal} of {name} has a sign of its own, unlike its "
+            raise WrongAnswer(
+                f"{_locate(odd[0])}: "
+                f"the {odd[0].signal} of {name} has a sign of its own, unlike its "
                 f"{rest[0].signal}",
                 hint="A positive voltage has to go with a velocity and a position that grow. Log "
                 "all three with the same sign.",
@@ -254,27 +269,28 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
         geared: the motors that are set to report rotations of the mechanism.
 
     Raises:
-        Wrong: one is not.
+        WrongAnswer: one is not.
     """
     for one in signals:
         if DIVIDES_BY_ZERO.search(one.text):
-            raise Wrong(
-                f"{_at(one)}: a number divided by 0",
+            raise WrongAnswer(
+                f"{_locate(one)}: a number divided by 0",
                 hint="It has no end. Divide by the gear ratio, or not at all.",
                 misconception="M-UNITS",
             )
         if geared and one.native.startswith("rotation") and not geared & {one.device, "*"}:
-            raise Wrong(
-                f"{_at(one)}: {one.device} gets no configuration, so it reports rotations of the "
+            raise WrongAnswer(
+                f"{_locate(one)}: "
+                f"{one.device} gets no configuration, so it reports rotations of the "
                 f"motor; {min(geared)} reports those of the mechanism",
                 hint="Apply the configuration with the gear ratio to every motor.",
                 misconception="M-UNITS",
             )
-        hint = _slip(one)
+        hint = _describe_unit_slip(one)
         if hint:
-            raise Wrong(
-                f"{_at(one)}: {one.device} reports {UNITS_OF[one.native]}, and the log says "
-                f"{_said(one)}",
+            raise WrongAnswer(
+                f"{_locate(one)}: {one.device} reports {UNITS_OF[one.native]}, and the log says "
+                f"{_cite(one)}",
                 hint=hint,
                 misconception="M-UNITS",
             )
@@ -284,14 +300,14 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
         _check_alike([one for one in signals if one.signal == signal])
 
 
-def _slip(one: LoggedSignal) -> str:
+def _describe_unit_slip(one: LoggedSignal) -> str:
     """What to say of a number whose unit is not the wrapper's; empty if it may be."""
     if one.native not in UNITS_OF or one.scale is None:
         return ""
     per_second = abs(one.scale) * (60.0 if one.native == "rpm" else 1.0)
     bare = math.isclose(abs(one.scale), 1.0, rel_tol=CLOSE)
     if one.family != "linear":
-        return _angular_slip(one, per_second, bare=bare)
+        return _describe_angular_slip(one, per_second, bare=bare)
     hint = ""
     if one.type == PULSE_COUNT:
         hint = "Ask getDistance() and getRate(): they know the distance of a pulse."
@@ -310,7 +326,7 @@ def _slip(one: LoggedSignal) -> str:
     return hint
 
 
-def _angular_slip(one: LoggedSignal, per_second: float, *, bare: bool) -> str:
+def _describe_angular_slip(one: LoggedSignal, per_second: float, *, bare: bool) -> str:
     unit = one.unit.lower()
     plain = "The unit's name around a number converts nothing. "
     if "radian" in unit or "degree" in unit:
@@ -339,26 +355,29 @@ def _check_rate(signals: Sequence[LoggedSignal]) -> None:
     ratio = velocity.scale * (60.0 if velocity.native == "rpm" else 1.0) / position.scale
     if math.isclose(ratio, 1.0, rel_tol=1e-3):
         return
-    seen = f"{_at(velocity)}: the velocity of {velocity.motor} is {ratio:.4g} times the slope of "
+    seen = (
+        f"{_locate(velocity)}: the velocity of {velocity.motor} is {ratio:.4g} times the slope of "
+    )
     if math.isclose(ratio, -1.0, rel_tol=1e-3):
         hint = "One of the two has the wrong sign. Log both with the same sign."
-        raise Wrong(f"{seen}its position", hint=hint)
+        raise WrongAnswer(f"{seen}its position", hint=hint)
     hint = "Convert position and velocity by the same factor, and the velocity to seconds."
     if math.isclose(abs(ratio), 60.0, rel_tol=1e-3):
         hint = f"{velocity.device} reports rotations per minute. Divide the velocity by 60."
-    raise Wrong(f"{seen}its position", hint=hint, misconception="M-UNITS")
+    raise WrongAnswer(f"{seen}its position", hint=hint, misconception="M-UNITS")
 
 
 def _check_alike(signals: Sequence[LoggedSignal]) -> None:
     """Whether both sides of a drivetrain count alike."""
-    sided = [one for one in signals if _side(one.motor, SIDES[0]) and one.scale and one.native]
+    sided = [one for one in signals if _find_side(one.motor, SIDES[0]) and one.scale and one.native]
     for one, other in itertools.pairwise(sided):
         if one.type != other.type or one.native != other.native or one.unit != other.unit:
             continue
         ratio = abs((other.scale or 1.0) / (one.scale or 1.0))
         if not math.isclose(ratio, 1.0, rel_tol=1e-3):
-            raise Wrong(
-                f"{_at(other)}: the {other.signal} of {other.motor} counts {ratio:.4g} times what "
+            raise WrongAnswer(
+                f"{_locate(other)}: "
+                f"the {other.signal} of {other.motor} counts {ratio:.4g} times what "
                 f"that of {one.motor} counts",
                 hint="Both sides have the same wheels and gears. Convert both in the same way.",
                 misconception="M-UNITS",
@@ -373,12 +392,12 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
         given: the task's own constants, name and value.
 
     Raises:
-        Wrong: one is another number.
+        WrongAnswer: one is another number.
     """
     there = dict(facts.constants)
     for name, value in given.items():
         if name in there and not math.isclose(there[name], value, rel_tol=1e-3):
-            raise Wrong(
+            raise WrongAnswer(
                 f"{name} is {there[name]:.4g}, and the task's own file says {value:.4g}",
                 hint="It belongs to the wheels and gears of this drivetrain. Leave it as it was.",
                 misconception="M-UNITS",
@@ -391,8 +410,9 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
                 continue
             scale = abs(one.scale or 0.0) * per_second
             if not math.isclose(scale, value, rel_tol=1e-3):
-                raise Wrong(
-                    f"{_at(one)}: {one.device}'s number is multiplied with {scale:.4g} in all, and "
+                raise WrongAnswer(
+                    f"{_locate(one)}: "
+                    f"{one.device}'s number is multiplied with {scale:.4g} in all, and "
                     f"{name} is {value:.4g}",
                     hint=f"Multiply by {name} exactly once.",
                     misconception="M-UNITS",
@@ -403,7 +423,7 @@ def check_circumference(facts: RoutineFacts) -> None:
     """Whether the way of one turn is π diameters of the wheel, or 2π radii, the gears apart.
 
     Raises:
-        Wrong: it is one of the two mistaken for the other, or made without π.
+        WrongAnswer: it is one of the two mistaken for the other, or made without π.
     """
     gears = [value for name, value in facts.constants if GEARS.search(name) and value]
     wheels = [one for one in facts.constants if WHEEL.search(one[0]) and one[1] > 0.0]
@@ -414,16 +434,16 @@ def check_circumference(facts: RoutineFacts) -> None:
         radius = "radi" in wheel.lower()
         right = 2.0 * math.pi if radius else math.pi
         slips = (1.0, 2.0, math.pi / 2.0, math.pi, 2.0 * math.pi, 4.0 * math.pi)
-        if not _among(turns, (right,)) and _among(turns, slips):
+        if not _is_among(turns, (right,)) and _is_among(turns, slips):
             formula = f"2π times {wheel}" if radius else f"π times {wheel}"
-            raise Wrong(
+            raise WrongAnswer(
                 f"{name} is {way:.4g}, and {wheel} {size:.4g}",
                 hint=f"In one turn a wheel rolls its circumference: {formula}, over the gears.",
                 misconception="M-UNITS",
             )
 
 
-def _among(found: Sequence[float], expected: Sequence[float]) -> bool:
+def _is_among(found: Sequence[float], expected: Sequence[float]) -> bool:
     pairs = itertools.product(found, expected)
     return any(math.isclose(one, other, rel_tol=CLOSE) for one, other in pairs)
 
@@ -432,28 +452,28 @@ def check_numbers(facts: RoutineFacts) -> None:
     """Whether no two devices are made with one port or CAN ID, and gears and wheels have a size.
 
     Raises:
-        Wrong: two are, or one has none.
+        WrongAnswer: two are, or one has none.
     """
     for name, value in facts.constants:
         if SIZE.search(name) and not value > 0.0:
-            raise Wrong(
+            raise WrongAnswer(
                 f"{name} is {value:g}",
                 hint="No gear ratio and no wheel is zero or less. Write what is built in.",
                 misconception="M-UNITS",
             )
     for name, number in facts.impossible_numbers:
-        raise Wrong(
+        raise WrongAnswer(
             f"{name} is made with {number:g}",
             hint="That can be no port and no CAN ID of its own. Look at how it is wired.",
         )
     for one, other in facts.same_numbers:
-        raise Wrong(
+        raise WrongAnswer(
             f"{one} and {other} are made with the same number",
             hint="Two devices cannot share a port or a CAN ID. Copied and not changed?",
         )
 
 
-def _said(one: LoggedSignal) -> str:
+def _cite(one: LoggedSignal) -> str:
     if one.unit:
         return one.unit
     if one.family == "linear":
@@ -461,5 +481,5 @@ def _said(one: LoggedSignal) -> str:
     return "rotations" if one.signal == "position" else "rotations per second"
 
 
-def _at(one: LoggedSignal) -> str:
+def _locate(one: LoggedSignal) -> str:
     return f"{one.text} in line {one.line}"

@@ -33,7 +33,7 @@ class Mistake:
     misconception: str = ""
 
 
-def replacing(*changes: tuple[str, str]) -> Callable[[str], str]:
+def replace_text(*changes: tuple[str, str]) -> Callable[[str], str]:
     """Make a wrong text by replacing parts of the right one, each everywhere it stands."""
 
     def make(text: str) -> str:
@@ -46,7 +46,7 @@ def replacing(*changes: tuple[str, str]) -> Callable[[str], str]:
     return make
 
 
-def numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
+def change_numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
     """Make a wrong text by changing some of the numbers in the right answers.toml."""
 
     def make(text: str) -> str:
@@ -59,22 +59,22 @@ def numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
     return make
 
 
-def number(name: str, change: Callable[[Numbers], float]) -> Callable[[str], str]:
+def change_number(name: str, change: Callable[[Numbers], float]) -> Callable[[str], str]:
     """Make a wrong text by changing one number, which may depend on all of them."""
-    return numbers(lambda right: {name: change(right)})
+    return change_numbers(lambda right: {name: change(right)})
 
 
-def scaled(factor: float, *names: str) -> Callable[[str], str]:
+def scale_numbers(factor: float, *names: str) -> Callable[[str], str]:
     """Make a wrong text by multiplying some of the numbers."""
-    return numbers(lambda right: {name: right[name] * factor for name in names})
+    return change_numbers(lambda right: {name: right[name] * factor for name in names})
 
 
-def exchanged(one: str, other: str) -> Callable[[str], str]:
+def exchange_numbers(one: str, other: str) -> Callable[[str], str]:
     """Make a wrong text by letting two numbers change places."""
-    return numbers(lambda right: {one: right[other], other: right[one]})
+    return change_numbers(lambda right: {one: right[other], other: right[one]})
 
 
-def put(name: str, value: str) -> Callable[[str], str]:
+def put_value(name: str, value: str) -> Callable[[str], str]:
     """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
 
     def make(text: str) -> str:

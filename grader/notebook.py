@@ -11,15 +11,15 @@ from grader.class_package import explain_no_grading, find_learner, read_class_pa
 from grader.consequence import Consequence
 from grader.course import find_course, load_progress, update_progress
 from grader.exercise import Exercise, Grade, find_exercise
-from grader.report import MARKS, SPOKEN, check_feedback, to_lines, to_receipt
+from grader.report import MARKS, SPOKEN, check_feedback, format_grade, format_receipt
 from grader.submission import read_answers
-from grader.terminal import Line, complain, line
+from grader.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
 from sim.support.atomic_file import write_atomically
 from sim.support.printable import make_printable
 
 
-def escape(text: str) -> str:
+def escape_html(text: str) -> str:
     """A text as HTML shows it, with nothing in it that commands."""
     return html.escape(make_printable(text))
 
@@ -79,35 +79,35 @@ def submit(
     folder = find_course(Path.cwd()) if course is None else course
     progress, said = load_progress(folder)
     if said:
-        complain(said)
+        print_error(said)
     try:
         who = find_learner(folder, known=progress.student, student=student)
         one = find_exercise(str(exercise), folder)
         if answers:
-            write(one, answers)
+            write_answers(one, answers)
         of_class = read_class_package(folder)
-        if of_class and one.personal and of_class.is_for(who):
-            return _received(one, explain_no_grading(one.name, of_class))
+        if of_class and one.is_personal and of_class.is_for(who):
+            return _show_receipt(one, explain_no_grading(one.name, of_class))
         one.prepare(who, say=lambda _: None)
         grade = one.grade(None, student=who)
     except Refusal as refusal:
-        return _refused(str(refusal))
+        return _show_refusal(str(refusal))
     if grade.status == "ungradable":
-        return _refused(grade.reason)
+        return _show_refusal(grade.reason)
     points = {"score": grade.score, "max_score": grade.max_score}
-    if said := update_progress(folder, lambda now: now.with_score(who, one.name, **points)):
-        complain(said)
-    then = one.consequence(grade)
-    lines = to_lines(
+    if said := update_progress(folder, lambda now: now.add_score(who, one.name, **points)):
+        print_error(said)
+    then = one.find_consequence(grade)
+    lines = format_grade(
         grade,
-        hints_shown=progress.of(who, one.name).hints,
+        hints_shown=progress.find_standing(who, one.name).hints,
         solution=one.solution,
         then=then.words if then else "",
     )
-    return ShownGrade(tuple(lines), _html(grade) + _then(then), grade)
+    return ShownGrade(tuple(lines), _render_grade(grade) + _show_consequence(then), grade)
 
 
-def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
+def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
     """Write answers into the exercise's file; what else stands there stays, comments and all.
 
     Raises:
@@ -134,7 +134,7 @@ def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
     document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
     for name, value in answers.items():
         try:
-            document[known[name.lower()]] = _plain(value)
+            document[known[name.lower()]] = _make_plain(value)
         except (TOMLKitError, ValueError, TypeError) as error:
             raise BadRequest(
                 f"{name} = {value!r} cannot be written down ({error})",
@@ -143,7 +143,7 @@ def write(exercise: Exercise, answers: Mapping[str, object]) -> None:
     write_atomically(path, tomlkit.dumps(document))
 
 
-def _plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
+def _make_plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
     """A value as a file holds it: what NumPy makes of a number is a number."""
     if value is None:
         return ""
@@ -153,44 +153,44 @@ def _plain(value: object) -> Any:  # noqa: ANN401 - whatever a learner gives
     return value
 
 
-def _refused(said: str) -> ShownGrade:
-    return ShownGrade((line(f"! {said}"),), f"<p><b>!</b> {escape(said)}</p>")
+def _show_refusal(said: str) -> ShownGrade:
+    return ShownGrade((style_line(f"! {said}"),), f"<p><b>!</b> {escape_html(said)}</p>")
 
 
-def _received(exercise: Exercise, said: Refusal) -> ShownGrade:
-    rows = to_receipt(exercise, None)
+def _show_receipt(exercise: Exercise, said: Refusal) -> ShownGrade:
+    rows = format_receipt(exercise, None)
     text = "\n".join("".join(span.text for span in row) for row in rows)
-    html = f"<pre>{escape(text)}</pre><p>{escape(str(said))}</p>"
-    return ShownGrade((*rows, line(str(said))), html)
+    html = f"<pre>{escape_html(text)}</pre><p>{escape_html(str(said))}</p>"
+    return ShownGrade((*rows, style_line(str(said))), html)
 
 
-def _html(grade: Grade) -> str:
+def _render_grade(grade: Grade) -> str:
     passed = grade.status == "passed"
     verdict = "all right" if passed else "not all right yet"
     head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
-    rows = "".join(_check(result) for result in grade.checks)
+    rows = "".join(_render_check(result) for result in grade.checks)
     listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
-    return f"<p><strong>{escape(head)}</strong></p>{listed}"
+    return f"<p><strong>{escape_html(head)}</strong></p>{listed}"
 
 
-def _then(consequence: Consequence | None) -> str:
+def _show_consequence(consequence: Consequence | None) -> str:
     """What the answer would do, below the checks."""
     if consequence is None:
         return ""
-    says = f"<p><strong>On the robot</strong>: {escape(consequence.words)}</p>"
+    says = f"<p><strong>On the robot</strong>: {escape_html(consequence.words)}</p>"
     return says + consequence.draw().html
 
 
-def _check(result: Result) -> str:
+def _render_check(result: Result) -> str:
     mark, _ = MARKS[result.status]
     points = f"{result.points:g} of {result.max_points:g}"
     told = "".join(
-        f"<div style='margin-left:1.6em'>{escape(word)}{escape(text)}</div>"
+        f"<div style='margin-left:1.6em'>{escape_html(word)}{escape_html(text)}</div>"
         for word, text in check_feedback(result)
         if text
     )
     style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {STYLE[result.status]}"
     return (
-        f"<li style='{style}'><span aria-hidden='true'>{mark}</span> {escape(SPOKEN[mark])}: "
-        f"<b>{escape(result.description)}</b> ({points}){told}</li>"
+        f"<li style='{style}'><span aria-hidden='true'>{mark}</span> {escape_html(SPOKEN[mark])}: "
+        f"<b>{escape_html(result.description)}</b> ({points}){told}</li>"
     )

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.exercise import Exercise, exercises
+from grader.exercise import Exercise, list_exercises
 from grader.fingerprint import PACKAGES
 from sim.core.errors import BadRequest
 
@@ -85,24 +85,24 @@ def select_package_files(course: Path) -> PackageFiles:
         )
     listed = _read_starters(course)
     chosen = {name: course / name for name in (*TOPS, STARTERS)}
-    for one in exercises(course):
-        chosen |= {path.relative_to(course).as_posix(): path for path in _exercise_files(one)}
+    for one in list_exercises(course):
+        chosen |= {path.relative_to(course).as_posix(): path for path in _list_exercise_files(one)}
     chosen |= {name: course / name for name in listed}
-    chosen |= {path.relative_to(course).as_posix(): path for path in _lesson_files(course)}
-    packages = {one.name: _package_folder(course, one) for one in PACKAGES}
+    chosen |= {path.relative_to(course).as_posix(): path for path in _list_lesson_files(course)}
+    packages = {one.name: _find_package_folder(course, one) for one in PACKAGES}
     for name, folder in packages.items():
         chosen |= {
             f"{name}/{path.relative_to(folder).as_posix()}": path
-            for path in _all_files(folder)
+            for path in _list_files(folder)
             if path.name.endswith(SOURCES)
         }
     chosen = {name: path for name, path in chosen.items() if not path.is_symlink()}
-    files = {name: _content(name, chosen[name]) for name in sorted(chosen)}
+    files = {name: _read_content(name, chosen[name]) for name in sorted(chosen)}
     _refuse_changed(files, listed, course)
     there = {
         path.relative_to(course).as_posix()
         for top in (*FOLDERS, *packages)
-        for path in _all_files(course / top)
+        for path in _list_files(course / top)
     }
     return PackageFiles(files, tuple(sorted(there - files.keys())))
 
@@ -132,8 +132,8 @@ def _read_starters(course: Path) -> dict[str, str]:
             where=str(path),
             advice=f"Get it back: git checkout -- {STARTERS}",
         ) from None
-    for one in exercises(course):
-        for file in (*one.files, *one.beside):
+    for one in list_exercises(course):
+        for file in (*one.files, *one.companion_files):
             if f"exercises/{one.name}/{file}" not in listed:
                 raise BadRequest(
                     f"{one.name} has a starter {file} that is not listed",
@@ -143,44 +143,46 @@ def _read_starters(course: Path) -> dict[str, str]:
     return listed
 
 
-def _exercise_files(one: Exercise) -> set[Path]:
+def _list_exercise_files(one: Exercise) -> set[Path]:
     """The authored files of an exercise, without its starters."""
     texts = {one.folder / name for name in AUTHORED}
-    return {path for path in texts if path.is_file()} | imported_modules(one.folder / "checks.py")
+    return {path for path in texts if path.is_file()} | find_imported_modules(
+        one.folder / "checks.py"
+    )
 
 
-def imported_modules(module: Path) -> set[Path]:
+def find_imported_modules(module: Path) -> set[Path]:
     """A module of an exercise, and every module beside it that it imports, directly or not."""
     found: set[Path] = set()
     left = {module}
     while left:
         path = left.pop()
         found.add(path)
-        left |= {beside for beside in _imports(path) if beside.is_file()} - found
+        left |= {beside for beside in _find_imports(path) if beside.is_file()} - found
     return found
 
 
-def _imports(module: Path) -> Iterator[Path]:
+def _find_imports(module: Path) -> Iterator[Path]:
     for node in ast.walk(ast.parse(module.read_bytes())):
         if isinstance(node, ast.ImportFrom) and node.level == 1:
             names = [node.module] if node.module else [one.name for one in node.names]
             yield from (module.with_name(f"{name.partition('.')[0]}.py") for name in names)
 
 
-def _lesson_files(course: Path) -> Iterator[Path]:
+def _list_lesson_files(course: Path) -> Iterator[Path]:
     """Each lesson's text and the notebook derived from it."""
     for text in sorted((course / "lessons").glob("*.py")):
         if text.with_suffix(".ipynb").is_file():
             yield from (text, text.with_suffix(".ipynb"))
 
 
-def _package_folder(course: Path, installed: Path) -> Path:
+def _find_package_folder(course: Path, installed: Path) -> Path:
     """Where a package's files are taken from: the course folder, else the installation."""
     own = course / installed.name
     return own if (own / "__init__.py").is_file() else installed
 
 
-def _all_files(top: Path) -> Iterator[Path]:
+def _list_files(top: Path) -> Iterator[Path]:
     """The files of a folder, without those that Python, Jupyter or a system made."""
     for path in sorted(top.rglob("*")):
         parts = path.relative_to(top).parts
@@ -189,7 +191,7 @@ def _all_files(top: Path) -> Iterator[Path]:
             yield path
 
 
-def _content(name: str, path: Path) -> bytes:
+def _read_content(name: str, path: Path) -> bytes:
     try:
         content = path.read_bytes()
     except OSError as error:

@@ -31,7 +31,7 @@ class Quantity:
     factor: float
     powers: tuple[int, ...]
 
-    def times(self, other: "Quantity", *, power: int = 1) -> "Quantity":
+    def multiply(self, other: "Quantity", *, power: int = 1) -> "Quantity":
         """This, times a power of the other."""
         powers = tuple(
             mine + power * its for mine, its in zip(self.powers, other.powers, strict=True)
@@ -97,7 +97,7 @@ def read_unit(text: str) -> Quantity:
     top, *below = re.split(r"\bper\b", plain)
     if not below:
         return _Reader(top).product()
-    return _Reader(top).product().times(read_unit(" per ".join(below)), power=-1)
+    return _Reader(top).product().multiply(read_unit(" per ".join(below)), power=-1)
 
 
 class _Reader:
@@ -118,7 +118,7 @@ class _Reader:
             if part in {"*", "/"}:
                 power = -1 if part == "/" else 1
                 continue
-            found, power = found.times(self._factor(part), power=power), 1
+            found, power = found.multiply(self._factor(part), power=power), 1
         if closing:
             raise NotAUnitError("( without )")
         return found
@@ -131,7 +131,7 @@ class _Reader:
         if raised is None:
             return measure
         self.rest = self.rest[raised.end() :].strip()
-        return ONE.times(measure, power=int(raised[1]))
+        return ONE.multiply(measure, power=int(raised[1]))
 
     def _next(self) -> str:
         part = PART.match(self.rest)

@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from html import escape
 from typing import Any
 
-from grader.answer import Asked, Band, Key, judge_number
-from grader.check import Wrong
+from grader.answer import AnswerKey, AskedNumber, Band, judge_number
+from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
 from grader.wrong_number import Scene
 from sim.core.errors import BadRequest
@@ -92,8 +92,8 @@ class QuickNumberCheck:
 
         self.question = question
         self._name = gain or "answer"
-        asked = Asked(self._name, expected, unit, Band(tolerance, tolerance))
-        self._key = Key({self._name: asked}, Scene(angular=angular))
+        asked = AskedNumber(self._name, expected, unit, Band(tolerance, tolerance))
+        self._key = AnswerKey({self._name: asked}, Scene(angular=angular))
         self._typed = ipywidgets.Text(placeholder=f"a number [{unit}]" if unit else "a number",
                                       continuous_update=False)  # fmt: skip
         self._told = ipywidgets.HTML()
@@ -104,7 +104,7 @@ class QuickNumberCheck:
         """What is said to an answer: a number, or a text with a unit."""
         try:
             note = judge_number(self._name, {self._name: given}, self._key, points=1)
-        except Wrong as wrong:
+        except WrongAnswer as wrong:
             why = MISCONCEPTIONS[wrong.misconception].says if wrong.misconception else ""
             hint = wrong.hint[:1].upper() + wrong.hint[1:]
             hint += "" if hint.endswith((".", "?")) else "."

@@ -14,15 +14,15 @@ from pathlib import Path
 import tomlkit
 
 from grader.class_package import PLACE, ClassPackage
-from grader.classroom.bundle import Bundle
-from grader.classroom.secret import identity_seal, seal
-from grader.exercise import exercises
+from grader.classroom.bundle import CourseBundle
+from grader.classroom.secret import seal_file, seal_identity
+from grader.exercise import list_exercises
 from grader.package_files import select_package_files
-from grader.variant import class_secret, make_folder_name
+from grader.variant import make_folder_name, use_class_secret
 
 
 @dataclass(frozen=True)
-class Package:
+class StudentPackage:
     """What one student gets.
 
     Args:
@@ -35,14 +35,14 @@ class Package:
     student: str
     secret: bytes
     name: str
-    course: Bundle
+    course: CourseBundle
 
     def __repr__(self) -> str:
         """Without the secret: a message may hold this."""
         return f"Package({self.student!r})"
 
 
-def common_package(course: Path) -> bytes:
+def make_common_package(course: Path) -> bytes:
     """The zip file for everybody.
 
     Raises:
@@ -51,14 +51,14 @@ def common_package(course: Path) -> bytes:
     return zip_files(select_package_files(course).files)
 
 
-def student_package(package: Package) -> tuple[str, bytes]:
+def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
     """One student's numbers: their name, and the zip file to unpack over the course."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as there:
         course = Path(there)
         with zipfile.ZipFile(io.BytesIO(package.course.content)) as archive:
             archive.extractall(course)
-        with class_secret(package.secret):
-            for one in exercises(course):
+        with use_class_secret(package.secret):
+            for one in list_exercises(course):
                 one.prepare(package.student, say=lambda _: None)
         made = {
             path.relative_to(course).as_posix(): path.read_bytes()
@@ -67,10 +67,10 @@ def student_package(package: Package) -> tuple[str, bytes]:
             )
         }
     sealed = {
-        name: seal(package.secret, student=package.student, content=content)
+        name: seal_file(package.secret, student=package.student, content=content)
         for name, content in made.items()
     }
-    mark = identity_seal(package.secret, student=package.student, name=package.name)
+    mark = seal_identity(package.secret, student=package.student, name=package.name)
     identity = {"class": package.name, "student": package.student, "seal": mark}
     beside = {Path(name).with_name(PLACE.name).as_posix() for name in made}
     files = {
@@ -97,6 +97,6 @@ def find_broken_seals(course: Path, found: ClassPackage, *, secret: bytes) -> li
     def whole(path: Path, expected: str) -> bool:
         if not path.is_file():
             return False
-        return seal(secret, student=found.student, content=path.read_bytes()) == expected
+        return seal_file(secret, student=found.student, content=path.read_bytes()) == expected
 
     return [name for name, expected in found.sealed.items() if not whole(course / name, expected)]

@@ -9,7 +9,7 @@ from grader.course import Progress
 from grader.exercise import HINTS, Exercise, Grade
 from grader.misconception import MISCONCEPTIONS
 from grader.submission import find_files, read_answers, read_text
-from grader.terminal import Line, StyledText, line, width, wrapped
+from grader.terminal import Line, StyledText, find_width, style_line, wrap_text
 
 MARKS = {
     Status.PASSED: ("✓", "green"),
@@ -23,14 +23,14 @@ INDENT = "    "
 ONCE = {"", "why  ", "see  "}  # leads of what is said once, however many checks it stands under
 
 
-def to_json(grade: Grade) -> str:
+def grade_to_json(grade: Grade) -> str:
     """The grade as one line of JSON, in ASCII so that every terminal keeps it whole."""
     names = ("exercise", "student", "score", "max_score", "status")
     told = {name: getattr(grade, name) for name in names}
     return json.dumps({**told, "checks": [asdict(result) for result in grade.checks]})
 
 
-def to_lines(
+def format_grade(
     grade: Grade,
     *,
     hints_shown: int = 0,
@@ -47,22 +47,22 @@ def to_lines(
         plain: words for signs and nothing in columns, as a screen reader reads it best.
         then: what the answer would do on the robot, in words; empty where that is not known.
     """
-    lines = [_verdict(grade), line()]
+    lines = [_format_verdict(grade), style_line()]
     said: set[str] = set()  # what has been said once is not said again
     for result in grade.checks:
-        lines += _result(result, said, plain=plain)
+        lines += _format_result(result, said, plain=plain)
     if then:
-        lines += [line(), *wrapped(then, lead="then  ")]
-        lines.append(line(f"See it: grade {grade.exercise} --picture what.svg", "cyan"))
+        lines += [style_line(), *wrap_text(then, lead="then  ")]
+        lines.append(style_line(f"See it: grade {grade.exercise} --picture what.svg", "cyan"))
     if grade.status != "passed":
-        lines += [line(), line(_next_hint(grade.exercise, hints_shown), "cyan")]
+        lines += [style_line(), style_line(_format_next_hint(grade.exercise, hints_shown), "cyan")]
     elif solution is not None:
         place = f"{solution.parent.name}/{solution.name}"
-        lines += [line(), line(f"A solution, for comparison: {place}", "cyan")]
-    return _spoken(lines) if plain else lines
+        lines += [style_line(), style_line(f"A solution, for comparison: {place}", "cyan")]
+    return _replace_signs(lines) if plain else lines
 
 
-def _spoken(lines: list[Line]) -> list[Line]:
+def _replace_signs(lines: list[Line]) -> list[Line]:
     """The same with a word for each sign that leads a line."""
     return [
         (StyledText(f"{SPOKEN[row[0].text[0]]}:{row[0].text[1:]}", row[0].style), *row[1:])
@@ -72,7 +72,7 @@ def _spoken(lines: list[Line]) -> list[Line]:
     ]
 
 
-def to_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
+def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
     """What can be read of an answer that somebody else will grade.
 
     Raises:
@@ -81,16 +81,16 @@ def to_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
     lines = []
     for path in find_files(file, folder=exercise.folder, names=exercise.files):
         if path.suffix != ".toml":
-            lines.append(line(f"{path.name}: {len(read_text(path).splitlines())} lines"))
+            lines.append(style_line(f"{path.name}: {len(read_text(path).splitlines())} lines"))
             continue
         answers = read_answers(path)
         there = [name for name, value in answers.items() if value != ""]
-        lines.append(line(f"{path.name}: {len(there)} of {len(answers)} answered"))
-        lines += [line(f"  {name} = {answers[name]}") for name in there]
+        lines.append(style_line(f"{path.name}: {len(there)} of {len(answers)} answered"))
+        lines += [style_line(f"  {name} = {answers[name]}") for name in there]
     return lines
 
 
-def _verdict(grade: Grade) -> Line:
+def _format_verdict(grade: Grade) -> Line:
     passed = grade.status == "passed"
     mark, style = MARKS[Status.PASSED if passed else Status.FAILED]
     score = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points"
@@ -99,25 +99,25 @@ def _verdict(grade: Grade) -> Line:
     return (StyledText(f"{mark} {score}, {said}", f"bold {style}"), StyledText(file, "dim"))
 
 
-def _result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
+def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
     mark, style = MARKS[result.status]
     points = f"{result.points:g} of {result.max_points:g}"
     if plain:
-        rows = [line(f"{mark} {result.description}, {points} points", style)]
+        rows = [style_line(f"{mark} {result.description}, {points} points", style)]
     else:
-        rows = _row(result.description, points, mark, style)
+        rows = _format_row(result.description, points, mark, style)
     for word, text in check_feedback(result):
         if text and text not in said:
-            rows += wrapped(text, lead=f"{INDENT}{word}")
+            rows += wrap_text(text, lead=f"{INDENT}{word}")
         if word in ONCE:
             said.add(text)
     return rows
 
 
-def _row(description: str, points: str, mark: str, style: str) -> list[Line]:
-    rows = wrapped(description, lead="  ", spare=len(points) + 1)
+def _format_row(description: str, points: str, mark: str, style: str) -> list[Line]:
+    rows = wrap_text(description, lead="  ", spare=len(points) + 1)
     _, first = rows[0]
-    room = width() - len(points) - 2
+    room = find_width() - len(points) - 2
     rows[0] = (
         StyledText(f"{mark} ", style),
         StyledText(first.text.ljust(room)),
@@ -138,13 +138,13 @@ def check_feedback(result: Result) -> list[tuple[str, str]]:
     return told
 
 
-def _next_hint(exercise: str, shown: int) -> str:
+def _format_next_hint(exercise: str, shown: int) -> str:
     if shown >= len(HINTS):
         return f"All {len(HINTS)} hints again: grade {exercise} --hint"
     return f"Hint {shown + 1} of {len(HINTS)}: grade {exercise} --hint"
 
 
-def hint_lines(exercise: Exercise, *, shown: int) -> list[Line]:
+def format_hints(exercise: Exercise, *, shown: int) -> list[Line]:
     """The next hint, or all of them once all have been shown.
 
     Args:
@@ -152,14 +152,14 @@ def hint_lines(exercise: Exercise, *, shown: int) -> list[Line]:
         shown: how many have been shown before.
     """
     if shown < len(exercise.hints):
-        return wrapped(exercise.hints[shown], lead=f"Hint {shown + 1} of {len(HINTS)}: ")
-    lines = [line(f"There are no more hints for {exercise.name}. All {len(HINTS)} again:")]
+        return wrap_text(exercise.hints[shown], lead=f"Hint {shown + 1} of {len(HINTS)}: ")
+    lines = [style_line(f"There are no more hints for {exercise.name}. All {len(HINTS)} again:")]
     for number, hint in enumerate(exercise.hints, start=1):
-        lines += wrapped(hint, lead=f"  {number}. ")
+        lines += wrap_text(hint, lead=f"  {number}. ")
     return lines
 
 
-def overview(
+def format_overview(
     course: Path,
     found: tuple[Exercise, ...],
     progress: Progress,
@@ -168,22 +168,24 @@ def overview(
     plain: bool = False,
 ) -> list[Line]:
     """Where a learner stands: lessons, exercises, and the next step."""
-    standings = [progress.of(student, one.name) for one in found]
-    done = sum(standing.done for standing in standings)
+    standings = [progress.find_standing(student, one.name) for one in found]
+    done = sum(standing.is_done for standing in standings)
     name = f" ({student})" if student != Progress().student else ""
-    lines = [line(f"{done} of {len(found)} exercises done{name}", "bold"), line()]
+    lines = [style_line(f"{done} of {len(found)} exercises done{name}", "bold"), style_line()]
     lessons = sorted((course / "lessons").glob("*.ipynb"))
-    lines += [line(f"  {lesson.parent.name}/{lesson.name}") for lesson in lessons]
-    lines += [line()] if lessons else []
+    lines += [style_line(f"  {lesson.parent.name}/{lesson.name}") for lesson in lessons]
+    lines += [style_line()] if lessons else []
     for one, standing in zip(found, standings, strict=True):
         tried = standing.max_score > 0
-        status = Status.PASSED if standing.done else Status.FAILED if tried else Status.NOT_REACHED
+        status = (
+            Status.PASSED if standing.is_done else Status.FAILED if tried else Status.NOT_REACHED
+        )
         mark, style = MARKS[status]
         score = f"{standing.score:g} of {standing.max_score:g}" if tried else "not tried yet"
-        room = width() - len(score) - 1
+        room = find_width() - len(score) - 1
         said = f"{one.name}  {one.title}"[: room - 3]
         if plain:
-            lines.append(line(f"{one.name}, {one.title}: {score}"))
+            lines.append(style_line(f"{one.name}, {one.title}: {score}"))
             continue
         lines.append(
             (
@@ -192,13 +194,13 @@ def overview(
                 StyledText(score, style),
             )
         )
-    open_ones = [one for one, how in zip(found, standings, strict=True) if not how.done]
-    return [*lines, line(), *_next_step(open_ones)]
+    open_ones = [one for one, how in zip(found, standings, strict=True) if not how.is_done]
+    return [*lines, style_line(), *_format_next_step(open_ones)]
 
 
-def _next_step(open_ones: list[Exercise]) -> list[Line]:
+def _format_next_step(open_ones: list[Exercise]) -> list[Line]:
     if not open_ones:
-        return [line("Everything here is done.", "bold green")]
+        return [style_line("Everything here is done.", "bold green")]
     one = open_ones[0]
     task = f"exercises/{one.name}/README.md"
-    return wrapped(f"read {task}, then: grade {one.name}", lead="Next: ", style="cyan")
+    return wrap_text(f"read {task}, then: grade {one.name}", lead="Next: ", style="cyan")

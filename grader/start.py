@@ -8,11 +8,11 @@ import sysconfig
 from pathlib import Path
 
 from grader.course import Progress
-from grader.draw_cache import draw_cache_enabled
-from grader.exec_process import INTERRUPTED, run
-from grader.exercise import exercises
-from grader.report import overview
-from grader.terminal import line, show
+from grader.draw_cache import enable_draw_cache
+from grader.exec_process import INTERRUPTED, run_process
+from grader.exercise import list_exercises
+from grader.report import format_overview
+from grader.terminal import print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.physics.engine import engine_is_cached, load_engine
 from sim.support.command_line import COULD_NOT, DONE
@@ -41,41 +41,44 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
     Raises:
         BadRequest: JupyterLab is wanted, and is not installed.
     """
-    found = exercises(course)
-    show([line("Welcome to the SysId course.", "bold"), line()])
-    show([*overview(course, found, progress, student=student), line()])
+    found = list_exercises(course)
+    print_lines([style_line("Welcome to the SysId course.", "bold"), style_line()])
+    print_lines([*format_overview(course, found, progress, student=student), style_line()])
     sys.stdout.flush()
     if not engine_is_cached():
-        _say("Compiling the simulation, once; this takes about twenty seconds…")
+        _print_line("Compiling the simulation, once; this takes about twenty seconds…")
         load_engine()
-    with draw_cache_enabled():  # what is drawn now, the first answer need not wait for
+    with enable_draw_cache():  # what is drawn now, the first answer need not wait for
         for one in found:
-            one.prepare(student, say=_say)
+            one.prepare(student, say=_print_line)
     command = "grade"
-    if not _on_path(command):
+    if not _is_on_path(command):
         command = "python -m grader"
         if sys.prefix != sys.base_prefix:
-            _say(f"To type grade and sysid in this terminal:  {activation(Path(sys.prefix))}")
-        _say(f"Without that, type  {command} exercise4  for  grade exercise4")
+            _print_line(
+                "To type grade and sysid in this terminal:  "
+                f"{describe_activation(Path(sys.prefix))}"
+            )
+        _print_line(f"Without that, type  {command} exercise4  for  grade exercise4")
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     if not lab:
         place = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
-        _say(f"Ready. Begin with {place}; to open it in JupyterLab:  {command} start")
+        _print_line(f"Ready. Begin with {place}; to open it in JupyterLab:  {command} start")
         return 0
     return _open_lab(course, lessons[0] if lessons else course)
 
 
-def activation(prefix: Path, *, windows: bool = os.name == "nt") -> str:
+def describe_activation(prefix: Path, *, windows: bool = os.name == "nt") -> str:
     """What to type to make a virtual environment's commands known to a terminal."""
     place = prefix.relative_to(Path.cwd()) if prefix.is_relative_to(Path.cwd()) else prefix
     return rf"{place}\Scripts\activate" if windows else f"source {place}/bin/activate"
 
 
-def _on_path(command: str) -> bool:
+def _is_on_path(command: str) -> bool:
     return shutil.which(command) is not None
 
 
-def as_root() -> tuple[str, ...]:
+def choose_root_option() -> tuple[str, ...]:
     """Jupyter refuses the administrator unless told; in a container there is nobody else."""
     return ("--allow-root",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
 
@@ -87,16 +90,16 @@ def _open_lab(course: Path, what: Path) -> int:
             advice="Install it (python -m pip install jupyterlab), or: grade start --no-lab",
         )
     place = what.relative_to(course).as_posix()
-    _say("Opening JupyterLab in your browser. To end it: Ctrl-C here, twice.")
+    _print_line("Opening JupyterLab in your browser. To end it: Ctrl-C here, twice.")
     sys.stdout.flush()
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)
     root = f"--ServerApp.root_dir={course}"  # else it shows the lessons' folder alone
-    command = [sys.executable, "-m", "jupyterlab", *QUIET, *as_root(), root, place]
-    code = run(command, cwd=course, env={**os.environ, "PATH": paths})
+    command = [sys.executable, "-m", "jupyterlab", *QUIET, *choose_root_option(), root, place]
+    code = run_process(command, cwd=course, env={**os.environ, "PATH": paths})
     return DONE if code in {DONE, INTERRUPTED} else COULD_NOT
 
 
-def _say(text: str) -> None:
-    show([line(text)])
+def _print_line(text: str) -> None:
+    print_lines([style_line(text)])
     sys.stdout.flush()

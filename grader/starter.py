@@ -25,10 +25,10 @@ def remove_answers(solution: str) -> str:
 
     A task may go on over several lines, each under ``# ---   ``.
     """
-    return ANSWER.sub(_to_do, solution)
+    return ANSWER.sub(_write_to_do, solution)
 
 
-def _to_do(answer: re.Match[str]) -> str:
+def _write_to_do(answer: re.Match[str]) -> str:
     margin, mark = answer["margin"], answer["mark"]
     more = re.sub(
         r"^[ \t]*(?:#|//) ---   ", f"{margin}{mark}       ", answer["more"], flags=re.MULTILINE

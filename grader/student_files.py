@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.class_package import ClassPackage, read_class_package
-from grader.draw_cache import cache_path, write_draw
+from grader.draw_cache import find_cache_path, write_draw
 from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.work.cache import read_cached
@@ -56,18 +56,18 @@ def write_student_files(
     folder = exercise / "data" / make_folder_name(student)
     of_class = read_class_package(exercise.parents[1])
     if of_class and of_class.is_for(student):
-        _whole(files, folder, of_class)
+        _are_files_whole(files, folder, of_class)
         return
     place = (folder / next(iter(files))).relative_to(exercise.parents[1]).as_posix()
     there = any((folder / name).is_file() for name in files)
-    known = cache_path(exercise, student, "files")
-    if known is not None and read_cached(known) == _seals(folder, files):
+    known = find_cache_path(exercise, student, "files")
+    if known is not None and read_cached(known) == _digest_files(folder, files):
         return
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        news = [_put(made, folder / name) for name, made in files.items()]
+        news = [_write_made_file(made, folder / name) for name, made in files.items()]
         if known is not None:
-            write_draw(known, _seals(folder, files))
+            write_draw(known, _digest_files(folder, files))
     except OSError as error:
         raise BadRequest(
             f"your {what} cannot be written: {error.strerror}",
@@ -82,7 +82,7 @@ def write_student_files(
         say(f"Your own {what} for exercise {number}: {place}")
 
 
-def _whole(files: Mapping[str, Made], folder: Path, of_class: ClassPackage) -> None:
+def _are_files_whole(files: Mapping[str, Made], folder: Path, of_class: ClassPackage) -> None:
     for name in files:
         if not (folder / name).is_file():
             raise BadRequest(
@@ -92,7 +92,7 @@ def _whole(files: Mapping[str, Made], folder: Path, of_class: ClassPackage) -> N
             )
 
 
-def _seals(folder: Path, names: Iterable[str]) -> bytes:
+def _digest_files(folder: Path, names: Iterable[str]) -> bytes:
     """What tells whether any of these files was changed."""
     found = {}
     for name in names:
@@ -101,7 +101,7 @@ def _seals(folder: Path, names: Iterable[str]) -> bytes:
     return json.dumps(found, sort_keys=True).encode()
 
 
-def _put(made: Made, path: Path) -> bool:
+def _write_made_file(made: Made, path: Path) -> bool:
     """Write one file; whether it is new, or was not as it was made."""
     part = path.with_name(f"{os.getpid()}.part{path.suffix}")
     try:

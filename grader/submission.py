@@ -25,7 +25,7 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
         UnreadableFile: there is nothing there, or nothing of the right kind.
     """
     if given is None:
-        return _own(folder, names)
+        return _find_own_files(folder, names)
     if not given.exists():
         raise UnreadableFile(
             "there is no such file",
@@ -36,7 +36,7 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
         return (given,)
     own = [given / name for name in names if (given / name).is_file()]
     endings = {Path(name).suffix for name in names}
-    like = sorted(file for file in given.iterdir() if file.suffix in endings and _filled(file))
+    like = sorted(file for file in given.iterdir() if file.suffix in endings and _is_filled(file))
     if own or len(like) == 1:
         return tuple(own or like)
     if not like:
@@ -50,13 +50,15 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
     )
 
 
-def whole_answer(given: Path | None, *, names: Sequence[str], beside: Sequence[str]) -> Path | None:
+def find_whole_answer(
+    given: Path | None, *, names: Sequence[str], companion_files: Sequence[str]
+) -> Path | None:
     """What to grade where a learner names a file that is only a part of the answer.
 
     Args:
         given: the file or folder the learner named, or None.
         names: what the exercise's own files are called, the preferred one first.
-        beside: what the files are called that belong to them.
+        companion_files: what the files are called that belong to them.
 
     Returns:
         The file the part belongs to; ``given`` itself where it is no part.
@@ -64,7 +66,7 @@ def whole_answer(given: Path | None, *, names: Sequence[str], beside: Sequence[s
     Raises:
         UnreadableFile: the part stands alone.
     """
-    if given is None or given.name not in beside or not given.is_file():
+    if given is None or given.name not in companion_files or not given.is_file():
         return given
     for name in names:
         if given.with_name(name).is_file():
@@ -76,16 +78,18 @@ def whole_answer(given: Path | None, *, names: Sequence[str], beside: Sequence[s
     )
 
 
-def _filled(file: Path) -> bool:
+def _is_filled(file: Path) -> bool:
     """Whether there is something in it: a package's empty ``__init__.py`` is nobody's answer."""
     return file.is_file() and file.stat().st_size > 0
 
 
-def _own(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
+def _find_own_files(folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
     found = tuple(folder / name for name in names if (folder / name).is_file())
     if not found:
         raise UnreadableFile(
-            f"{' and '.join(names)} not found", where=str(folder), advice=_back(folder, names[0])
+            f"{' and '.join(names)} not found",
+            where=str(folder),
+            advice=_explain_restore(folder, names[0]),
         )
     return found
 
@@ -110,9 +114,10 @@ def read_text(path: Path) -> str:
             f"cannot be opened: {reason}", where=str(path), advice="Look at the name once more."
         ) from None
     if not raw.strip():
-        advice = f"Write your answer into it. {_back(path.resolve().parent, path.name)}".rstrip()
+        restore = _explain_restore(path.resolve().parent, path.name)
+        advice = f"Write your answer into it. {restore}".rstrip()
         raise UnreadableFile("the file is empty", where=str(path), advice=advice)
-    text = _decoded(raw)
+    text = _decode_text(raw)
     if text is None:
         raise UnreadableFile(
             "this is not text", where=str(path), advice="Save it as text, in UTF-8."
@@ -172,7 +177,7 @@ def _check_size(text: str, path: Path) -> None:
             )
 
 
-def _decoded(raw: bytes) -> str | None:
+def _decode_text(raw: bytes) -> str | None:
     """UTF-8, with or without a mark, or the UTF-16 that some Windows editors write; else None."""
     encoding = "utf-16" if raw.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig"
     try:
@@ -182,7 +187,7 @@ def _decoded(raw: bytes) -> str | None:
     return None if "\0" in text else text
 
 
-def _back(folder: Path, name: str) -> str:
+def _explain_restore(folder: Path, name: str) -> str:
     """How to get an exercise's own file back; nothing for a file from elsewhere."""
     if folder.parent.name != "exercises":
         return ""

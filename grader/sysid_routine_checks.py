@@ -1,6 +1,6 @@
 """What is right and what is wrong about a SysIdRoutine's wiring, in words for the learner.
 
-Every function looks at facts read from robot code, and raises Wrong where they are wrong, or
+Every function looks at facts read from robot code, and raises WrongAnswer where they are wrong, or
 where they cannot be told by reading: then it asks, and never guesses.
 """
 
@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from grader.check import NotReached, Wrong
+from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.facts import (
     Certainty,
     ConfigQuantity,
@@ -32,13 +32,13 @@ BATTERY = re.compile(r"/ ?1[0-3](\.\d*)?\b|\.(div|divide)\(|attery", re.IGNORECA
 Advice = Callable[[float], tuple[str, str]]
 
 
-def no_advice(_value: float) -> tuple[str, str]:
+def give_no_advice(_value: float) -> tuple[str, str]:
     """For a number that goes wrong in no way worth a name."""
     return "", ""
 
 
 @dataclass(frozen=True)
-class Setting:
+class ConfigSetting:
     """A number of the Config, as an exercise asks for it.
 
     Args:
@@ -59,7 +59,7 @@ class Setting:
     python: str
 
     def compare(
-        self, facts: RoutineFacts, got: ConfigQuantity, *, advice: Advice = no_advice
+        self, facts: RoutineFacts, got: ConfigQuantity, *, advice: Advice = give_no_advice
     ) -> str | None:
         """Compare with what the code says.
 
@@ -72,20 +72,20 @@ class Setting:
             A note where the number is right by default only.
 
         Raises:
-            Wrong: it is another number, or no such quantity, or cannot be told.
-            NotReached: there is no Config.
+            WrongAnswer: it is another number, or no such quantity, or cannot be told.
+            NotReachedError: there is no Config.
         """
         if facts.config_argument < 0:
-            raise NotReached("looked at once the SysIdRoutine gets a Config")
+            raise NotReachedError("looked at once the SysIdRoutine gets a Config")
         if got.text == "None":
-            raise Wrong(
+            raise WrongAnswer(
                 f"None for the {self.name}",
                 hint="In Java null means WPILib's default. RobotPy stops with a TypeError when the "
                 f"test begins. This exercise asks for {self._asked(facts)}.",
             )
         if got.known is Certainty.UNKNOWN:
             hint = "Write it as a number, or as a named constant in this folder."
-            raise Wrong(cannot_tell(f"the {self.name}", got.text), hint=hint)
+            raise WrongAnswer(explain_doubt(f"the {self.name}", got.text), hint=hint)
         value = self.default if got.value is None else got.value
         right = math.isclose(value, self.value, rel_tol=1e-9)
         if got.known is Certainty.DEFAULT:
@@ -101,7 +101,7 @@ class Setting:
         if value == 0 and "/" in got.text:
             said = "Whole numbers divide to a whole number in Java: 1 / 2 is 0."
         hint = f"{said} This exercise asks for {self._asked(facts)}.".strip()
-        raise Wrong(seen, hint=hint, misconception=misconception)
+        raise WrongAnswer(seen, hint=hint, misconception=misconception)
 
     def _asked(self, facts: RoutineFacts) -> str:
         example = self.python if facts.language == "python" else self.java
@@ -111,14 +111,14 @@ class Setting:
         plain = got.dimension == "number" and facts.language == "python"
         if got.dimension == self.dimension or plain:
             return
-        raise Wrong(
+        raise WrongAnswer(
             f"{quote_code(got)}, which is not in {self.unit}",
             hint=f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}.",
             misconception="M-UNITS",
         )
 
 
-def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
+def check_motor_driven(motor: str, calls: Sequence[DriveCall]) -> None:
     """Whether a motor gets the test's voltage.
 
     Args:
@@ -126,17 +126,17 @@ def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
         calls: every command in the drive callback.
 
     Raises:
-        Wrong: it does not; with why.
+        WrongAnswer: it does not; with why.
     """
     mine = [call for call in calls if call.motor == motor]
     if not mine:
         hint = "Drive every motor: the others carry one that is left out, and kS and kA come out "
         hint += "too large."
-        raise Wrong(f"{motor} gets no voltage", hint=hint)
+        raise WrongAnswer(f"{motor} gets no voltage", hint=hint)
     for call in mine:
         if call.condition:
-            raise Wrong(
-                cannot_tell(f"when {motor} gets the voltage", f"behind `{call.condition}`"),
+            raise WrongAnswer(
+                explain_doubt(f"when {motor} gets the voltage", f"behind `{call.condition}`"),
                 hint="Send every voltage that the test asks for, whatever it is.",
             )
         hint, misconception = "setVoltage() takes the volts as they come.", ""
@@ -147,24 +147,24 @@ def check_driven(motor: str, calls: Sequence[DriveCall]) -> None:
         elif call.output is Output.CLOSED_LOOP:
             misconception = "M-CLOSEDLOOP"
         elif call.output is Output.UNKNOWN or call.uses_parameter is None or call.scaled is None:
-            raise Wrong(
-                cannot_tell(f"what {motor} gets", quote_code(call)), hint="Call setVoltage()."
+            raise WrongAnswer(
+                explain_doubt(f"what {motor} gets", quote_code(call)), hint="Call setVoltage()."
             )
         elif not call.uses_parameter:
             hint = "That is the same whatever the test asks for. Send the callback's own voltage."
         else:
             hint = f"The voltage is changed on its way. {hint}"
-        raise Wrong(quote_code(call), hint=hint, misconception=misconception)
+        raise WrongAnswer(quote_code(call), hint=hint, misconception=misconception)
 
 
-def check_alone(facts: RoutineFacts) -> None:
+def check_only_test_drives(facts: RoutineFacts) -> None:
     """Whether nothing but the test moves its motors.
 
     Raises:
-        Wrong: periodic() commands one as well.
+        WrongAnswer: periodic() commands one as well.
     """
     for call in facts.in_periodic:
-        raise Wrong(
+        raise WrongAnswer(
             f"periodic() calls {quote_code(call)}",
             hint=f"It runs in every loop, during a test too, and takes {call.motor} away from it. "
             "Leave the motors to commands.",
@@ -175,21 +175,21 @@ def check_open_loop(call: DriveCall) -> None:
     """Whether a command leaves the voltage to the test.
 
     Raises:
-        Wrong: it is a closed loop or a share of the battery, or it cannot be told.
+        WrongAnswer: it is a closed loop or a share of the battery, or it cannot be told.
     """
     if call.output is Output.DUTY:
         hint = "A test asks for volts and should get volts: setVoltage(voltage), undivided."
-        raise Wrong(quote_code(call), hint=hint, misconception="M-DUTY")
+        raise WrongAnswer(quote_code(call), hint=hint, misconception="M-DUTY")
     if call.output is Output.CLOSED_LOOP:
         hint = "Send the voltage as it comes, and leave every controller out of the test."
-        raise Wrong(quote_code(call), hint=hint, misconception="M-CLOSEDLOOP")
+        raise WrongAnswer(quote_code(call), hint=hint, misconception="M-CLOSEDLOOP")
     if call.output is Output.UNKNOWN:
-        raise Wrong(
-            cannot_tell("what this does", quote_code(call)), hint="Call setVoltage(voltage)."
+        raise WrongAnswer(
+            explain_doubt("what this does", quote_code(call)), hint="Call setVoltage(voltage)."
         )
 
 
-def check_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float) -> None:
+def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float) -> None:
     """Whether everything a fit needs of one motor is recorded.
 
     Args:
@@ -198,7 +198,7 @@ def check_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float
         points: for everything; half of it is the voltage's, the rest is shared evenly.
 
     Raises:
-        Wrong: something is missing, or the voltage is the one that was asked for.
+        WrongAnswer: something is missing, or the voltage is the one that was asked for.
     """
     there = {one.signal: one for one in signals}
     lacking = [name for name in ("voltage", "position", "velocity") if name not in there]
@@ -206,7 +206,7 @@ def check_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float
     earned = points * (1.0 - (not motor) / 6 - sum(_SHARE[name] for name in lacking))
     voltage = there.get("voltage")
     if voltage and voltage.source is Source.COMMANDED:
-        raise Wrong(
+        raise WrongAnswer(
             f"{quote_code(voltage)}: the voltage that was asked for",
             hint="Log what the motor put out: getMotorVoltage(), getAppliedOutput() times the bus "
             "voltage, or in Python getVoltage().",
@@ -214,24 +214,24 @@ def check_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float
             earned=earned - points * _SHARE["voltage"],
         )
     if hidden := next((one for one in signals if one.condition), None):
-        raise Wrong(
-            cannot_tell(f"when {quote_code(hidden)} is reached", f"behind `{hidden.condition}`"),
+        raise WrongAnswer(
+            explain_doubt(f"when {quote_code(hidden)} is reached", f"behind `{hidden.condition}`"),
             hint="Record every signal each time the callback is called.",
             earned=0.0,
         )
     if lacking:
         hint = "A fit needs all three of every motor: voltage, position and velocity."
-        raise Wrong(f"no {' and no '.join(lacking)}{of}", hint=hint, earned=earned)
+        raise WrongAnswer(f"no {' and no '.join(lacking)}{of}", hint=hint, earned=earned)
     if voltage and voltage.source is Source.UNKNOWN:
-        raise Wrong(
-            cannot_tell(f"where the voltage{of} comes from", quote_code(voltage)),
+        raise WrongAnswer(
+            explain_doubt(f"where the voltage{of} comes from", quote_code(voltage)),
             hint="Ask the motor itself for it, in the log callback.",
             earned=earned - points * _SHARE["voltage"],
         )
     if not motor:
         hint = 'Write it where you log it: log.motor("left").'
-        raise Wrong(
-            cannot_tell("the motor's name", quote_code(signals[0])), hint=hint, earned=earned
+        raise WrongAnswer(
+            explain_doubt("the motor's name", quote_code(signals[0])), hint=hint, earned=earned
         )
 
 
@@ -246,14 +246,16 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
         mechanism: the class's name, which may tell how it moves.
 
     Raises:
-        Wrong: they do not, or no unit can be told.
+        WrongAnswer: they do not, or no unit can be told.
     """
-    seen = ", ".join(f"{s.signal} {_kind(s)} (line {s.line})" for s in signals)
+    seen = ", ".join(f"{s.signal} {_find_unit_kind(s)} (line {s.line})" for s in signals)
     families = {one.family for one in signals if one.family}
     if not families:
-        raise Wrong(cannot_tell("the units", seen), hint="Name the unit where you log the value.")
-    lengths = {_length(one.unit) for one in signals if one.unit}
-    wanted = motion_family(mechanism)
+        raise WrongAnswer(
+            explain_doubt("the units", seen), hint="Name the unit where you log the value."
+        )
+    lengths = {_find_length_unit(one.unit) for one in signals if one.unit}
+    wanted = find_motion_family(mechanism)
     hint = ""
     if len(families) > 1:
         hint = "Some of these go along a line and others turn. Choose one kind for all."
@@ -263,16 +265,16 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
         unit = "Meters" if wanted == "linear" else "Rotations or Radians"
         hint = f"{mechanism} sounds like something that moves in {unit}. Log it so."
     if hint:
-        raise Wrong(seen, hint=hint, misconception="M-UNITS")
+        raise WrongAnswer(seen, hint=hint, misconception="M-UNITS")
 
 
-def _kind(signal: LoggedSignal) -> str:
+def _find_unit_kind(signal: LoggedSignal) -> str:
     """The unit of a value, or where none is written, what kind of unit it has."""
     kinds = {"linear": "along a line", "angular": "as an angle"}
     return f"in {signal.unit}" if signal.unit else kinds.get(signal.family, "in an unknown unit")
 
 
-def _length(unit: str) -> str:
+def _find_length_unit(unit: str) -> str:
     """The length or angle in a unit's name: ``rotation`` of RotationsPerSecond."""
     name = unit.lower()
     if name == "rpm" or "minute" in name:
@@ -281,7 +283,7 @@ def _length(unit: str) -> str:
     return SAME_LENGTH.get(found, found)
 
 
-def motion_family(name: str) -> str:
+def find_motion_family(name: str) -> str:
     """How a mechanism of this name moves, ``linear`` or ``angular``; empty if it does not tell."""
     words = [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
     linear = any(word.startswith(LINEAR) for word in words)
@@ -300,12 +302,12 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         earned: points all the same.
 
     Raises:
-        Wrong: it found something.
+        WrongAnswer: it found something.
     """
     for one in errors:
         stops = "the code does not compile" if language == "java" else "Python stops with an error"
         more = f" There are {len(errors)} such lines." if len(errors) > 1 else ""
-        raise Wrong(
+        raise WrongAnswer(
             f"line {one.line}: {one.message}",
             hint=f"Like this {stops}, and the robot runs none of it. Mend the name, its import or "
             f"its type.{more}",
@@ -324,6 +326,6 @@ def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
     return f"{what.text} in line {what.line}"
 
 
-def cannot_tell(what: str, text: str) -> str:
+def explain_doubt(what: str, text: str) -> str:
     """A question instead of a guess."""
     return f"I cannot tell {what} by reading{f' {text}' if text else ''}"

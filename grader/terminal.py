@@ -25,12 +25,12 @@ class StyledText:
 Line = tuple[StyledText, ...]
 
 
-def line(text: str = "", style: str = "") -> Line:
+def style_line(text: str = "", style: str = "") -> Line:
     """A line in one style."""
     return (StyledText(text, style),)
 
 
-def wrapped(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Line]:
+def wrap_text(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Line]:
     """A text under a lead of its own, broken into lines that fit.
 
     Args:
@@ -39,7 +39,7 @@ def wrapped(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Li
         style: of the text.
         spare: columns to keep free at the end.
     """
-    room = width() - len(lead) - spare
+    room = find_width() - len(lead) - spare
     rows = [
         row
         for paragraph in text.splitlines() or [""]
@@ -51,12 +51,12 @@ def wrapped(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Li
     ]
 
 
-def width() -> int:
+def find_width() -> int:
     """How wide a line may be."""
     return max(NARROWEST, min(WIDEST, shutil.get_terminal_size((WIDEST, 24)).columns))
 
 
-def show(lines: Iterable[Line]) -> None:
+def print_lines(lines: Iterable[Line]) -> None:
     """Print lines to standard output."""
     if not sys.stdout.isatty() or "NO_COLOR" in os.environ:
         for spans in lines:
@@ -72,6 +72,6 @@ def show(lines: Iterable[Line]) -> None:
         console.print(Text.assemble(*((make_printable(span.text), span.style) for span in spans)))
 
 
-def complain(said: str) -> None:
+def print_error(said: str) -> None:
     """One line to standard error."""
     command_line.print_error(said, name="grade")

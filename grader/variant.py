@@ -23,12 +23,12 @@ __all__ = [
     "SELF_STUDY",
     "cache_draws",
     "check_student_name",
-    "class_secret",
+    "derive_student_seed",
     "is_self_study",
     "make_folder_name",
+    "make_student_rng",
     "normalize_name",
-    "student_rng",
-    "student_seed",
+    "use_class_secret",
 ]  # fmt: skip
 
 Drawn = TypeVar("Drawn")
@@ -39,7 +39,7 @@ _SECRET = ContextVar("secret", default=SELF_STUDY)
 
 
 @contextmanager
-def class_secret(secret: bytes) -> Iterator[None]:
+def use_class_secret(secret: bytes) -> Iterator[None]:
     """Draw the numbers of a class with this secret, as long as the block lasts."""
     token = _SECRET.set(secret)
     try:
@@ -53,7 +53,7 @@ def is_self_study() -> bool:
     return _SECRET.get() == SELF_STUDY
 
 
-def student_seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:
+def derive_student_seed(student: str, exercise: str, *, secret: bytes | None = None) -> int:
     """The number everything of this student's exercise is drawn from.
 
     Args:
@@ -66,7 +66,7 @@ def student_seed(student: str, exercise: str, *, secret: bytes | None = None) ->
     return int.from_bytes(hmac.new(secret, message, hashlib.sha256).digest(), "big")
 
 
-def student_rng(
+def make_student_rng(
     student: str, exercise: str, *, draw: int = 0, secret: bytes | None = None
 ) -> "np.random.Generator":
     """A source of random numbers of this student's own, the same on every machine.
@@ -81,7 +81,7 @@ def student_rng(
     import numpy as np  # noqa: PLC0415 - most exercises draw nothing, and start at once
 
     name = f"{exercise}#{draw}" if draw else exercise
-    return np.random.Generator(np.random.PCG64(student_seed(student, name, secret=secret)))
+    return np.random.Generator(np.random.PCG64(derive_student_seed(student, name, secret=secret)))
 
 
 def cache_draws(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:

@@ -11,7 +11,7 @@ PAUSE = 0.4  # [s] between looks; asking the disk works on every file system, be
 CLEAR = "\x1b[2J\x1b[H"  # an empty screen, from its top
 
 
-def watch(
+def watch_exercise(
     exercise: Exercise,
     *,
     grade: Callable[[], int],
@@ -28,18 +28,18 @@ def watch(
         The exit code of the last grading.
     """
     while True:
-        seen = file_state(exercise)
+        seen = snapshot_files(exercise)
         if sys.stdout.isatty():
             sys.stdout.write(CLEAR)
         code = grade()
         sys.stdout.flush()
         if code == 0:
             return code
-        while file_state(exercise) == seen:
+        while snapshot_files(exercise) == seen:
             wait(PAUSE)
 
 
-def file_state(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
+def snapshot_files(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
     """What changes when a file of the exercise is saved: names, times and sizes."""
     found = []
     for name in exercise.files:
@@ -51,13 +51,13 @@ def file_state(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
     return tuple(found)
 
 
-def first_unfinished(
+def find_first_unfinished(
     exercises: tuple[Exercise, ...], done: Callable[[str], bool]
 ) -> Exercise | None:
     """The first exercise that is not done yet."""
     return next((one for one in exercises if not done(one.name)), None)
 
 
-def display_path(exercise: Exercise, course: Path) -> str:
+def format_path(exercise: Exercise, course: Path) -> str:
     """Where its files are, seen from the course folder."""
     return (exercise.folder / exercise.files[0]).relative_to(course).as_posix()

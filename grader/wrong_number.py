@@ -80,7 +80,7 @@ def explain_wrong_number(
         key: gain -> its value in the unit asked for.
         scene: the mechanism and its tests.
     """
-    found = list(_factors_off(name, value, right=right, scene=scene))
+    found = list(_explain_by_factors(name, value, right=right, scene=scene))
     if name == "kS" and {"kV", "kA"} <= key.keys():
         excess = key["kA"] / key["kV"] * scene.ramp
         if excess > 0 and right(value - excess):
@@ -99,7 +99,7 @@ _INTERCEPT = WrongNumber(
 )
 
 
-def _factors_off(
+def _explain_by_factors(
     name: str, value: float, *, right: Callable[[float], bool], scene: Scene
 ) -> Iterator[WrongNumber]:
     if right(-value):
@@ -108,7 +108,7 @@ def _factors_off(
             "the size is right, the sign is not. Positive volts have to give a positive velocity: "
             "is one of the two columns turned around?",
         )
-    factors = [*_factors(scene, velocity=name in {"kV", "kA"})]
+    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"})]
     if name == "kA" and scene.period:
         says = (
             f"samples are {scene.period:g} s apart. Did you divide the change of velocity by that?"
@@ -121,7 +121,7 @@ def _factors_off(
                 yield WrongNumber(factor.slip.code, says, factor.slip.misconception)
 
 
-def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
+def _list_factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
     """The factors a gain may be off by; kS and kG have no velocity in their unit."""
     duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
     yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))
@@ -130,7 +130,7 @@ def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
             1000.0, WrongNumber("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")
         )
         return
-    yield from _unit_factors(scene)
+    yield from _list_unit_factors(scene)
     gears = max(scene.ratio, 1.0 / scene.ratio)
     if gears > NOTICED:
         says = f"{gears:.3g} is the gear ratio. Is this the motor's velocity, not the mechanism's?"
@@ -142,7 +142,7 @@ def _factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
         yield _Factor(float(scene.motors), WrongNumber("motors", says))
 
 
-def _unit_factors(scene: Scene) -> Iterator[_Factor]:
+def _list_unit_factors(scene: Scene) -> Iterator[_Factor]:
     angular = (
         (2.0 * math.pi, "turns", "2π = 6.28. Were radians and rotations taken for each other?"),
         (180.0 / math.pi, "degrees", "57.3 = 180/π. Were degrees and radians mixed up?"),

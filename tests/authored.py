@@ -33,4 +33,7 @@ def authored_answer(one: Exercise, data: Path) -> dict[str, str]:
     folder = ROOT / "solutions" / one.name
     if (folder / "solve.py").is_file():
         return load(folder / "solve.py").solve(one.folder, data)
-    return {name: (folder / name).read_text(encoding="utf-8") for name in (*one.files, *one.beside)}
+    return {
+        name: (folder / name).read_text(encoding="utf-8")
+        for name in (*one.files, *one.companion_files)
+    }

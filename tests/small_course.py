@@ -2,7 +2,7 @@
 
 CHECKS = '''
 """An exercise to test the examiner with."""
-from grader.check import Wrong, check
+from grader.check import WrongAnswer, check
 from grader.submission import read_answers
 FILES = ("answers.toml",)
 
@@ -15,13 +15,15 @@ def size(answers):
     if answers.get("size") == "boom":
         raise KeyError("boom")
     if answers.get("size") != 3:
-        raise Wrong(str(answers.get("size")), hint="Count again ≈ ±1.", misconception="M-UNITS")
+        raise WrongAnswer(
+            str(answers.get("size")), hint="Count again ≈ ±1.", misconception="M-UNITS"
+        )
 
 @check(points=1, after=size)
 def color(answers):
     """The color is green."""
     if answers.get("color") != "green":
-        raise Wrong(str(answers.get("color")), hint="Look again.", earned=0.5)
+        raise WrongAnswer(str(answers.get("color")), hint="Look again.", earned=0.5)
 '''
 HINTS = 'concept = "Sizes are counted."\npointer = "Look at the ruler."\nstep = "One, two, …"\n'
 

@@ -6,23 +6,23 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grader.answer import BANDS, FAST_KA, Key, gains_asked, judge_number, read_answer_number
-from grader.check import Wrong
+from grader.answer import BANDS, FAST_KA, AnswerKey, ask_gains, judge_number, read_answer_number
+from grader.check import WrongAnswer
 from grader.misconception import MISCONCEPTIONS
 from grader.quantity import NotAUnitError, read_number, read_unit
 from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 TURN = 2 * math.pi
 GAINS = {"kS": 0.15, "kV": 2.4, "kA": 0.3}
-KEY = Key(gains_asked(GAINS, position="m"), Scene(ratio=8.46, motors=4, ramp=0.5, period=0.02))
+KEY = AnswerKey(ask_gains(GAINS, position="m"), Scene(ratio=8.46, motors=4, ramp=0.5, period=0.02))
 FLYWHEEL = {"kS": 0.10, "kV": 0.13, "kA": 0.035}
-FLYWHEEL_KEY = Key(
-    gains_asked(FLYWHEEL, position="rot"), Scene(angular=True, motors=2, ramp=0.5, period=0.02)
+FLYWHEEL_KEY = AnswerKey(
+    ask_gains(FLYWHEEL, position="rot"), Scene(angular=True, motors=2, ramp=0.5, period=0.02)
 )
 
 
 def wrong(name, given_, key=KEY, *, points=2):
-    with pytest.raises(Wrong) as caught:
+    with pytest.raises(WrongAnswer) as caught:
         judge_number(name, given_, key, points=points)
     return caught.value
 
@@ -117,7 +117,7 @@ def test_a_number_is_read_as_people_write_it(raw, value):
     ids=str,
 )
 def test_what_is_no_number_is_named_and_answered(raw, seen):
-    with pytest.raises(Wrong) as caught:
+    with pytest.raises(WrongAnswer) as caught:
         read_answer_number(raw, KEY.asked["kV"])
 
     assert seen in caught.value.seen
@@ -128,7 +128,7 @@ def test_what_is_no_number_is_named_and_answered(raw, seen):
 def test_any_text_is_a_number_or_is_refused(text):
     try:
         value = read_answer_number(text, KEY.asked["kV"])
-    except Wrong:
+    except WrongAnswer:
         return
     assert math.isfinite(value)
 
@@ -166,8 +166,8 @@ def test_bands_give_full_half_or_no_credit(name, share, earned):
 
 
 def test_a_fast_mechanism_gets_wider_bands_for_ka():
-    slow = gains_asked({"kV": 2.0, "kA": 0.101}, position="m")
-    fast = gains_asked({"kV": 2.0, "kA": 0.099}, position="m")
+    slow = ask_gains({"kV": 2.0, "kA": 0.101}, position="m")
+    fast = ask_gains({"kV": 2.0, "kA": 0.099}, position="m")
 
     assert (slow["kA"].band, fast["kA"].band) == (BANDS["kA"], FAST_KA)
 
@@ -216,7 +216,7 @@ def test_a_slip_of_what_goes_along_is_named(factor, said):
 
 def test_what_a_wrong_recipe_gives_is_recognized():
     slip = WrongNumber("recipe", "it comes from the wrong recipe", "M-NOISE-AVERAGES")
-    key = Key(KEY.asked, Scene(lookalikes={"kA": (Lookalike(0.22, slip),)}))
+    key = AnswerKey(KEY.asked, Scene(lookalikes={"kA": (Lookalike(0.22, slip),)}))
 
     assert "the wrong recipe" in wrong("kA", {"kA": 0.221}, key).hint
     assert "the wrong recipe" not in wrong("kA", {"kA": 0.235}, key).hint
@@ -264,10 +264,10 @@ def test_a_converted_answer_says_so():
 
 @given(st.floats(min_value=-50, max_value=50, allow_nan=False))
 def test_no_message_holds_the_key(value):
-    key = Key(gains_asked({"kS": 0.1537, "kV": 2.4371, "kA": 0.3191}, position="m"), KEY.scene)
+    key = AnswerKey(ask_gains({"kS": 0.1537, "kV": 2.4371, "kA": 0.3191}, position="m"), KEY.scene)
     try:
         judge_number("kV", {"kV": value}, key, points=1)
-    except Wrong as caught:
+    except WrongAnswer as caught:
         told = caught.seen + caught.hint
         if not math.isclose(value, 2.4371, rel_tol=1e-3):
             assert "2.437" not in told

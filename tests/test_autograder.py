@@ -16,11 +16,11 @@ import pytest
 import yaml
 
 from grader.autograder.submitter import find_submitter
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import find_exercise
 from grader.package_files import select_package_files
-from grader.release import common_package
-from grader.variant import class_secret
+from grader.release import make_common_package
+from grader.variant import use_class_secret
 from sim.core.errors import BadRequest
 
 EMAIL = "zoë.o'neil@example.org"
@@ -60,7 +60,7 @@ def export(root, tmp_path, monkeypatch):
     def export(*words, users=({"email": EMAIL, "id": 5, "name": "Zoë O'Neil"},)):
         monkeypatch.chdir(root)
         archive = tmp_path / "autograder.zip"
-        assert run(["export", "gradescope", "-o", str(archive), *words]) == 0
+        assert run_command(["export", "gradescope", "-o", str(archive), *words]) == 0
         place = tmp_path / "auto gräder"
         with zipfile.ZipFile(archive) as opened:
             opened.extractall(place / "source")
@@ -118,7 +118,7 @@ def test_a_roster_names_the_student_and_a_secret_draws_the_numbers(root, export,
     )  # fmt: skip
     warned = capsys.readouterr().err
     assert (tmp_path / "autograder.zip").stat().st_mode & 0o077 == 0
-    with class_secret(SECRET):
+    with use_class_secret(SECRET):
         answers = perfect(root, "exercise1", "zoë", tmp_path / "copy")
     for file, text in answers.items():
         (place / "submission" / file).write_text(text, encoding="utf-8")
@@ -169,9 +169,9 @@ def test_nothing_handed_in_is_a_result_of_zero(export):
 def test_the_autograder_holds_no_solutions_and_no_secret(root, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(root)
     words = ["export", "gradescope", "-o"]
-    assert run([*words, str(tmp_path / "a.zip")]) == 0
+    assert run_command([*words, str(tmp_path / "a.zip")]) == 0
     said = capsys.readouterr().err
-    assert run([*words, str(tmp_path / "b.zip")]) == 0
+    assert run_command([*words, str(tmp_path / "b.zip")]) == 0
 
     assert (tmp_path / "a.zip").read_bytes() == (tmp_path / "b.zip").read_bytes()
     with zipfile.ZipFile(tmp_path / "a.zip") as archive:
@@ -205,8 +205,8 @@ def test_grading_needs_none_of_the_packages_that_are_not_installed_there(root, t
     code = (
         "import sys\n"
         "for name in ('jupyterlab', 'ipywidgets', 'IPython'): sys.modules[name] = None\n"
-        "from grader.cli import run\n"
-        "sys.exit(run(['class', sys.argv[1], '--student', 'ann', '--exercise', '4', '-o', "
+        "from grader.cli import run_command\n"
+        "sys.exit(run_command(['class', sys.argv[1], '--student', 'ann', '--exercise', '4', '-o', "
         "sys.argv[2], '--export', 'gradescope']))"
     )
     place = root / "solutions" / "exercise4"
@@ -255,7 +255,7 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
 def test_what_cannot_be_exported_is_one_line(root, monkeypatch, capsys, words, said):
     monkeypatch.chdir(root)
 
-    assert run(["export", *(word.format(root=root) for word in words)]) == 2
+    assert run_command(["export", *(word.format(root=root) for word in words)]) == 2
     assert said in capsys.readouterr().err
     assert not (root / "x.zip").exists()
 
@@ -264,12 +264,15 @@ def test_what_cannot_be_exported_is_one_line(root, monkeypatch, capsys, words, s
 def workflow(root, tmp_path, monkeypatch):
     """A repository that students start from, with the workflow in it."""
     repository = tmp_path / "zoë's repository"
-    archive = zipfile.ZipFile(io.BytesIO(common_package(root)))
+    archive = zipfile.ZipFile(io.BytesIO(make_common_package(root)))
     archive.extractall(tmp_path)
     (tmp_path / "course").rename(repository)
     monkeypatch.chdir(repository)
     path = Path(".github") / "workflows" / "grade.yml"
-    assert run(["export", "github", "-o", str(path), "--exercise", "4", "--exercise", "1"]) == 0
+    assert (
+        run_command(["export", "github", "-o", str(path), "--exercise", "4", "--exercise", "1"])
+        == 0
+    )
     return repository, yaml.safe_load(path.read_text(encoding="utf-8"))
 
 

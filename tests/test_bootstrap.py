@@ -39,17 +39,17 @@ def world(tmp_path, monkeypatch):
             return world.code
 
     monkeypatch.setattr(bootstrap, "ROOT", tmp_path)
-    monkeypatch.setattr(bootstrap, "missing_packages", lambda _command: world.missing)
+    monkeypatch.setattr(bootstrap, "find_missing_packages", lambda _command: world.missing)
     monkeypatch.setattr(bootstrap.subprocess, "run", run)
     monkeypatch.setattr(bootstrap.subprocess, "Popen", Process)
-    monkeypatch.setattr(bootstrap, "in_environment", lambda: False)
+    monkeypatch.setattr(bootstrap, "is_in_environment", lambda: False)
     monkeypatch.delenv(bootstrap.HOPPED, raising=False)
     monkeypatch.delenv(bootstrap.INSTALLED, raising=False)
     return world
 
 
 def inside(monkeypatch):
-    monkeypatch.setattr(bootstrap, "in_environment", lambda: True)
+    monkeypatch.setattr(bootstrap, "is_in_environment", lambda: True)
 
 
 @pytest.mark.parametrize("file", STANDALONE)
@@ -85,7 +85,7 @@ def test_an_old_python_is_told_which_one_to_get(world, monkeypatch, capsys):
 def test_where_everything_is_there_it_is_grade(world, monkeypatch):
     world.missing = []
     given = []
-    monkeypatch.setattr("grader.cli.run", lambda arguments: given.append(arguments) or 1)
+    monkeypatch.setattr("grader.cli.run_command", lambda arguments: given.append(arguments) or 1)
 
     assert bootstrap.main(["exercise4", "--json"]) == 1
     assert given == [["exercise4", "--json"]]
@@ -211,7 +211,7 @@ def test_ctrl_c_is_quiet(monkeypatch, capsys):
     def interrupted(_command):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(bootstrap, "missing_packages", interrupted)
+    monkeypatch.setattr(bootstrap, "find_missing_packages", interrupted)
 
     assert bootstrap.main(["start"]) == 130
     assert capsys.readouterr().err == ""
@@ -233,7 +233,7 @@ def test_it_knows_an_environment_of_ones_own(tmp_path, monkeypatch, prefix, fold
     monkeypatch.setattr(sys, "prefix", str(tmp_path / prefix))
     monkeypatch.setattr(sys, "base_prefix", str(tmp_path / "base"))
 
-    assert bootstrap.in_environment() is own
+    assert bootstrap.is_in_environment() is own
 
 
 @pytest.mark.parametrize("command", [["start"], ["test"], ["exercise4"], []])
@@ -243,7 +243,7 @@ def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
 
     monkeypatch.setattr(bootstrap, "distribution", nothing)
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    names = bootstrap.missing_packages(command)
+    names = bootstrap.find_missing_packages(command)
 
     assert len(project["dependencies"]) <= len(names)
     assert {"click", "numpy", "jupyterlab"} <= set(names)
@@ -254,7 +254,7 @@ def test_what_is_missing_is_what_the_project_asks_for(monkeypatch, command):
 def test_what_is_there_is_not_missing(monkeypatch):
     monkeypatch.setattr(bootstrap, "distribution", lambda _name: None)
 
-    assert bootstrap.missing_packages(["test"]) == []
+    assert bootstrap.find_missing_packages(["test"]) == []
 
 
 def test_an_isolated_python_gets_as_far_as_installing(tmp_path):

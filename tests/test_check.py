@@ -2,7 +2,7 @@
 
 import pytest
 
-from grader.check import NotReached, Status, Wrong, check, run_all
+from grader.check import NotReachedError, Status, WrongAnswer, check, run_checks
 
 
 @check(points=1)
@@ -12,23 +12,23 @@ def positive(number):
     What stands here is for the author.
     """
     if number <= 0:
-        raise Wrong(f"{number}", hint="Turn the sign around.", misconception="M-UNITS")
+        raise WrongAnswer(f"{number}", hint="Turn the sign around.", misconception="M-UNITS")
 
 
 @check(points=2, after=positive)
 def large_enough(number):
     """The number is at least 10."""
     if number < 5:
-        raise Wrong(f"{number}", hint="More.")
+        raise WrongAnswer(f"{number}", hint="More.")
     if number < 10:
-        raise Wrong(f"{number}", hint="A little more.", earned=1.5)
+        raise WrongAnswer(f"{number}", hint="A little more.", earned=1.5)
 
 
 @check(points=1, after=(positive, large_enough))
 def even(number):
     """The number is even."""
     if number % 1:
-        raise NotReached("looked at once it is whole")
+        raise NotReachedError("looked at once it is whole")
     return "Zero is even, too." if number == 10 else None
 
 
@@ -61,7 +61,7 @@ def test_a_check_is_named_and_described_by_its_function():
     ids=["all", "nothing-to-look-at", "in-part", "second-wrong", "first-wrong"],
 )
 def test_what_comes_after_a_wrong_answer_is_not_reached(number, statuses, points):
-    results = run_all(CHECKS, number)
+    results = run_checks(CHECKS, number)
 
     assert [result.status for result in results] == statuses
     assert [result.points for result in results] == points
@@ -78,7 +78,7 @@ def test_a_wrong_answer_says_what_was_seen_and_what_to_try():
 
 
 def test_a_check_that_is_not_reached_says_what_has_to_come_first():
-    _, second, _ = run_all(CHECKS, -1)
+    _, second, _ = run_checks(CHECKS, -1)
 
     assert "The number is positive" in second.seen
 
@@ -100,7 +100,7 @@ def test_partial_credit_stays_between_nothing_and_everything(earned):
     @check(points=2)
     def greedy(_subject):
         """Anything."""
-        raise Wrong("", hint="", earned=earned)
+        raise WrongAnswer("", hint="", earned=earned)
 
     assert 0 <= greedy.run(None).points <= 2
 

@@ -5,7 +5,7 @@ import importlib.util
 import pytest
 from small_course import HALF, RIGHT, lay_out
 
-from grader.cli import run
+from grader.cli import run_command
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("distributed") is None,
@@ -41,8 +41,8 @@ def test_a_cluster_gives_the_results_that_one_process_gives(tmp_path, monkeypatc
         (place / "answers.toml").write_text(text, encoding="utf-8")
     asked = ["class", str(tmp_path / "in"), "--export", "gradescope"]
 
-    assert run([*asked, "-o", str(tmp_path / "here")]) == 1
-    assert run([*asked, "-o", str(tmp_path / "there"), "--cluster", address]) == 1
+    assert run_command([*asked, "-o", str(tmp_path / "here")]) == 1
+    assert run_command([*asked, "-o", str(tmp_path / "there"), "--cluster", address]) == 1
     assert contents(tmp_path / "there") == contents(tmp_path / "here")
 
 
@@ -53,5 +53,5 @@ def test_a_cluster_that_is_not_there_is_one_line(tmp_path, monkeypatch, capsys):
     (tmp_path / "in" / "ann").mkdir(parents=True)
 
     command = ["class", str(tmp_path / "in"), "--cluster", "tcp://127.0.0.1:1"]
-    assert run(command) == 2
+    assert run_command(command) == 2
     assert "no Dask scheduler answers" in capsys.readouterr().err

@@ -12,11 +12,11 @@ import pytest
 from page_flaws import page_flaws
 
 from grader.check import Check, Result, Status
-from grader.classroom.exports import exports
-from grader.classroom.grading import MISSING, Graded, grade_record, missing_record
-from grader.classroom.items import analyze_items, count_misconceptions, summarize_exercises
-from grader.classroom.page import class_summary, write_pages
-from grader.classroom.results import Results
+from grader.classroom.exports import list_exports
+from grader.classroom.grading import MISSING, GradedStudent, make_grade_record, make_missing_record
+from grader.classroom.item_analysis import analyze_items, count_misconceptions, summarize_exercises
+from grader.classroom.result_pages import summarize_class, write_pages
+from grader.classroom.results import ClassResults
 from grader.exercise import Grade
 from sim.core.errors import BadRequest
 
@@ -64,8 +64,10 @@ def student(name, *points, code="M-UNITS"):
         )
         score, most = sum(those), 2.0 * len(those)
         status = "passed" if score == most else "failed"
-        records.append(grade_record(Grade(f"exercise{number}", name, score, most, status, checks)))
-    return Graded(name, "", tuple(records))
+        records.append(
+            make_grade_record(Grade(f"exercise{number}", name, score, most, status, checks))
+        )
+    return GradedStudent(name, "", tuple(records))
 
 
 class Empty:
@@ -76,7 +78,7 @@ class Empty:
 
 
 def some(*people):
-    return Results("Robotics 1", people, ("exercise1", "exercise2"))
+    return ClassResults("Robotics 1", people, ("exercise1", "exercise2"))
 
 
 @pytest.fixture
@@ -109,8 +111,12 @@ def test_too_few_students_tell_nothing_apart():
 
 
 def test_who_handed_nothing_in_counts_as_absent_and_not_as_wrong():
-    absent = Graded("zoe", "", (missing_record(Empty(), "zoe", status=MISSING, reason="nothing"),))
-    broken = Graded("bob", "", (missing_record(Empty(), "bob", status="ungradable", reason="odd"),))
+    absent = GradedStudent(
+        "zoe", "", (make_missing_record(Empty(), "zoe", status=MISSING, reason="nothing"),)
+    )
+    broken = GradedStudent(
+        "bob", "", (make_missing_record(Empty(), "bob", status="ungradable", reason="odd"),)
+    )
     (column,) = summarize_exercises([student("ann", (2.0,)), absent, broken])
 
     assert (column.handed_in, column.full, column.ungradable, column.mean) == (2, 1, 1, 1.0)
@@ -118,7 +124,7 @@ def test_who_handed_nothing_in_counts_as_absent_and_not_as_wrong():
 
 
 def test_the_gradebook_is_safe_for_a_spreadsheet(results, tmp_path):
-    (path,) = exports()["gradebook"].write(results, tmp_path)
+    (path,) = list_exports()["gradebook"].write(results, tmp_path)
     rows = list(csv.reader(io.StringIO(path.read_text("utf-8-sig"), newline="")))
 
     assert path.read_bytes().startswith(b"\xef\xbb\xbf")
@@ -130,8 +136,8 @@ def test_the_gradebook_is_safe_for_a_spreadsheet(results, tmp_path):
 def test_canvas_gets_its_own_columns_back(tmp_path):
     people = some(student("ann", (2.0,), (1.0,)), student("ben", (0.0,), (0.0,)))
     roster = {"ann": {"Student": "Lee, Ann", "ID": "17", "SIS Login ID": "ann", "Section": "A"}}
-    known = Results(people.name, people.students, people.exercises, roster)
-    (path,) = exports()["canvas"].write(known, tmp_path)
+    known = ClassResults(people.name, people.students, people.exercises, roster)
+    (path,) = list_exports()["canvas"].write(known, tmp_path)
     rows = list(csv.reader(io.StringIO(path.read_text("utf-8"), newline="")))
 
     assert rows[0] == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "Robotics 1"]
@@ -141,7 +147,7 @@ def test_canvas_gets_its_own_columns_back(tmp_path):
 
 
 def test_gradescope_reads_it(results, tmp_path):
-    paths = exports()["gradescope"].write(results, tmp_path)
+    paths = list_exports()["gradescope"].write(results, tmp_path)
     totals = []
     for path in paths:
         told = json.loads(path.read_text("utf-8"))
@@ -159,7 +165,7 @@ def test_gradescope_reads_it(results, tmp_path):
 
 def test_junit_reads_it(results, tmp_path):
     odd = student("control \x00\x1b\ud800 sign", (0.0,), (2.0,))
-    (path,) = exports()["junit"].write(some(*results.students, odd), tmp_path)
+    (path,) = list_exports()["junit"].write(some(*results.students, odd), tmp_path)
     top = ET.fromstring(path.read_text("utf-8"))  # noqa: S314 - written by us a moment ago
 
     def check(element):
@@ -179,7 +185,7 @@ def test_junit_reads_it(results, tmp_path):
 
 
 def test_github_reads_it(results, tmp_path):
-    paths = exports()["github"].write(results, tmp_path)
+    paths = list_exports()["github"].write(results, tmp_path)
     found = []
     for path in paths:
         line = path.read_text("utf-8")
@@ -210,11 +216,13 @@ def test_pages_are_whole_ask_nobody_and_escape_names(results, tmp_path):
 
 
 def test_the_summary_counts_people():
-    nobody = some(Graded("zoe", "", (missing_record(Empty(), "zoe", status=MISSING, reason=""),)))
+    nobody = some(
+        GradedStudent("zoe", "", (make_missing_record(Empty(), "zoe", status=MISSING, reason=""),))
+    )
 
-    assert class_summary(nobody) == "0 of 1 students handed something in."
+    assert summarize_class(nobody) == "0 of 1 students handed something in."
     one = some(student("ann", (2.0,), (2.0,)), student("ben", (0.0,), (2.0,)))
-    assert class_summary(one) == (
+    assert summarize_class(one) == (
         "2 of 2 students handed something in; on average they have 75 % of all points, and 1 has "
         "full marks."
     )
@@ -228,14 +236,14 @@ def test_a_class_of_five_hundred_gives_a_page_that_can_be_opened(tmp_path):
     assert "500 students, the best above" not in page.read_text("utf-8")  # drawn, not typed
 
 
-@pytest.mark.parametrize("name", exports())
+@pytest.mark.parametrize("name", list_exports())
 def test_what_cannot_be_written_is_one_line(name, results, tmp_path):
     (tmp_path / "in the way").write_text("", encoding="utf-8")
 
     with pytest.raises(BadRequest):
-        exports()[name].write(results, tmp_path / "in the way")
+        list_exports()[name].write(results, tmp_path / "in the way")
 
 
 def test_every_format_says_what_it_is():
-    assert set(exports()) == {"canvas", "github", "gradebook", "gradescope", "junit"}
-    assert all(len(one.summary) > 20 for one in exports().values())
+    assert set(list_exports()) == {"canvas", "github", "gradebook", "gradescope", "junit"}
+    assert all(len(one.summary) > 20 for one in list_exports().values())

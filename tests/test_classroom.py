@@ -12,12 +12,12 @@ from pathlib import Path
 import pytest
 from small_course import HALF, RIGHT, lay_out
 
-from grader.classroom.roster import read_members
-from grader.classroom.run import GradedClass, grade_all, plan_grading
-from grader.classroom.store import Store
+from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
+from grader.classroom.roster import read_class_roster
+from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_submissions, read_submission
-from grader.cli import run
-from grader.exercise import exercises
+from grader.cli import run_command
+from grader.exercise import list_exercises
 from sim.core.errors import BadRequest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -75,7 +75,7 @@ def contents(folder):
 def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(course, tmp_path, capsys):
     there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF, cat=BOOM, dan="size = [", eve=RIGHT)
 
-    assert run(["class", str(there)]) == 1  # two could not be graded
+    assert run_command(["class", str(there)]) == 1  # two could not be graded
     said = capsys.readouterr()
     rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()
 
@@ -105,7 +105,7 @@ def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
     for name, processes in (("one", "1"), ("four", "4"), ("again", "1")):
         out = tmp_path / name
         command = ["class", str(there), "-o", str(out), "--processes", processes, *exports]
-        assert run(command) == 0
+        assert run_command(command) == 0
         found.append(contents(out))
 
     assert len(found[0]) == 20 * 4 + 4  # results, pages, two exports; index, gradebook, …
@@ -114,15 +114,15 @@ def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
 
 def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, ben=HALF)
-    store = Store(tmp_path / "out")
+    store = ResultStore(tmp_path / "out")
 
     def left(*, secret=None, again=False):
         work = GradedClass(
-            find_submissions(there, exercises(course)), exercises(course), course, secret
+            find_submissions(there, list_exercises(course)), list_exercises(course), course, secret
         )
         todo = plan_grading(work, store, travel=False, again=again)
-        grade_all(work, todo, store, processes=1, cluster=None, say=lambda: None)
-        return [job.student for job in todo.todo]
+        grade_class(work, todo, store, processes=1, cluster=None, say=lambda: None)
+        return [job.student for job in todo.jobs]
 
     assert left() == ["ann", "ben"]
     assert left() == []
@@ -143,7 +143,7 @@ def test_who_brings_the_grading_process_down_is_found_out_and_bears_it_alone(cou
     many = {f"student{number}": "size = 3\n" for number in range(8)}
     there = hand_in(tmp_path / "in", **many, villain="kill = true\n")
 
-    assert run(["class", str(there), "--processes", "2"]) == 1
+    assert run_command(["class", str(there), "--processes", "2"]) == 1
     scores = {
         name: graded(tmp_path / "in-graded", name)["records"][0]["score"]
         for name in (*many, "villain")
@@ -170,7 +170,7 @@ def test_a_killed_run_goes_on_where_it_was(course, tmp_path):
     kept = {path: path.stat().st_mtime_ns for path in results.glob("[!.]*.json")}
 
     assert 2 <= len(kept) < 6
-    assert run(["class", str(there), "--processes", "1"]) == 0
+    assert run_command(["class", str(there), "--processes", "1"]) == 0
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     assert len(list(results.glob("[!.]*.json"))) == 6
 
@@ -192,7 +192,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
     (place / "dan.zip").write_bytes(b"PK\x03\x04 not quite")
     (place / ".DS_Store").write_bytes(b"")
     (place / "__MACOSX").mkdir()
-    found = {one.student: one for one in find_submissions(place, exercises(course))}
+    found = {one.student: one for one in find_submissions(place, list_exercises(course))}
 
     assert found["ann"].files == {"exercise1": {"answers.toml": RIGHT.encode()}}
     assert found["ben"].files == {"exercise1": {"answers.toml": HALF.encode()}}
@@ -205,7 +205,7 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
 def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, **{"x" * 100: RIGHT})
 
-    assert run(["class", str(there)]) == 1
+    assert run_command(["class", str(there)]) == 1
     text = (tmp_path / "in-graded" / "index.html").read_text("utf-8")
     assert "the student&#39;s name has 100 characters" in text
     assert len(list((tmp_path / "in-graded" / "students").iterdir())) == 2
@@ -218,7 +218,7 @@ def test_a_link_is_nobodys_answer(course, tmp_path):
     (tmp_path / "key.toml").write_text(RIGHT, encoding="utf-8")
     (place / "answers.toml").symlink_to(tmp_path / "key.toml")
 
-    assert read_submission(tmp_path / "in" / "ann", exercises(course)).files == {}
+    assert read_submission(tmp_path / "in" / "ann", list_exercises(course)).files == {}
 
 
 @pytest.mark.parametrize(
@@ -234,7 +234,7 @@ def test_a_link_is_nobodys_answer(course, tmp_path):
 def test_a_class_that_cannot_be_graded_is_one_line(tmp_path, capsys, make, said):
     make(tmp_path / "in")
 
-    assert run(["class", str(tmp_path / "in")]) == 2
+    assert run_command(["class", str(tmp_path / "in")]) == 2
     assert said in capsys.readouterr().err
 
 
@@ -242,9 +242,9 @@ def test_a_class_that_cannot_be_graded_is_one_line(tmp_path, capsys, make, said)
 def test_an_unknown_format_and_exercise_are_one_line(tmp_path, capsys):
     there = hand_in(tmp_path / "in", ann=RIGHT)
 
-    assert run(["class", str(there), "--export", "moodle"]) == 2
+    assert run_command(["class", str(there), "--export", "moodle"]) == 2
     assert "canvas, github, gradebook, gradescope, junit" in capsys.readouterr().err
-    assert run(["class", str(there), "--exercise", "7"]) == 2
+    assert run_command(["class", str(there), "--exercise", "7"]) == 2
     assert "there is no exercise '7'" in capsys.readouterr().err
 
 
@@ -254,7 +254,7 @@ def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys):
     roster = tmp_path / "roster.csv"
     roster.write_text("team;Student\n1;Ann\n1;Zoë\n", encoding="utf-8-sig")
 
-    assert run(["class", str(there), "--roster", str(roster)]) == 1
+    assert run_command(["class", str(there), "--roster", str(roster)]) == 1
     rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()
     points = dict(row.split(",")[:2] for row in rows[1:])
     assert points == {"Ann": "3", "stranger": "0", "Zoë": "0"}
@@ -269,7 +269,7 @@ def test_canvas_own_export_is_a_roster(tmp_path):
         encoding="utf-8",
     )
 
-    row = read_members(path).rows["ann"]
+    row = read_class_roster(path).rows["ann"]
     assert (row["Student"], row["ID"], row["SIS User ID"], row["Section"]) == (
         "Lee, Ann", "17", "s17", "A",
     )  # fmt: skip
@@ -283,7 +283,7 @@ def test_a_roster_of_nobody_or_of_twins_is_refused(tmp_path, text, said):
     (tmp_path / "roster.csv").write_text(text, encoding="utf-8")
 
     with pytest.raises(BadRequest, match=said):
-        read_members(tmp_path / "roster.csv")
+        read_class_roster(tmp_path / "roster.csv")
 
 
 @pytest.mark.usefixtures("course")
@@ -292,6 +292,6 @@ def test_one_student_alone_is_graded_as_an_autograder_does_it(tmp_path):
     out = tmp_path / "out"
     command = ["class", str(there), "--student", "ann", "-o", str(out), "--export", "gradescope"]
 
-    assert run(command) == 0
+    assert run_command(command) == 0
     result = json.loads((out / "gradescope" / "ann" / "results.json").read_text("utf-8"))
     assert sum(test["score"] for test in result["tests"]) == 2.5

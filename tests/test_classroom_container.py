@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from small_course import RIGHT, lay_out
 
-from grader.classroom.container import BUILD, DOCKERFILE, answering_engines
-from grader.cli import run
+from grader.classroom.container import BUILD, DOCKERFILE, find_engines
+from grader.cli import run_command
 
 posix = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in is a script")
 pytestmark = posix
@@ -73,7 +73,7 @@ def test_a_class_is_graded_inside_and_the_results_lie_outside(tmp_path, engine, 
     asked = engine()
     options = ["--roster", str(tmp_path / "roster.csv"), "--name", "Our class", "--processes", "1"]
 
-    code = run(["class", str(handed_in), "--in", "docker", "--export", "junit", *options])
+    code = run_command(["class", str(handed_in), "--in", "docker", "--export", "junit", *options])
 
     graded = handed_in.with_name("hand ins-graded")
     assert code == 0
@@ -98,7 +98,7 @@ def test_a_class_is_graded_inside_and_the_results_lie_outside(tmp_path, engine, 
 def test_a_secret_stands_on_no_command_line(engine, handed_in, monkeypatch):
     asked = engine("podman")
     monkeypatch.setenv("SYSID_SECRET", "a secret of the whole class, thirty two bytes")
-    run(["class", str(handed_in), "--in", "podman", "--no-run", "--processes", "1"])
+    run_command(["class", str(handed_in), "--in", "podman", "--no-run", "--processes", "1"])
 
     words = asked()
     assert words[words.index("SYSID_SECRET") - 1] == "--env"
@@ -110,7 +110,7 @@ def test_a_secret_stands_on_no_command_line(engine, handed_in, monkeypatch):
 def test_an_engine_that_cannot_start_says_how_to_make_the_image(engine, handed_in, capsys, code):
     engine(code=code)
 
-    assert run(["class", str(handed_in), "--in", "docker"]) == 2
+    assert run_command(["class", str(handed_in), "--in", "docker"]) == 2
     said = " ".join(capsys.readouterr().err.split())
     assert "docker could not start the image 'sysid-course'" in said
     assert BUILD.format(engine="docker") in said
@@ -119,15 +119,15 @@ def test_an_engine_that_cannot_start_says_how_to_make_the_image(engine, handed_i
 def test_an_engine_that_is_not_there_is_said(handed_in, capsys, monkeypatch):
     monkeypatch.setenv("PATH", os.devnull)
 
-    assert run(["class", str(handed_in), "--in", "podman"]) == 2
+    assert run_command(["class", str(handed_in), "--in", "podman"]) == 2
     assert "podman is not installed" in capsys.readouterr().err
-    assert answering_engines() == []
+    assert find_engines() == []
 
 
 def test_a_cluster_and_a_container_exclude_each_other(engine, handed_in, capsys):
     engine()
 
-    assert run(["class", str(handed_in), "--in", "docker", "--cluster", "tcp://a:1"]) == 2
+    assert run_command(["class", str(handed_in), "--in", "docker", "--cluster", "tcp://a:1"]) == 2
     assert "exclude each other" in capsys.readouterr().err
 
 
@@ -135,13 +135,13 @@ def test_a_cluster_and_a_container_exclude_each_other(engine, handed_in, capsys)
 def test_an_engine_is_there_if_it_answers(engine, code, found):
     engine(code=code)
 
-    assert answering_engines() == found
+    assert find_engines() == found
 
 
 @pytest.mark.parametrize(("code", "says"), [(0, "docker answers"), (1, "neither docker nor")])
 def test_the_doctor_says_whether_an_engine_answers(engine, handed_in, capsys, code, says):  # noqa: ARG001 - it stands in the course
     engine(code=code)
-    run(["doctor"])
+    run_command(["doctor"])
 
     assert says in " ".join(capsys.readouterr().out.split())
 

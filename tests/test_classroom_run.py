@@ -8,10 +8,10 @@ from robot_mistakes import RIGHT, ROOT, changed, needs_robot
 from small_course import lay_out
 
 import grader.isolation
-from grader.classroom.run import GradedClass
+from grader.classroom.class_grading import GradedClass
 from grader.classroom.submissions import find_submissions
-from grader.cli import run
-from grader.exercise import Exercise, exercises
+from grader.cli import run_command
+from grader.exercise import Exercise, list_exercises
 
 CHECKS = '''
 """An exercise that says whether it was asked to run what it was given."""
@@ -54,7 +54,7 @@ def note(tmp_path):
 @pytest.fixture
 def level(request, monkeypatch):
     """What this machine can do, as the command is told."""
-    monkeypatch.setattr(grader.isolation, "isolation_level", lambda: request.param)
+    monkeypatch.setattr(grader.isolation, "find_isolation_level", lambda: request.param)
     return request.param
 
 
@@ -71,7 +71,7 @@ def level(request, monkeypatch):
     indirect=["level"],
 )
 def test_code_is_run_where_it_can_be_shut_in_or_as_told(tmp_path, capsys, level, options, asked):
-    assert run(["class", str(tmp_path / "in"), "--processes", "1", *options]) == 0
+    assert run_command(["class", str(tmp_path / "in"), "--processes", "1", *options]) == 0
     assert note(tmp_path) == f"run={asked}"
 
     said = " ".join(capsys.readouterr().err.split())
@@ -82,18 +82,18 @@ def test_code_is_run_where_it_can_be_shut_in_or_as_told(tmp_path, capsys, level,
 @pytest.mark.usefixtures("course")
 def test_results_of_running_are_not_taken_for_results_of_reading(tmp_path):
     for option, asked in (("--run", True), ("--no-run", False), ("--run", True)):
-        assert run(["class", str(tmp_path / "in"), "--processes", "1", option]) == 0
+        assert run_command(["class", str(tmp_path / "in"), "--processes", "1", option]) == 0
         assert note(tmp_path) == f"run={asked}"
 
 
 def test_the_digest_says_whether_code_was_run_and_by_which_robotpy(course, tmp_path, monkeypatch):
     def digest(*, run):
-        there = exercises(course)
+        there = list_exercises(course)
         work = GradedClass(find_submissions(tmp_path / "in", there), there, course, run=run)
-        return work.jobs(travel=False)[0].digest
+        return work.make_jobs(travel=False)[0].digest
 
     found = {digest(run=True), digest(run=False)}
-    monkeypatch.setattr("grader.classroom.run.version", lambda _: "2027.1.1")
+    monkeypatch.setattr("grader.classroom.class_grading.version", lambda _: "2027.1.1")
 
     assert digest(run=False) in found
     assert len(found | {digest(run=True)}) == 3
@@ -103,18 +103,18 @@ def test_an_exercise_that_only_reads_is_not_asked_to_run(tmp_path, monkeypatch, 
     lay_out(tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(
-        grader.isolation, "isolation_level", lambda: pytest.fail("nobody needs to know")
+        grader.isolation, "find_isolation_level", lambda: pytest.fail("nobody needs to know")
     )
     shutil.copytree(tmp_path / "exercises", tmp_path / "in" / "ann")
 
-    assert exercises(tmp_path)[0].runs is False
-    assert run(["class", str(tmp_path / "in"), "--processes", "1"]) == 0
+    assert list_exercises(tmp_path)[0].runs_code is False
+    assert run_command(["class", str(tmp_path / "in"), "--processes", "1"]) == 0
     assert "students' code" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["exercise4", "exercise5", "exercise9", "practice"])
 def test_what_runs_a_learners_code_can_be_told_not_to(name):
-    assert Exercise(name, ROOT / "exercises" / name).runs
+    assert Exercise(name, ROOT / "exercises" / name).runs_code
 
 
 @needs_robot

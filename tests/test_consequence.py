@@ -10,11 +10,11 @@ import pytest
 from page_flaws import page_flaws
 
 from grader import submit
-from grader.cli import run
-from grader.exercise import exercises
+from grader.cli import run_command
+from grader.exercise import list_exercises
 
 ROOT = Path(__file__).resolve().parents[1]
-EXERCISES = {one.name: one for one in exercises(ROOT)}
+EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 TELLING = ("exercise1", "exercise3", "exercise6", "exercise9", "exercise10")
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
 SLOWEST = 0.3  # [s] on top of grading
@@ -31,7 +31,7 @@ def course(tmp_path, monkeypatch):
         )
     (tmp_path / "lessons").mkdir()
     monkeypatch.chdir(tmp_path)
-    return {one.name: one for one in exercises(tmp_path)}
+    return {one.name: one for one in list_exercises(tmp_path)}
 
 
 def key(name, student):
@@ -55,7 +55,7 @@ def write(one, **answers):
 def consequence(one, *, student="ann", **answers):
     if answers:
         write(one, **answers)
-    return one.consequence(one.grade(None, student=student))
+    return one.find_consequence(one.grade(None, student=student))
 
 
 TABLE = [
@@ -181,7 +181,7 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
     right = key("exercise9", "me")
     write(course["exercise9"], **(right | {"kV": 3.0 * right["kV"]}))
 
-    assert run(["9", "--picture", "what.svg"]) == 1
+    assert run_command(["9", "--picture", "what.svg"]) == 1
     out, err = capsys.readouterr()
     assert "then  Your numbers as feedforward, without feedback. Told to do" in out
     assert "See it: grade exercise9 --picture what.svg" in out
@@ -193,14 +193,14 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
 def test_a_picture_that_cannot_be_is_said(course, capsys):
     right = key("exercise9", "me")
     write(course["exercise9"], **right)
-    assert run(["9", "--picture", "what.svg"]) == 1  # the function is not written yet
+    assert run_command(["9", "--picture", "what.svg"]) == 1  # the function is not written yet
     assert "leaves nothing to see on a robot" in capsys.readouterr().err
     assert not Path("what.svg").exists()
 
     write(course["exercise9"], **(right | {"kV": 1.0}))
-    assert run(["9", "--picture", "what.doc"]) == 2
+    assert run_command(["9", "--picture", "what.doc"]) == 2
     assert "no picture ends in '.doc'" in capsys.readouterr().err
-    assert run(["--picture", "what.svg"]) == 2
+    assert run_command(["--picture", "what.svg"]) == 2
     assert "Say which: grade exercise4 --picture what.svg" in capsys.readouterr().err
 
 
@@ -222,7 +222,7 @@ def test_words_wait_for_no_drawing_library_and_take_little_time(course):
     code = (
         "import sys, time; from pathlib import Path; from grader.exercise import find_exercise\n"
         "one = find_exercise('3', Path.cwd()); grade = one.grade(None, student='me')\n"
-        "start = time.perf_counter(); found = one.consequence(grade)\n"
+        "start = time.perf_counter(); found = one.find_consequence(grade)\n"
         "print(time.perf_counter() - start, 'matplotlib' in sys.modules, 'sinks' in found.words)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -11,9 +11,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_course import HALF, RIGHT, answer, lay_out
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import PLACE, Progress, Standing, find_course, load_progress, update_progress
-from grader.variant import check_student_name, make_folder_name, student_rng, student_seed
+from grader.variant import (
+    check_student_name,
+    derive_student_seed,
+    make_folder_name,
+    make_student_rng,
+)
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
@@ -31,9 +36,9 @@ def course(tmp_path, monkeypatch):
 def test_the_best_score_is_kept(course, capsys):
     for text in (HALF, "size = 0"):
         answer(course, text)
-        run(["exercise1"])
+        run_command(["exercise1"])
     capsys.readouterr()
-    run([])
+    run_command([])
 
     assert "2.5 of 3" in capsys.readouterr().out
     kept = tomllib.loads((course / PLACE).read_text("utf-8"))
@@ -56,13 +61,13 @@ def test_damaged_progress_is_said_set_aside_and_begun_anew(course, capsys, text)
     (course / ".course").mkdir()
     (course / PLACE).write_text(text, "utf-8")
 
-    assert run([]) == 0
+    assert run_command([]) == 0
     out, err = capsys.readouterr()
     assert "could not be read; it starts anew" in err
     assert "0 of 1 exercises done" in out
     assert (course / ".course" / "progress.toml.bak").read_text("utf-8") == text
 
-    run([])
+    run_command([])
     assert capsys.readouterr().err == ""
 
 
@@ -70,7 +75,7 @@ def test_progress_that_cannot_be_kept_does_not_stop_grading(course, capsys):
     (course / ".course").write_text("a file where a folder should be", "utf-8")
     answer(course, RIGHT)
 
-    assert run(["exercise1"]) == 0
+    assert run_command(["exercise1"]) == 0
     assert "could not be saved" in capsys.readouterr().err
 
 
@@ -103,7 +108,7 @@ from grader.course import update_progress
 number = int(sys.argv[1])
 name = f"exercise{number}"
 for _ in range(5):
-    update_progress(Path(), lambda now: now.with_score("ann", name, score=1, max_score=1))
+    update_progress(Path(), lambda now: now.add_score("ann", name, score=1, max_score=1))
 """
 
 
@@ -119,7 +124,7 @@ def test_eight_that_grade_at_once_all_keep_their_scores(course):
     assert [one.wait(120) for one in running] == [0] * 8
     standings = load_progress(course)[0].standings["ann"]
 
-    assert {name for name, one in standings.items() if one.done} == {
+    assert {name for name, one in standings.items() if one.is_done} == {
         f"exercise{number}" for number in range(8)
     }
     assert list((course / ".course").glob("*.part")) == []
@@ -133,12 +138,12 @@ def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys)
     for name in ("progress.toml.bak", "progress.toml.2.bak"):
         path.write_text(content, encoding="utf-8")
 
-        assert run(["exercise1"]) == 0
+        assert run_command(["exercise1"]) == 0
         assert f"could not be read; it starts anew, and the damaged file is now {name}" in (
             capsys.readouterr().err
         )
         assert (path.parent / name).read_text(encoding="utf-8") == content
-        assert load_progress(course)[0].of("me", "exercise1").done
+        assert load_progress(course)[0].find_standing("me", "exercise1").is_done
 
 
 def test_a_disk_that_is_full_leaves_the_old_file_and_no_part(tmp_path, monkeypatch):
@@ -199,13 +204,13 @@ def test_any_name_has_a_folder_or_is_refused(name):
 
 
 def test_numbers_are_drawn_from_who_one_is():
-    assert student_seed("ann", "exercise9") == student_seed("Ann ", "exercise9")
+    assert derive_student_seed("ann", "exercise9") == derive_student_seed("Ann ", "exercise9")
     drawn = {
-        student_rng(*who, draw=draw).integers(2**62)
+        make_student_rng(*who, draw=draw).integers(2**62)
         for who in (("ann", "exercise9"), ("ben", "exercise9"), ("ann", "exercise1"))
         for draw in (0, 1)
     }
     assert len(drawn) == 6
-    assert student_seed("ann", "exercise9") != student_seed(
+    assert derive_student_seed("ann", "exercise9") != derive_student_seed(
         "ann", "exercise9", secret=b"a class's own"
     )

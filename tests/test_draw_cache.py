@@ -8,17 +8,17 @@ from types import SimpleNamespace
 import pytest
 
 from grader import draw_cache as room
-from grader.draw_cache import draw_cache_enabled
+from grader.draw_cache import enable_draw_cache
 from grader.student_files import write_student_files
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 from sim.support.work import cache
 
 DRAWN = """
-from grader.draw_cache import cached_draw
+from grader.draw_cache import cache_draw_on_disk
 
 COUNT = []
 
-@cached_draw
+@cache_draw_on_disk
 def draw(student):
     COUNT.append(student)
     return {"student": student, "number": NUMBER}
@@ -29,7 +29,7 @@ def draw(student):
 def shelf(tmp_path, monkeypatch):
     """The folder of what is kept, empty."""
     monkeypatch.setenv(cache.CACHE, str(tmp_path / "cache"))
-    room._code.cache_clear()
+    room._fingerprint_code.cache_clear()
     return tmp_path / "cache" / "drawn"
 
 
@@ -38,13 +38,13 @@ def loaded(folder, number=5):
     folder.mkdir(exist_ok=True)
     path = folder / "drawn.py"
     path.write_text(DRAWN.replace("NUMBER", str(number)), encoding="utf-8")
-    room._code.cache_clear()
+    room._fingerprint_code.cache_clear()
     return SimpleNamespace(**runpy.run_path(str(path)))
 
 
 def test_what_was_drawn_is_not_drawn_again(shelf, tmp_path):
     first, second = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise7")
-    with draw_cache_enabled():
+    with enable_draw_cache():
         drawn = first.draw("ann")
         assert second.draw(" ANN ") == drawn == {"student": "ann", "number": 5}
 
@@ -54,7 +54,7 @@ def test_what_was_drawn_is_not_drawn_again(shelf, tmp_path):
 
 def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
     one, other = loaded(tmp_path / "exercise7"), loaded(tmp_path / "exercise8")
-    with draw_cache_enabled():
+    with enable_draw_cache():
         assert one.draw("ann")["student"] == "ann"
         assert one.draw("bob")["student"] == "bob"
         assert other.draw("ann")["student"] == "ann"
@@ -65,14 +65,14 @@ def test_another_student_and_another_exercise_draw_their_own(shelf, tmp_path):
 
 def test_a_class_leaves_nothing_behind_and_takes_nothing(shelf, tmp_path):
     module = loaded(tmp_path / "exercise7")
-    with draw_cache_enabled(), class_secret(b"of the class"):
+    with enable_draw_cache(), use_class_secret(b"of the class"):
         module.draw("ann")
         module.draw("ann")
     assert not shelf.exists()
 
-    with draw_cache_enabled():
+    with enable_draw_cache():
         module.draw("ann")
-        with class_secret(b"of the class"):
+        with use_class_secret(b"of the class"):
             module.draw("ann")
     assert module.COUNT == ["ann"] * 4
 
@@ -84,7 +84,7 @@ def test_nothing_is_kept_unless_asked(shelf, tmp_path):
 
 
 def test_changed_code_draws_anew(shelf, tmp_path):
-    with draw_cache_enabled():
+    with enable_draw_cache():
         assert loaded(tmp_path / "exercise7", 5).draw("ann")["number"] == 5
         assert loaded(tmp_path / "exercise7", 6).draw("ann")["number"] == 6
 
@@ -98,7 +98,7 @@ def test_changed_code_draws_anew(shelf, tmp_path):
 )
 def test_a_damaged_file_is_drawn_again(shelf, tmp_path, content):
     module = loaded(tmp_path / "exercise7")
-    with draw_cache_enabled():
+    with enable_draw_cache():
         module.draw("ann")
         (file,) = shelf.iterdir()
         file.write_bytes(content)
@@ -112,14 +112,14 @@ def test_where_nothing_can_be_kept_it_is_drawn(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("no folder", encoding="utf-8")
     monkeypatch.setenv(cache.CACHE, str(tmp_path / "file"))
 
-    with draw_cache_enabled():
+    with enable_draw_cache():
         assert loaded(tmp_path / "exercise7").draw("ann")["number"] == 5
 
 
 def test_the_oldest_are_forgotten(shelf, tmp_path, monkeypatch):
     monkeypatch.setattr(room, "MOST", 3)
     module = loaded(tmp_path / "exercise7")
-    with draw_cache_enabled():
+    with enable_draw_cache():
         for age, student in enumerate(["ann", "bob", "cid", "dan", "eve"]):
             module.draw(student)
             for file in shelf.iterdir():  # all that is there is older than what comes
@@ -138,7 +138,7 @@ def test_files_that_are_as_made_are_not_made_again(tmp_path):
     made, exercise = [], tmp_path / "exercises" / "exercise7"
     files = {"log.csv": lambda path: (made.append(path), path.write_bytes(b"rows"))}
     told = {"exercise": exercise, "student": "ann", "what": "log", "say": lambda _: None}
-    with draw_cache_enabled():
+    with enable_draw_cache():
         write_student_files(files, **told)
         write_student_files(files, **told)
         assert len(made) == 1

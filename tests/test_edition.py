@@ -6,9 +6,9 @@ import nbformat
 import pytest
 from page_flaws import page_flaws
 
-from grader.cli import run
-from grader.edition import build
-from grader.edition.rendered import highlight_python
+from grader.cli import run_command
+from grader.edition import build_pages
+from grader.edition.notebook_html import highlight_python
 from sim.core.errors import BadRequest
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
@@ -42,7 +42,7 @@ def lesson(tmp_path):
 def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_path):
     first = lesson("01_measure", *CELLS)
     second = lesson("02_more", MARKDOWN("# Lesson 2: More\n\n## System check\n\nagain"))
-    index = build([first, second], tmp_path / "out")
+    index = build_pages([first, second], tmp_path / "out")
     pages = {path.name: path.read_text("utf-8") for path in (tmp_path / "out").iterdir()}
 
     assert index.name == "index.html"
@@ -78,7 +78,7 @@ def test_a_page_shows_nobodys_own_data(lesson, tmp_path):
     (own / "log.wpilog").write_bytes(b"mine")
     (own.parents[1] / "answers.toml").write_text("", encoding="utf-8")
     code = "from pathlib import Path\nprint(sorted(p.name for p in Path('..').rglob('*.*')))"
-    build([lesson("01_look", MARKDOWN("# Lesson 1: Look"), CODE(code))], tmp_path / "out")
+    build_pages([lesson("01_look", MARKDOWN("# Lesson 1: Look"), CODE(code))], tmp_path / "out")
 
     page = (tmp_path / "out" / "01_look.html").read_text("utf-8")
 
@@ -91,14 +91,14 @@ def test_a_lesson_that_fails_is_one_line_and_leaves_no_page(lesson, tmp_path, mo
     (tmp_path / "exercises").mkdir()
     monkeypatch.chdir(tmp_path)
 
-    assert run(["edition", "-o", "out"]) == 2
+    assert run_command(["edition", "-o", "out"]) == 2
     assert "a cell of 01_broken.ipynb fails: ZeroDivisionError" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
 def test_no_lessons_are_refused(tmp_path):
     with pytest.raises(BadRequest, match="no lessons"):
-        build([], tmp_path)
+        build_pages([], tmp_path)
 
 
 def test_code_is_escaped():

@@ -8,19 +8,22 @@ import time
 
 import pytest
 
-from grader.exec_process import run
+from grader.exec_process import run_process
 
 
 @pytest.mark.parametrize("code", [0, 1, 2, 77])
 def test_the_exit_code_is_handed_on(code):
-    assert run([sys.executable, "-c", f"raise SystemExit({code})"]) == code
+    assert run_process([sys.executable, "-c", f"raise SystemExit({code})"]) == code
 
 
 def test_it_runs_where_it_is_told_with_what_it_is_told(tmp_path):
     program = "import os; open('found', 'w').write(os.environ['COLOR'])"
 
     assert (
-        run([sys.executable, "-c", program], cwd=tmp_path, env={**os.environ, "COLOR": "red"}) == 0
+        run_process(
+            [sys.executable, "-c", program], cwd=tmp_path, env={**os.environ, "COLOR": "red"}
+        )
+        == 0
     )
     assert (tmp_path / "found").read_text(encoding="utf-8") == "red"
 
@@ -29,8 +32,8 @@ def test_it_runs_where_it_is_told_with_what_it_is_told(tmp_path):
 def test_ending_us_ends_it(root):
     child = "import os, time; print(os.getpid(), flush=True); time.sleep(60)"
     outer = (
-        "import sys; from grader.exec_process import run; "
-        "sys.exit(run([sys.executable, '-c', {!r}]))"
+        "import sys; from grader.exec_process import run_process; "
+        "sys.exit(run_process([sys.executable, '-c', {!r}]))"
     )
     ours = subprocess.Popen(
         [sys.executable, "-c", outer.format(child)],

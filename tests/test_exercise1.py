@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -74,8 +74,8 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
         rows = "".join(f"{name} = {volts}\n" for name in OWN.module.MOMENTS)
         text = f'{rows}kV_unit = "V"\nlargest = "torque"\n'
         (copy.folder / "answers.toml").write_text(text, "utf-8")
-        run(["1", "--student", student])
-        run(["1", "--student", student, "--json"])
+        run_command(["1", "--student", student])
+        run_command(["1", "--student", student, "--json"])
     said += capsys.readouterr().out
     (given,) = copy.folder.glob("data/*/given.toml")
     said += given.read_text("utf-8")
@@ -109,7 +109,7 @@ def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch):
 
     monkeypatch.setattr(Path, "mkdir", full)
 
-    assert run(["1"]) == 2
+    assert run_command(["1"]) == 2
     assert "your numbers cannot be written: No space left" in capsys.readouterr().err
 
 

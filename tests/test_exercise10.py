@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from gain_styles import BODY, PYTHON_BODY, PYTHON_STYLES, STYLES
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.robotcode.gain_constants import gain_of, gains_of
 
@@ -308,8 +308,8 @@ def test_nothing_a_learner_reads_holds_a_converted_number(copy, student, capsys)
     for wrong in ("1.5", "0.001", "40"):
         spoiled = re.sub(r"(k[SGVAP] = )[^;]+", rf"\g<1>{wrong}", text)
         (copy.folder / JAVA).write_text(spoiled, "utf-8")
-        run(["10", "--student", student])
-        run(["10", "--student", student, "--json"])
+        run_command(["10", "--student", student])
+        run_command(["10", "--student", student, "--json"])
     said = capsys.readouterr().out + " ".join(OWN.hints)
     said += (OWN.folder / "README.md").read_text("utf-8")
     (given,) = copy.folder.glob("data/*/given.toml")

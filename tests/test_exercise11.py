@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
 
@@ -130,7 +130,7 @@ def test_a_letter_may_be_written_in_many_ways(copy, written):
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
 def test_the_questions_tell_the_numbers_and_not_the_answers(copy, student, capsys):
-    run(["11", "--student", student])
+    run_command(["11", "--student", student])
     capsys.readouterr()
     (file,) = (copy.folder / "data").glob("*/questions.md")
     told = file.read_text("utf-8")

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.check import Wrong
-from grader.cli import run
+from grader.check import WrongAnswer
+from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
@@ -156,8 +156,8 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
     said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
     for wrong in (7.77, 1.03 * variant.parts.paper, variant.measured):
         graded(copy, student=student, kV_theory=wrong, difference=3333, verdict="x", ks_flag="x")
-        run(["2", "--student", student])
-        run(["2", "--student", student, "--json"])
+        run_command(["2", "--student", student])
+        run_command(["2", "--student", student, "--json"])
     said += capsys.readouterr().out
     said += (copy.folder / "data" / make_folder_name(student) / "given.toml").read_text("utf-8")
     said = said.replace(f"{1.03 * variant.parts.paper:.4g}", "")
@@ -363,7 +363,7 @@ def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(cop
             try:
                 judge_list(causes, variant)
                 found = 3
-            except Wrong as wrong:
+            except WrongAnswer as wrong:
                 found = wrong.earned
                 unnamed = [one for one in causes if one not in left and one not in wrong.hint]
 

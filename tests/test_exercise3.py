@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.variant import make_folder_name
 
@@ -61,8 +61,8 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
         {name: 1.06 * value for name, value in truth(student).items()},
     ):
         graded(copy, student=student, **wrong, **dict.fromkeys(WORDS, "Simple"))
-        run(["3", "--student", student])
-        run(["3", "--student", student, "--json"])
+        run_command(["3", "--student", student])
+        run_command(["3", "--student", student, "--json"])
     said += capsys.readouterr().out
     said += (copy.folder / "data" / make_folder_name(student) / "given.toml").read_text("utf-8")
     numbers = [abs(float(text)) for text in re.findall(r"\d+\.\d+", said)]
@@ -94,7 +94,7 @@ def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch):
 
     monkeypatch.setattr(Path, "mkdir", full)
 
-    assert run(["3"]) == 2
+    assert run_command(["3"]) == 2
     assert "your numbers cannot be written: No space left on device" in capsys.readouterr().err
 
 

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise, find_exercise
 from grader.robotcode import bench
 
@@ -45,7 +45,7 @@ def real(tmp_path, monkeypatch):
 def test_a_file_that_is_no_code_is_refused_with_advice(real, capsys, content, said):
     (real / "exercises" / "exercise4" / JAVA).write_bytes(content)
 
-    assert run(["exercise4", f"exercises/exercise4/{JAVA}"]) == 2
+    assert run_command(["exercise4", f"exercises/exercise4/{JAVA}"]) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert said in err
@@ -68,22 +68,22 @@ def test_code_without_a_routine_gets_few_points_and_no_traceback(real, capsys, c
     path = real / "A.java"
     path.write_text(content, "utf-8")
 
-    assert run(["exercise4", "A.java", "--json"]) == code
+    assert run_command(["exercise4", "A.java", "--json"]) == code
     assert json.loads(capsys.readouterr().out)["score"] <= 2
 
 
 def test_without_a_file_the_better_starter_is_graded_and_named(real, capsys):
     folder = real / "exercises" / "exercise4"
     solutions = ROOT / "solutions" / "exercise4"
-    assert run(["4"]) == 1
+    assert run_command(["4"]) == 1
     assert JAVA in capsys.readouterr().out.splitlines()[0]
 
     shutil.copy(solutions / PYTHON, folder)
-    assert run(["4"]) == 0
+    assert run_command(["4"]) == 0
     assert PYTHON in capsys.readouterr().out.splitlines()[0]
 
     shutil.copy(solutions / JAVA, folder)
-    assert run(["4"]) == 0
+    assert run_command(["4"]) == 0
     assert JAVA in capsys.readouterr().out.splitlines()[0]
 
 
@@ -91,7 +91,7 @@ def test_a_starter_with_a_syntax_error_is_not_hidden_by_the_untouched_one(real, 
     path = real / "exercises" / "exercise4" / JAVA
     path.write_text(path.read_text("utf-8").replace("new TalonFX(1)", "new TalonFX(1"), "utf-8")
 
-    assert run(["4"]) == 2
+    assert run_command(["4"]) == 2
     assert JAVA in capsys.readouterr().err
 
 
@@ -106,7 +106,7 @@ def test_the_source_lesson_to_the_letter(real, capsys, step, code, score):
         LESSON.replace("Volts.of(3.0)", f"Volts.of({step})"), "utf-8"
     )
 
-    assert run(["4", "DriveSubsystem.java", "--json"]) == code
+    assert run_command(["4", "DriveSubsystem.java", "--json"]) == code
     result = json.loads(capsys.readouterr().out)
     wrong = [check for check in result["checks"] if check["status"] != "passed"]
 
@@ -135,7 +135,7 @@ def test_what_is_right_in_another_way_passes_with_a_note(real, capsys, old, new,
     text = text.replace(old, new).replace("import com.ctre", imported, 1)
     (real / "Mine.java").write_text(text, "utf-8")
 
-    assert run(["4", "Mine.java"]) == 0
+    assert run_command(["4", "Mine.java"]) == 0
     assert note in " ".join(capsys.readouterr().out.split())
 
 
@@ -161,7 +161,7 @@ def test_what_may_happen_out_of_sight_is_asked_about(real, capsys, name, check, 
         text = text.replace(old, new, 1)
     (real / name).write_text(text, "utf-8")
 
-    assert run(["4", name, "--json"]) == 1
+    assert run_command(["4", name, "--json"]) == 1
     checks = {one["id"]: one for one in json.loads(capsys.readouterr().out)["checks"]}
 
     assert checks[check]["status"] == "failed"

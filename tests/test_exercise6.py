@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.variant import make_folder_name
 from sim.bench.routine import Routine
@@ -253,7 +253,7 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
         lines = {name: one for kind in KINDS for name, one in written(kind, plan).items()}
         results = graded(copy, student=student, **lines, **words, steps=STEPS[::-1])
         said += [one.hint for one in results.values()]
-        run(["6", "--student", student, "--json"])
+        run_command(["6", "--student", student, "--json"])
     printed = capsys.readouterr().out
     told = " ".join(said)
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.exercise import Exercise
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import LogInterval
@@ -90,7 +90,7 @@ def test_a_student_gets_the_same_logs_every_time_and_nobody_elses():
 
     assert told("ann") == told("Ann") != told("ben")
     alone = told("ann")
-    with class_secret(b"a class"):
+    with use_class_secret(b"a class"):
         assert told("ann") != alone
     assert told("ann") == alone
 
@@ -177,7 +177,7 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
     ],
 )
 def test_a_line_that_cannot_be_read_is_told_why(raw, says):
-    with pytest.raises(Wrong) as wrong:
+    with pytest.raises(WrongAnswer) as wrong:
         LINE.read_claims(raw)
 
     assert says in wrong.value.seen

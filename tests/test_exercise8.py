@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.check import Wrong
-from grader.cli import run
+from grader.check import WrongAnswer
+from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 from sim.core.units import find_unit
 from sim.fit import fit
 from sim.io import read
@@ -177,7 +177,7 @@ def test_a_threshold_is_read_in_the_unit_of_the_log():
 def test_a_line_that_cannot_be_read_is_named_and_nothing_else_is_judged(name, raw, says):
     given = dict.fromkeys((one.replace("-", "_") for one in PREPARATION.TESTS), "all")
     given |= {"threshold": 0, "median": 1, name: raw}
-    with pytest.raises(Wrong) as wrong:
+    with pytest.raises(WrongAnswer) as wrong:
         PREPARATION.read_preparation(given, symbol="m", si=1.0)
     results = graded(wrong.value)
 
@@ -199,7 +199,7 @@ def test_a_student_gets_the_same_log_every_time_and_nobody_elses():
 
     assert told("ann") == told("Ann") != told("ben")
     alone = told("ann")
-    with class_secret(b"a class"):
+    with use_class_secret(b"a class"):
         assert told("ann") != alone
 
 
@@ -213,8 +213,8 @@ def test_nothing_a_learner_reads_holds_a_gain(tmp_path, monkeypatch, capsys):
         text = text.replace(f'{test.replace("-", "_")} = ""', f'{test.replace("-", "_")} = "all"')
     text = text.replace('threshold = ""', "threshold = 0").replace('median = ""', "median = 9")
     (folder / "answers.toml").write_text(text, "utf-8")
-    assert run(["8", "--student", "ann"]) == 1
-    assert run(["8", "--student", "ann", "--json"]) == 1
+    assert run_command(["8", "--student", "ann"]) == 1
+    assert run_command(["8", "--student", "ann", "--json"]) == 1
     said = capsys.readouterr().out + " ".join(OWN.hints)
     said += (OWN.folder / "README.md").read_text("utf-8")
     numbers = [abs(float(found)) for found in re.findall(r"\d+\.\d+", said)]
@@ -229,13 +229,13 @@ def test_nothing_a_learner_reads_holds_a_gain(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("written", ["0 to 3.90x", "0 to 1 min", "from 1 kg to 2", "1 or 2"])
 def test_a_window_with_a_word_that_is_none_is_refused(written):
-    with pytest.raises(Wrong, match="which is not two times"):
+    with pytest.raises(WrongAnswer, match="which is not two times"):
         PREPARATION._window("quasistatic-forward", written)
 
 
 @pytest.mark.parametrize("written", ["1,5,5", "0,4,5,2", "from 1,5,5 s"])
 def test_commas_that_can_be_read_in_two_ways_are_refused(written):
-    with pytest.raises(Wrong) as refused:
+    with pytest.raises(WrongAnswer) as refused:
         PREPARATION._window("quasistatic-forward", written)
 
     assert "can be read as two times in two ways" in refused.value.hint

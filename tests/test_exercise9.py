@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.variant import class_secret, student_seed
+from grader.variant import derive_student_seed, use_class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise9", ROOT / "exercises" / "exercise9")
@@ -35,7 +35,7 @@ def unseen():
 
 
 def logs_of(student):
-    return unseen().hidden(student, student_seed(student, "exercise9"))
+    return unseen().hidden(student, derive_student_seed(student, "exercise9"))
 
 
 def solution():
@@ -91,7 +91,7 @@ def test_the_five_logs_differ_as_the_task_says():
 
 def test_a_student_and_a_class_have_unseen_logs_of_their_own():
     ann, ben = (logs_of(name)[0].data["velocity"] for name in ("ann", "ben"))
-    with class_secret(b"a secret of this class"):
+    with use_class_secret(b"a secret of this class"):
         other = logs_of("ann")[0].data["velocity"]
 
     assert not np.array_equal(ann, logs_of("ann")[1].data["velocity"])
@@ -183,8 +183,8 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
     said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
     for text in ("kS = 1\nkV = 1\nkA = 1", "kS = -1\nkV = 60\nkA = 0.001"):
         (copy.folder / "answers.toml").write_text(text, "utf-8")
-        run(["9", "--student", student])
-        run(["9", "--student", student, "--json"])
+        run_command(["9", "--student", student])
+        run_command(["9", "--student", student, "--json"])
     said += capsys.readouterr().out
     numbers = [float(text) for text in re.findall(r"\d+\.\d+", said)]
 
@@ -214,7 +214,7 @@ def test_where_no_log_can_be_written_it_says_so(capsys, monkeypatch):
 
     monkeypatch.setattr(Path, "mkdir", full)
 
-    assert run(["9"]) == 2
+    assert run_command(["9"]) == 2
     assert "your log cannot be written: No space left on device" in capsys.readouterr().err
 
 
@@ -246,7 +246,7 @@ def test_an_r2_of_one_is_no_measurement(copy):
 
 
 def test_the_log_is_made_on_first_use_and_said_so_beside_the_result(copy, capsys):
-    assert run(["9", "--student", "ann", "--json"]) == 1
+    assert run_command(["9", "--student", "ann", "--json"]) == 1
     out, err = capsys.readouterr()
 
     assert json.loads(out)["max_score"] == 10

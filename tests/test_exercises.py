@@ -9,13 +9,13 @@ import pytest
 from authored import authored_answer, mistakes_of
 
 from grader.course import find_course
-from grader.exercise import HINTS, exercises
+from grader.exercise import HINTS, list_exercises
 from grader.misconception import MISCONCEPTIONS
 from grader.starter import remove_answers
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 
 ROOT = find_course(Path(__file__).resolve().parent)
-EXERCISES = {one.name: one for one in exercises(ROOT)}
+EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 STUDENTS = ("ann", "ben", "zoë")  # between them they get every kind of mechanism there is
 
 
@@ -33,7 +33,7 @@ def answered(tmp_path_factory):
     @cache
     def solved(name, student):
         one = EXERCISES[name]
-        if not one.personal:
+        if not one.is_personal:
             return authored_answer(one, one.folder / "data")
         copy = tmp_path_factory.mktemp("course") / "exercises" / name
         shutil.copytree(one.folder, copy, ignore=shutil.ignore_patterns("data"))
@@ -48,8 +48,8 @@ def answered(tmp_path_factory):
 def grade(name, texts, file, student, folder):
     """Grade one file of an answer, with what belongs to it beside it."""
     one = EXERCISES[name]
-    file = one.files[0] if file in one.beside else file
-    for part in (file, *one.beside):
+    file = one.files[0] if file in one.companion_files else file
+    for part in (file, *one.companion_files):
         (folder / part).write_text(texts[part], encoding="utf-8")
     return one.grade(folder / file, student=student)
 
@@ -69,7 +69,7 @@ def test_an_exercise_has_a_task_hints_checks_and_mistakes(name):
     assert all(len(hint) > 40 for hint in one.hints)
     assert all(one.checks)
     assert len({check.id for check in one.checks}) == len(one.checks)
-    assert all((one.folder / file).is_file() for file in (*one.files, *one.beside))
+    assert all((one.folder / file).is_file() for file in (*one.files, *one.companion_files))
     assert len(mistakes_of(name)) >= 5
 
 
@@ -115,7 +115,7 @@ def test_a_mistake_names_a_known_misconception(name, mistake):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_a_starter_is_its_solution_with_the_answers_taken_out(name):
-    for file in (*EXERCISES[name].files, *EXERCISES[name].beside):
+    for file in (*EXERCISES[name].files, *EXERCISES[name].companion_files):
         solution = ROOT / "solutions" / name / file
         if solution.is_file():
             starter = (EXERCISES[name].folder / file).read_text(encoding="utf-8")
@@ -132,14 +132,14 @@ def test_answers_are_taken_out_in_both_languages():
     assert remove_answers(python) == "a\n    # TODO: Add.\nc\n"
 
 
-@pytest.mark.parametrize("name", [name for name, one in EXERCISES.items() if one.personal])
+@pytest.mark.parametrize("name", [name for name, one in EXERCISES.items() if one.is_personal])
 def test_a_class_has_numbers_of_its_own_even_in_one_process(name, tmp_path):
     copy = tmp_path / "exercises" / name
     shutil.copytree(ROOT / "exercises", copy.parent, ignore=shutil.ignore_patterns("data"))
     moved = type(EXERCISES[name])(name, copy)
     made = []
     for secret in (b"east", b"west", b"east"):
-        with class_secret(secret):
+        with use_class_secret(secret):
             moved.prepare("ann", say=lambda _: None)
         made.append(
             {path.name: path.read_bytes() for path in sorted((copy / "data" / "ann").iterdir())}

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from small_course import HALF, RIGHT, answer, lay_out
 
-from grader.cli import run
+from grader.cli import run_command
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -36,13 +36,13 @@ def test_the_verdict_comes_first_and_the_exit_code_says_the_same(
 ):
     answer(course, text)
 
-    assert run(["exercise1"]) == code
+    assert run_command(["exercise1"]) == code
     assert capsys.readouterr().out.startswith(verdict)
 
 
 def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys):
     answer(course, "size = 1")
-    run(["1"])
+    run_command(["1"])
     out = capsys.readouterr().out
 
     assert "got  1" in out
@@ -57,7 +57,7 @@ def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys
 def test_json_has_these_keys_and_no_others(course, capsys):
     answer(course, HALF)
 
-    assert run(["exercise1", "--student", "Zoë", "--json"]) == 1
+    assert run_command(["exercise1", "--student", "Zoë", "--json"]) == 1
     out = capsys.readouterr().out
     result = json.loads(out)
 
@@ -86,7 +86,7 @@ def test_json_has_these_keys_and_no_others(course, capsys):
 def test_our_own_error_blames_nobody(course, capsys):
     answer(course, 'size = "boom"')
 
-    assert run(["exercise1", "--json"]) == 2
+    assert run_command(["exercise1", "--json"]) == 2
     out, err = capsys.readouterr()
     result = json.loads(out)
 
@@ -99,7 +99,7 @@ def test_our_own_error_blames_nobody(course, capsys):
 def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, capsys, monkeypatch):
     (course / "exercises" / "exercise1" / "checks.py").write_text("1 / 0", "utf-8")
 
-    assert run(["exercise1"]) == 2
+    assert run_command(["exercise1"]) == 2
     err = capsys.readouterr().err
     assert err.startswith("grade: our mistake, not yours (ZeroDivisionError: division by zero).")
     assert "SYSID_TRACEBACK=1" in err
@@ -107,7 +107,7 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, c
 
     monkeypatch.setenv("SYSID_TRACEBACK", "1")
     with pytest.raises(ZeroDivisionError):
-        run(["exercise1"])
+        run_command(["exercise1"])
 
 
 @pytest.mark.parametrize(
@@ -130,7 +130,7 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, c
 )
 @pytest.mark.usefixtures("course")
 def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, said):
-    assert run(arguments) == 2
+    assert run_command(arguments) == 2
     out, err = capsys.readouterr()
 
     assert out == ""
@@ -153,7 +153,7 @@ def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, said):
 def test_an_answer_file_that_cannot_be_read_names_the_line(course, capsys, text, said):
     answer(course, text)
 
-    assert run(["exercise1"]) == 2
+    assert run_command(["exercise1"]) == 2
     assert said in capsys.readouterr().err
 
 
@@ -161,7 +161,7 @@ def test_an_answer_file_that_cannot_be_read_names_the_line(course, capsys, text,
 def test_an_exercise_is_known_by_its_name_or_number(course, name):
     answer(course, RIGHT)
 
-    assert run([name]) == 0
+    assert run_command([name]) == 0
 
 
 def test_a_file_may_be_a_folder_or_any_file(course):
@@ -169,9 +169,9 @@ def test_a_file_may_be_a_folder_or_any_file(course):
     elsewhere.mkdir()
     (elsewhere / "anything.toml").write_text(RIGHT, "utf-8")
 
-    assert run(["exercise1", "mine"]) == 0
-    assert run(["exercise1", str(elsewhere / "anything.toml")]) == 0
-    assert run(["exercise1"]) == 1
+    assert run_command(["exercise1", "mine"]) == 0
+    assert run_command(["exercise1", str(elsewhere / "anything.toml")]) == 0
+    assert run_command(["exercise1"]) == 1
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
@@ -179,14 +179,14 @@ def test_what_windows_editors_save_can_be_read(course, encoding):
     path = course / "exercises" / "exercise1" / "answers.toml"
     path.write_bytes(RIGHT.encode(encoding))
 
-    assert run(["exercise1"]) == 0
+    assert run_command(["exercise1"]) == 0
 
 
 @pytest.mark.usefixtures("course")
 def test_hints_come_one_by_one_and_then_all_again(capsys):
     shown = []
     for _ in range(5):
-        assert run(["exercise1", "--hint"]) == 0
+        assert run_command(["exercise1", "--hint"]) == 0
         shown.append(capsys.readouterr().out)
 
     assert shown[0] == "Hint 1 of 3: Sizes are counted.\n"
@@ -199,19 +199,19 @@ def test_hints_come_one_by_one_and_then_all_again(capsys):
 
 @pytest.mark.usefixtures("course")
 def test_hints_are_counted_for_each_student(capsys):
-    run(["exercise1", "--hint"])
-    run(["exercise1", "--hint", "--student", "ann"])
+    run_command(["exercise1", "--hint"])
+    run_command(["exercise1", "--hint", "--student", "ann"])
 
     assert capsys.readouterr().out.count("Hint 1 of 3") == 2
 
 
 def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys):
-    assert run([]) == 0
+    assert run_command([]) == 0
     before = capsys.readouterr().out
     answer(course, RIGHT)
-    run(["exercise1"])
+    run_command(["exercise1"])
     capsys.readouterr()
-    assert run([]) == 0
+    assert run_command([]) == 0
     after = capsys.readouterr().out
 
     assert "0 of 1 exercises done" in before
@@ -258,7 +258,10 @@ def test_a_sign_the_terminal_lacks_becomes_a_plain_one(course, encoding):
 
 
 def test_help_imports_nothing_heavy():
-    code = "import sys; from grader.cli import run; run(['--help']); print(*sorted(sys.modules))"
+    code = (
+        "import sys; from grader.cli import run_command; "
+        "run_command(['--help']); print(*sorted(sys.modules))"
+    )
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
     )

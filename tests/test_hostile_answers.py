@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from authored import authored_answer
 
-from grader.exercise import exercises
+from grader.exercise import list_exercises
 from grader.submission import read_answers
 from sim.core.errors import UnreadableFile
 
 ROOT = Path(__file__).resolve().parents[1]
 STUDENT = "ann"
-ANSWERED_IN_TOML = [one for one in exercises(ROOT) if "answers.toml" in one.files]
+ANSWERED_IN_TOML = [one for one in list_exercises(ROOT) if "answers.toml" in one.files]
 SLOW = {"practice": 6}  # of the values one in so many for each key; all of them for all keys
 PATIENCE = 2.0  # [s] of the processor for one answer, the first one of a process left out
 # Values that say what an answer may be, in whatever way they are written: they may earn points.

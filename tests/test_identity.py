@@ -6,12 +6,12 @@ import pytest
 from small_course import RIGHT, lay_out
 
 from grader.classroom.identity import check_identities
-from grader.classroom.secret import identity_seal
+from grader.classroom.secret import seal_identity
 from grader.classroom.submission_names import Identities, SubmissionName
 from grader.classroom.submissions import find_submissions
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import load_progress
-from grader.exercise import exercises
+from grader.exercise import list_exercises
 from grader.notebook import submit
 from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
@@ -27,7 +27,7 @@ def prepare(student, *, say):
 
 def issue(course: Path, student: str, *, secret: bytes = SECRET) -> None:
     """Write what a class's package says about whose it is."""
-    mark = identity_seal(secret, student=student, name="East")
+    mark = seal_identity(secret, student=student, name="East")
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "class.toml").write_text(
         f'class = "East"\nstudent = "{student}"\nseal = "{mark}"\n[sealed]\n', encoding="utf-8"
@@ -56,16 +56,16 @@ def hand_in(course: Path, place: Path, student: str) -> tuple:
             target = place / student / "course" / ".course" / name
             target.parent.mkdir(exist_ok=True)
             target.write_bytes(source.read_bytes())
-    return find_submissions(place, exercises(course))
+    return find_submissions(place, list_exercises(course))
 
 
 def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys):
     issue(course, "Zoë")
 
-    assert run(["start", "--no-lab"]) == 0
+    assert run_command(["start", "--no-lab"]) == 0
     assert "made for Zoë" in capsys.readouterr().out
     assert load_progress(course)[0].student == "Zoë"
-    assert run(["exercise1"]) == 2
+    assert run_command(["exercise1"]) == 2
     assert "only your instructor can grade" in capsys.readouterr().err
     assert "only your instructor can grade" in str(submit(1, size=3))
 
@@ -73,8 +73,8 @@ def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys):
 def test_practice_under_another_name_does_not_change_whose_package_it_is(course, capsys):
     issue(course, "Zoë")
 
-    assert run(["start", "--no-lab", "--student", "practice"]) == 0
-    assert run(["start", "--no-lab"]) == 0
+    assert run_command(["start", "--no-lab", "--student", "practice"]) == 0
+    assert run_command(["start", "--no-lab"]) == 0
     assert capsys.readouterr().out.rindex("made for Zoë") > 0
 
 
@@ -107,13 +107,13 @@ def test_a_class_without_its_secret_is_refused(course, tmp_path):
 
 
 def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_path, capsys):
-    assert run(["start", "--no-lab"]) == 0
+    assert run_command(["start", "--no-lab"]) == 0
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "progress.toml").write_text('student = "me"\n', encoding="utf-8")
     (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
 
     assert (one.problem, one.student, one.numbers_of) == ("", "ann", "me")
-    assert run(["class", str(tmp_path / "in")]) == 0
+    assert run_command(["class", str(tmp_path / "in")]) == 0
     assert "worked without a name, and are graded on those numbers: ann" in capsys.readouterr().err
 
 
@@ -121,7 +121,9 @@ def test_a_folder_of_data_tells_it_too(course, tmp_path):
     place = tmp_path / "in" / "ann" / "exercises" / "exercise1"
     (place / "data" / "me").mkdir(parents=True)
     (place / "data" / "me" / "log.csv").write_text("", encoding="utf-8")
-    (one,) = check_identities(find_submissions(tmp_path / "in", exercises(course)), secret=None)
+    (one,) = check_identities(
+        find_submissions(tmp_path / "in", list_exercises(course)), secret=None
+    )
 
     assert one.numbers_of == "me"
 

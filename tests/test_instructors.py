@@ -8,7 +8,7 @@ import pytest
 
 from grader.cli import grade
 from grader.course import find_course
-from grader.exercise import exercises
+from grader.exercise import list_exercises
 from grader.misconception import MISCONCEPTIONS
 from sim.cli import sysid
 
@@ -81,5 +81,5 @@ def test_every_exercise_has_a_place_in_the_plans(text, root):
     named = {int(number) for number in re.findall(r"\d+", told)}
 
     assert "practice" in told
-    for one in exercises(find_course(root)):
+    for one in list_exercises(find_course(root)):
         assert one.name == "practice" or int(one.name.removeprefix("exercise")) in named

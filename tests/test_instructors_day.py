@@ -24,9 +24,9 @@ from urllib.request import urlopen
 import pytest
 from authored import authored_answer, mistakes_of
 
-from grader.exercise import exercises
+from grader.exercise import list_exercises
 from grader.serve.student_folders import can_separate, prepare_separation
-from grader.variant import class_secret, make_folder_name
+from grader.variant import make_folder_name, use_class_secret
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -68,10 +68,10 @@ def pack(source: Path, target: Path, *, top: str = "") -> None:
 
 
 def _as_folders(course: Path, there: Path) -> None:
-    for one in exercises(course):
+    for one in list_exercises(course):
         target = there / "Anna Bauer" / one.name
         target.mkdir(parents=True)
-        for name in (*one.files, *one.beside):
+        for name in (*one.files, *one.companion_files):
             shutil.copy(one.folder / name, target)
 
 
@@ -144,7 +144,7 @@ def answered(student: Student, packages: Path, place: Path, *, installed: Path =
     mine = place / "course"
     said = say(["grade", "start", "--no-lab"], cwd=mine, installed=installed)
     assert student.name in said
-    for one in exercises(mine):
+    for one in list_exercises(mine):
         data = one.folder / "data"
         folders = [path.name for path in data.iterdir()] if data.is_dir() else []
         assert folders in ([], [make_folder_name(student.name)]), "somebody else's numbers"
@@ -227,7 +227,7 @@ def test_each_exercise_alone_earns_every_point_too(course, handed_in):
     alone = course.parent / "some of them"
     for name in ALONE:
         shutil.copytree(handed_in / name, alone / name)
-    for number, one in enumerate(exercises(course)):
+    for number, one in enumerate(list_exercises(course)):
         out = handed_in.with_name(f"alone-{number}")
         words = ["grade", "class", f"../{alone.name}", "--roster", "../roster.csv", "--secret",
                  "../class.secret", "--exercise", one.name, "-o", f"../{out.name}"]  # fmt: skip
@@ -243,12 +243,12 @@ def test_planted_mistakes_lose_in_a_class_what_they_lose_one_by_one(course, at_h
     there = tmp_path / "in" / student.name
     shutil.copytree(at_home[student.name] / "exercises", there)
     expected = {}
-    for one in exercises(course):
+    for one in list_exercises(course):
         mistake = mistakes_of(one.name)[0]
         file = there / one.name / mistake.file
         file.write_text(mistake.make(file.read_text(encoding="utf-8")), encoding="utf-8")
         secret = (course.parent / "class.secret").read_bytes().strip()
-        with class_secret(secret):
+        with use_class_secret(secret):
             expected[one.name] = one.grade(there / one.name, student=student.name).score
     words = ["grade", "class", str(tmp_path / "in"), "--roster", "../roster.csv", "--secret",
              "../class.secret", "-o", str(tmp_path / "out")]  # fmt: skip

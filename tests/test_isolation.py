@@ -15,22 +15,22 @@ import psutil
 import pytest
 
 from grader.isolation import (
-    Call,
+    FunctionCall,
     Limits,
-    isolation_level,
+    find_isolation_level,
     landlock,
     run_functions,
     sandbox_parent,
     seccomp,
 )
 from grader.isolation.scratch import remove_tree
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 
 ROOT = Path(__file__).resolve().parents[1]
 
 SHORT = Limits(seconds=0.6)  # where the end of it is waited for
 LONG = Limits(seconds=10.0)  # where it is not, however busy the machine
-LEVEL = isolation_level()
+LEVEL = find_isolation_level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")
@@ -43,7 +43,7 @@ def apart_run(tmp_path):
     def start(text, *, times=1, limits=LONG, **data):
         file = tmp_path / "fit.py"
         file.write_text(text, encoding="utf-8")
-        calls = [Call("fit", {"number": number, **data}) for number in range(times)]
+        calls = [FunctionCall("fit", {"number": number, **data}) for number in range(times)]
         return run_functions(file, calls=calls, limits=limits)
 
     return start
@@ -178,7 +178,7 @@ def test_scipy_is_there_where_it_is_asked_for_and_other_packages_never(tmp_path)
         "def plot():\n    import matplotlib\n",
         encoding="utf-8",
     )
-    calls = [Call("fit"), Call("plot")]
+    calls = [FunctionCall("fit"), FunctionCall("plot")]
     with_it = run_functions(file, calls=calls, packages=("numpy", "scipy")).answers
     without = run_functions(file, calls=calls[:1]).answers
 
@@ -342,7 +342,7 @@ def test_neither_arguments_nor_environment_nor_memory_hold_a_secret(apart_run, m
         "    ours = any(n.startswith('grader') for n in sys.modules)\n"
         "    return {'secret': name in seen, 'grader': ours}\n"
     )
-    with class_secret(b"swordfish"):
+    with use_class_secret(b"swordfish"):
         (answer,) = apart_run(text).answers
 
     assert answer.reason == ""
@@ -495,7 +495,7 @@ def verdict(table, number, *arguments):
     """What the filter returns for a system call: an interpreter of its few instructions."""
     words = {0: number, 4: table.architecture, 16: 0, 24: 0}
     words |= {16 + 8 * at: value for at, value in enumerate(arguments)}
-    steps, at, kept = [*seccomp._steps(table)], 0, 0
+    steps, at, kept = [*seccomp._make_filter(table)], 0, 0
     while True:
         code, yes, no, value = steps[at]
         at += 1
@@ -575,13 +575,16 @@ def test_memory_and_files_are_limited(apart_run):
 @posix
 def test_processor_time_is_limited_and_the_end_says_so():
     code = (
-        "from grader.isolation.limits import limit\n"
-        "limit(seconds=1, memory=2**31, file=1, processes=True)\n"
+        "from grader.isolation.limits import set_limits\n"
+        "set_limits(seconds=1, memory=2**31, file=1, processes=True)\n"
         "while True: pass\n"
     )
     ended = subprocess.run([sys.executable, "-c", code], timeout=20, check=False).returncode
 
-    assert sandbox_parent._why(ended) == "it took too much of the processor's time and was stopped"
+    assert (
+        sandbox_parent._explain_end(ended)
+        == "it took too much of the processor's time and was stopped"
+    )
 
 
 @posix
@@ -606,9 +609,9 @@ def alive(pid):
     return said.stdout.strip()[:1] not in {b"", b"Z"}
 
 
-@pytest.mark.skipif(not landlock.abi(), reason="this system has no Landlock")
+@pytest.mark.skipif(not landlock.find_abi_version(), reason="this system has no Landlock")
 def test_where_the_kernel_can_isolate_it_does():
-    assert LEVEL.startswith(f"isolated (Landlock ABI {landlock.abi()}, ")
+    assert LEVEL.startswith(f"isolated (Landlock ABI {landlock.find_abi_version()}, ")
     if platform.machine() in seccomp.TABLES:
         assert LEVEL.endswith("system calls filtered)")
 
@@ -624,14 +627,17 @@ def test_where_the_kernel_can_isolate_it_does():
     ],
 )
 def test_only_code_that_cannot_stop_the_examiner_is_called_isolated(abi, filtered, says):
-    assert sandbox_parent._level({"landlock": abi, "seccomp": filtered, "limited": []}) == says
+    assert (
+        sandbox_parent._describe_level({"landlock": abi, "seccomp": filtered, "limited": []})
+        == says
+    )
 
 
 def test_the_level_says_what_is_in_force(apart_run, monkeypatch):
     text = "def fit(number): return {}\n"
     assert apart_run(text).level == LEVEL
     monkeypatch.setattr(sandbox_parent, "LANDLOCK_ABI", 4)
-    if landlock.abi() > 4:
+    if landlock.find_abi_version() > 4:
         assert apart_run(text).level.startswith("isolated (Landlock ABI 4, ")
     monkeypatch.setattr(sandbox_parent, "CONFINED", False)
 
@@ -686,8 +692,8 @@ def test_a_child_ends_with_the_process_that_keeps_its_time(tmp_path):
     source.write_text("import time\ndef fit():\n    time.sleep(3600)\n", encoding="utf-8")
     program = (
         "import sys; from pathlib import Path; "
-        "from grader.isolation import Call, Limits, run_functions; "
-        "run_functions(Path(sys.argv[1]), calls=[Call('fit')], limits=Limits(seconds=600))"
+        "from grader.isolation import FunctionCall, Limits, run_functions; "
+        "run_functions(Path(sys.argv[1]), calls=[FunctionCall('fit')], limits=Limits(seconds=600))"
     )
     parent = psutil.Popen([sys.executable, "-c", program, str(source)], cwd=ROOT)
     last = time.monotonic() + 60

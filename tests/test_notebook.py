@@ -11,7 +11,7 @@ from page_flaws import page_flaws
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader import submit
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import load_progress
 
 STARTER = '# Measure it.\nsize = ""  # in units\ncolor = "" # a word\n'
@@ -38,20 +38,20 @@ def test_answers_go_into_the_file_and_its_comments_stay(course):
     assert (shown.grade.score, shown.grade.status) == (2.5, "failed")
     submit(1, COLOR="green")
     assert 'color = "green" # a word' in text_of(course)
-    assert load_progress(course)[0].of("me", "exercise1").done
+    assert load_progress(course)[0].find_standing("me", "exercise1").is_done
 
 
 @pytest.mark.parametrize("text", [RIGHT, HALF, "size = 1\n"])
 def test_notebook_and_file_give_the_same(course, capsys, text):
     answer(course, text)
     shown = submit("exercise1")
-    run(["1", "--json"])
+    run_command(["1", "--json"])
     by_command = json.loads(capsys.readouterr().out)
 
     assert [one.points for one in shown.grade.checks] == [
         one["points"] for one in by_command["checks"]
     ]
-    run(["1"])
+    run_command(["1"])
     assert f"{shown}\n" == capsys.readouterr().out
 
 

@@ -10,9 +10,9 @@ import zipfile
 
 import pytest
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.exercise import find_exercise
-from grader.package_files import imported_modules, select_package_files, strip_notebook
+from grader.package_files import find_imported_modules, select_package_files, strip_notebook
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -90,7 +90,7 @@ def test_what_lies_about_stays_out_and_is_named(course, capsys):
 
     assert select_package_files(course).left_out == tuple(sorted(stray))
     assert not any(text == b"private" for text in select_package_files(course).files.values())
-    assert run(["release", "-o", "../out"]) == 0
+    assert run_command(["release", "-o", "../out"]) == 0
     assert (
         f"left out, as no part of the course: {', '.join(sorted(stray))}" in capsys.readouterr().err
     )
@@ -118,7 +118,7 @@ def test_a_solved_starter_is_refused_by_name(course, capsys, name):
     path = course / "exercises" / name
     path.write_bytes(path.read_bytes() + b"\n# my answer")
 
-    assert run(["release", "-o", "../out"]) == 2
+    assert run_command(["release", "-o", "../out"]) == 2
     said = capsys.readouterr().err
     assert f"exercises/{name} is a starter that was changed" in said
     assert f"git checkout -- exercises/{name}" in said
@@ -166,7 +166,7 @@ def test_a_notebook_with_edited_cells_is_refused(course, capsys):
     notebook["cells"][0]["source"] = ["my notes about ann"]
     path.write_text(json.dumps(notebook), encoding="utf-8")
 
-    assert run(["release", "-o", "../out"]) == 2
+    assert run_command(["release", "-o", "../out"]) == 2
     assert "lessons/01_motor_model.ipynb: the notebook was edited" in capsys.readouterr().err
     with pytest.raises(BadRequest, match="edited"):
         strip_notebook(b"[]", name="x.ipynb")
@@ -178,7 +178,7 @@ def test_a_secret_in_the_course_folder_is_refused(course, capsys, given):
     secret = given.format(course=course)
     command = ["release", "-o", "../out", "--roster", "../r.csv", "--secret", secret]
 
-    assert run(command) == 2
+    assert run_command(command) == 2
     said = capsys.readouterr().err
     assert "the secret lies in the course folder, and would be given away with it" in said
     assert "Keep it outside: --secret ../".replace("/", os.sep) in said
@@ -195,7 +195,7 @@ def test_a_secret_that_a_link_leads_to_is_refused_in_both_directions(course, cap
     command = ["release", "-o", "../out", "--roster", "../r.csv", "--secret"]
 
     for secret in ("../link", "link", "../elsewhere/inside"):
-        assert run([*command, secret]) == 2
+        assert run_command([*command, secret]) == 2
         assert "the secret lies in the course folder" in capsys.readouterr().err
 
 
@@ -206,7 +206,7 @@ def test_a_file_that_holds_the_secret_is_refused(course, capsys):
     readme.write_bytes(readme.read_bytes() + SECRET)
     command = ["release", "-o", "../out", "--roster", "../r.csv", "--secret", "../class.secret"]
 
-    assert run(command) == 2
+    assert run_command(command) == 2
     assert "README.md: this file holds the class's secret" in capsys.readouterr().err
 
 
@@ -219,7 +219,7 @@ def test_modules_are_found_through_one_another(tmp_path):
     }.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
 
-    assert {path.name for path in imported_modules(tmp_path / "checks.py")} == {
+    assert {path.name for path in find_imported_modules(tmp_path / "checks.py")} == {
         "checks.py", "a.py", "b.py",
     }  # fmt: skip
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from grader.exercise import Exercise, find_exercise
-from grader.mistake import put, scaled
+from grader.mistake import put_value, scale_numbers
 from grader.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -48,7 +48,7 @@ def graded(folder, texts, *, student="ann", **answers):
     for name, text in texts.items():
         if name == "answers.toml":
             for key, value in answers.items():
-                text = put(key, value)(text)  # noqa: PLW2901 - each answer in its turn
+                text = put_value(key, value)(text)  # noqa: PLW2901 - each answer in its turn
         (folder / name).write_text(text, encoding="utf-8")
     found = OWN.grade(folder / "answers.toml", student=student)
     return {check.id: check for check in found.checks}
@@ -181,7 +181,7 @@ def test_constants_are_held_against_what_was_measured(tmp_path, solved):
 
 
 def test_a_wrong_gain_does_not_cost_the_constants_too(tmp_path, solved):
-    texts = {**solved, "answers.toml": scaled(2.0, "kV")(solved["answers.toml"])}
+    texts = {**solved, "answers.toml": scale_numbers(2.0, "kV")(solved["answers.toml"])}
     results = graded(tmp_path, texts)
 
     assert results["gains-kv"].status == "failed"
@@ -191,7 +191,7 @@ def test_a_wrong_gain_does_not_cost_the_constants_too(tmp_path, solved):
 def test_the_learner_gets_a_log_and_its_parts(tmp_path):
     copy = tmp_path / "exercises" / "practice"
     copy.mkdir(parents=True)
-    for name in (*OWN.files, *OWN.beside, "checks.py", "measured.py"):
+    for name in (*OWN.files, *OWN.companion_files, "checks.py", "measured.py"):
         (copy / name).write_bytes((OWN.folder / name).read_bytes())
     said = []
     Exercise("practice", copy).prepare("zoë", say=said.append)

@@ -8,8 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from small_course import answer, lay_out
 
-from grader.classroom.feedback_text import feedback
-from grader.cli import run
+from grader.classroom.feedback_text import compose_feedback
+from grader.cli import run_command
 from grader.notebook import submit
 from sim.support.printable import DIRECTIONS, make_printable
 
@@ -46,8 +46,8 @@ def test_an_answer_reaches_neither_terminal_nor_notebook_as_a_command(course, ca
         f"\\U{ord(sign):08x}" for sign in text if ord(sign) not in range(0xD800, 0xE000)
     )
     answer(course, f'size = "{quoted}"\n')
-    run(["exercise1"])
-    run(["exercise1", "--plain"])
+    run_command(["exercise1"])
+    run_command(["exercise1", "--plain"])
     said = capsys.readouterr()
     shown = submit(1)
 
@@ -63,11 +63,11 @@ def test_a_page_of_a_class_and_its_exports_hold_no_command(tmp_path):
     (place / "answers.toml").write_text(f'size = "{quoted}"\n', encoding="utf-8")
     command = ["class", str(tmp_path / "in"), "--export", "gradescope", "--export", "junit"]
 
-    assert run(command) == 0
+    assert run_command(command) == 0
     written = [path for path in (tmp_path / "in-graded").rglob("*") if path.is_file()]
     pages = [path for path in written if path.suffix in {".html", ".csv", ".xml"}]
     assert len(pages) >= 4
     for path in pages:
         assert not COMMANDS.search(path.read_text(encoding="utf-8").replace("\r\n", "\n")), path
     failed = {"status": "failed", "seen": NASTY, "hint": NASTY, "misconception": ""}
-    assert not COMMANDS.search(feedback(failed))
+    assert not COMMANDS.search(compose_feedback(failed))

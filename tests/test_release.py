@@ -8,11 +8,16 @@ import pytest
 
 from grader.class_package import read_class_package
 from grader.classroom.bundle import pack_course
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import find_course
 from grader.exercise import find_exercise
-from grader.release import Package, common_package, find_broken_seals, student_package
-from grader.variant import class_secret
+from grader.release import (
+    StudentPackage,
+    find_broken_seals,
+    make_common_package,
+    make_student_package,
+)
+from grader.variant import use_class_secret
 from sim.core.errors import BadRequest
 
 SECRET = b"0123456789abcdef-east"
@@ -32,7 +37,7 @@ def packed(course):
 @pytest.fixture(scope="module")
 def anns(packed):
     """What ann gets, unpacked: name -> content."""
-    student, content = student_package(Package("ann", SECRET, "East", packed))
+    student, content = make_student_package(StudentPackage("ann", SECRET, "East", packed))
     assert student == "ann"
     return read(content)
 
@@ -52,7 +57,7 @@ def lay_out(folder, *packages):
 
 
 def test_the_common_package_holds_the_course_and_nothing_private(course):
-    files = read(common_package(course))
+    files = read(make_common_package(course))
 
     for name in ("README.md", "pyproject.toml", "grader/__main__.py", "sim/core/log.py"):
         assert f"course/{name}" in files
@@ -75,9 +80,9 @@ def test_a_students_package_holds_data_and_seals_and_no_secret(anns):
 
 
 def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
-    again = read(student_package(Package("ann", SECRET, "East", packed))[1])
-    west = read(student_package(Package("ann", SECRET + b"!", "East", packed))[1])
-    ben = read(student_package(Package("ben", SECRET, "East", packed))[1])
+    again = read(make_student_package(StudentPackage("ann", SECRET, "East", packed))[1])
+    west = read(make_student_package(StudentPackage("ann", SECRET + b"!", "East", packed))[1])
+    ben = read(make_student_package(StudentPackage("ben", SECRET, "East", packed))[1])
     log = "course/exercises/exercise9/data/ann/log.csv"
 
     assert again == anns
@@ -88,33 +93,33 @@ def test_a_class_has_numbers_of_its_own_and_the_same_again(packed, anns):
 def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
     course, anns, tmp_path, monkeypatch, capsys
 ):
-    place = lay_out(tmp_path, read(common_package(course)), anns)
+    place = lay_out(tmp_path, read(make_common_package(course)), anns)
     monkeypatch.chdir(place)
     answers = place / "exercises" / "exercise9" / "answers.toml"
     answers.write_text('kS = 0.1\nkV = ""\n', encoding="utf-8")
     log = place / "exercises" / "exercise9" / "data" / "ann" / "log.csv"
     before = log.read_bytes()
 
-    assert run(["9"]) == 2
+    assert run_command(["9"]) == 2
     said = capsys.readouterr()
     assert "answers.toml: 1 of 2 answered\n  kS = 0.1" in said.out
     assert "on numbers of East, which only your instructor can grade. Hand it in." in said.err
-    assert run(["start", "--no-lab"]) == 0
+    assert run_command(["start", "--no-lab"]) == 0
     assert log.read_bytes() == before  # nothing is drawn over what the class issued
     log.unlink()
-    assert run(["start", "--no-lab"]) == 2
+    assert run_command(["start", "--no-lab"]) == 2
     assert "log.csv is missing, and only East can make it" in capsys.readouterr().err
     log.write_bytes(before)
-    assert run(["9", "--student", "practice"]) == 1  # other numbers, with feedback
+    assert run_command(["9", "--student", "practice"]) == 1  # other numbers, with feedback
     assert log.read_bytes() == before
-    assert run(["4"]) == 1  # the same task for everybody is graded anywhere
+    assert run_command(["4"]) == 1  # the same task for everybody is graded anywhere
 
 
 def test_the_instructor_grades_what_the_class_issued(course, anns, tmp_path, monkeypatch):
     """The truth drawn with the secret is what the student's data were made from."""
     monkeypatch.chdir(course)
     exercise = find_exercise("9", course)
-    with class_secret(SECRET):
+    with use_class_secret(SECRET):
         right = exercise.module.draw("ann").asked
     text = "".join(f"{name} = {one.expected:.6g}\n" for name, one in right.items())
     for folder in ("in", "in2"):
@@ -129,8 +134,8 @@ def test_the_instructor_grades_what_the_class_issued(course, anns, tmp_path, mon
         rows = (tmp_path / folder / "gradebook.csv").read_text("utf-8-sig").splitlines()
         return float(rows[1].split(",")[1])
 
-    assert run(command) == 0
-    assert run(alone) == 0
+    assert run_command(command) == 0
+    assert run_command(alone) == 0
     assert points("in-graded") >= 4  # kS, kV and kA
     assert points("in2-graded") < 4
     assert "course/exercises/exercise9/data/ann/log.csv" in anns
@@ -142,10 +147,10 @@ def test_a_seal_tells_what_was_changed_or_is_somebody_elses(course, anns, tmp_pa
     secret.write_bytes(SECRET)
     command = ["release", "--check", str(place), "--secret", str(secret)]
 
-    assert run(command) == 0
+    assert run_command(command) == 0
     log = place / "exercises" / "exercise9" / "data" / "ann" / "log.csv"
     log.write_bytes(log.read_bytes() + b"\n")
-    assert run(command) == 1
+    assert run_command(command) == 1
     assert "exercises/exercise9/data/ann/log.csv: not as it was issued" in capsys.readouterr().out
     assert len(find_broken_seals(place, read_class_package(place), secret=SECRET + b"!")) == len(
         read_class_package(place).sealed
@@ -178,13 +183,13 @@ def empty_course(tmp_path, monkeypatch):
     ],
 )
 def test_what_cannot_be_released_is_one_line(capsys, command, said):
-    assert run(command) == 2
+    assert run_command(command) == 2
     assert said in capsys.readouterr().err
 
 
 def test_half_a_course_is_not_released(tmp_path):
     with pytest.raises(BadRequest, match="not the whole course"):
-        common_package(tmp_path)
+        make_common_package(tmp_path)
 
 
 def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch, capsys):
@@ -194,9 +199,9 @@ def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch,
     command = ["release", "-o", str(tmp_path / "out"), "--roster", str(tmp_path / "r.csv"),
                "--secret", str(secret)]  # fmt: skip
 
-    assert run(command) == 0
+    assert run_command(command) == 0
     assert "a new secret. Keep it" in capsys.readouterr().err
     kept, first = secret.read_bytes(), (tmp_path / "out" / "students" / "ann.zip").read_bytes()
-    assert run(command) == 0
+    assert run_command(command) == 0
     assert secret.read_bytes() == kept
     assert (tmp_path / "out" / "students" / "ann.zip").read_bytes() == first

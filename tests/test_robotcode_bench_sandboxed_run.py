@@ -10,7 +10,7 @@ import pytest
 from robot_mistakes import ROOT, changed, needs_robot
 
 from grader.exercise import Exercise
-from grader.isolation import isolation_level
+from grader.isolation import find_isolation_level
 from grader.isolation import sandbox_parent as isolation
 from grader.robotcode import bench
 from grader.robotcode.bench import RunOutcome
@@ -19,7 +19,7 @@ from grader.robotcode.bench.sandbox_files import MOST, copy_program
 from grader.robotcode.bench.sandboxed_run import LARGEST, run_confined
 
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
-LEVEL = isolation_level()
+LEVEL = find_isolation_level()
 NO_ISOLATION = "" if LEVEL.startswith("isolated") else f"this system is {LEVEL}"
 isolated = pytest.mark.skipif(bool(NO_ISOLATION), reason=NO_ISOLATION or "isolated")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such call")

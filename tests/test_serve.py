@@ -21,18 +21,18 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.testing import AsyncHTTPTestCase
 from tornado.websocket import websocket_connect
 
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import load_progress
-from grader.release import common_package
-from grader.serve.jupyter_servers import JupyterServers, server_environment
+from grader.release import make_common_package
+from grader.serve.jupyter_servers import JupyterServers, make_server_environment
 from grader.serve.login_page import ServedClass, make_application
 from grader.serve.student_folders import (
     can_separate,
-    code_is_right,
     find_student,
-    login_codes,
+    is_code_right,
+    load_login_codes,
     prepare_separation,
-    student_folder,
+    prepare_student_folder,
 )
 from sim.core.errors import BadRequest
 
@@ -171,8 +171,8 @@ class TestDoor(AsyncHTTPTestCase):
 
 
 def test_codes_stay_and_new_students_get_one(tmp_path):
-    first = login_codes(tmp_path, ["ann", "Zoë"])
-    again = login_codes(tmp_path, ["Ann", "Zoë", "ben"])
+    first = load_login_codes(tmp_path, ["ann", "Zoë"])
+    again = load_login_codes(tmp_path, ["Ann", "Zoë", "ben"])
 
     assert again["Ann"] == first["ann"]
     assert again["Zoë"] == first["Zoë"]
@@ -187,16 +187,16 @@ def test_codes_stay_and_new_students_get_one(tmp_path):
     [("ABC234", True), (" abc234 ", True), ("ABC235", False), ("", False), ("é", False)],
 )
 def test_a_code_may_be_typed_in_any_case(given, same):
-    assert code_is_right(given, "ABC234") is same
+    assert is_code_right(given, "ABC234") is same
 
 
 def test_a_home_is_made_once_and_work_in_it_stays(root, tmp_path):
-    packages = [common_package(root)]
-    course = student_folder(tmp_path, "Zoë", packages=packages)
+    packages = [make_common_package(root)]
+    course = prepare_student_folder(tmp_path, "Zoë", packages=packages)
     answers = course / "exercises" / "exercise1" / "answers.toml"
     answers.write_text("forward = 3\n", encoding="utf-8")
 
-    assert student_folder(tmp_path, "zoë", packages=packages) == course
+    assert prepare_student_folder(tmp_path, "zoë", packages=packages) == course
     assert answers.read_text("utf-8") == "forward = 3\n"
     assert load_progress(course)[0].student == "Zoë"
     assert not (course / "solutions").exists()
@@ -213,7 +213,7 @@ def test_a_port_that_is_taken_is_one_line(root, tmp_path, monkeypatch, capsys):
         port = str(taken.getsockname()[1])
         command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
                    "--host", "127.0.0.1", "--port", port, "--unprotected"]  # fmt: skip
-        assert run(command) == 2
+        assert run_command(command) == 2
     assert f"port {port} cannot be had" in capsys.readouterr().err
 
 
@@ -223,7 +223,7 @@ def test_personal_packages_are_not_served_unprotected_unasked(root, tmp_path, mo
     (tmp_path / "r.csv").write_text("student\nann\n", encoding="utf-8")
     command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
                "--packages", str(tmp_path)]  # fmt: skip
-    assert run(command) == 2
+    assert run_command(command) == 2
     assert "--unprotected" in capsys.readouterr().err
     assert not (tmp_path / "homes").exists()
 
@@ -231,7 +231,7 @@ def test_personal_packages_are_not_served_unprotected_unasked(root, tmp_path, mo
 def test_jupyter_starts_in_a_home_named_by_a_relative_path(root, tmp_path, monkeypatch):
     (tmp_path / "Robotik für alle").mkdir()
     monkeypatch.chdir(tmp_path / "Robotik für alle")
-    course = student_folder(Path("homes"), "Zoë B", packages=[common_package(root)])
+    course = prepare_student_folder(Path("homes"), "Zoë B", packages=[make_common_package(root)])
     rooms = JupyterServers("127.0.0.1")
     try:
         room = rooms.open("Zoë B", course)
@@ -350,9 +350,9 @@ def calculate(room, expression, kernel=""):
 
 
 def test_two_students_cannot_reach_each_others_files(root, separate_homes, monkeypatch):
-    known = login_codes(separate_homes, ["ann", "ben"])
-    packages = [common_package(root)]
-    course = {who: student_folder(separate_homes, who, packages=packages) for who in known}
+    known = load_login_codes(separate_homes, ["ann", "ben"])
+    packages = [make_common_package(root)]
+    course = {who: prepare_student_folder(separate_homes, who, packages=packages) for who in known}
     monkeypatch.setenv("SYSID_SECRET", "class-secret-value")
     monkeypatch.setenv("GITHUB_TOKEN", "of-the-operator")
     rooms = JupyterServers("127.0.0.1", separate=True)
@@ -376,7 +376,7 @@ def test_two_students_cannot_reach_each_others_files(root, separate_homes, monke
             return subprocess.run(
                 [sys.executable, "-c", TRY, *paths, str(separate_homes / "codes.csv")],
                 user=account[who], group=account[who], extra_groups=[], cwd=place[who],
-                env=server_environment(course[who], room[who].runtime, own=True),
+                env=make_server_environment(course[who], room[who].runtime, own=True),
                 capture_output=True, check=True, timeout=30,
             ).stdout.decode("utf-8", "replace")  # fmt: skip
 
@@ -394,7 +394,7 @@ def test_two_students_cannot_reach_each_others_files(root, separate_homes, monke
         rooms.close()
         again = JupyterServers("127.0.0.1", separate=True)
         try:
-            again.open("ben", student_folder(separate_homes, "ben", packages=packages))
+            again.open("ben", prepare_student_folder(separate_homes, "ben", packages=packages))
             assert place["ben"].stat().st_uid == account["ben"]
         finally:
             again.close()

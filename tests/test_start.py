@@ -10,7 +10,7 @@ import pytest
 
 from grader import exec_process
 from grader import start as starting
-from grader.cli import run
+from grader.cli import run_command
 from grader.course import load_progress
 
 MAKER = '''
@@ -65,7 +65,7 @@ def course(tmp_path, monkeypatch):
 
 
 def test_it_shows_where_one_stands_before_anything_is_made(course, capsys):
-    assert run(["start", "--no-lab", "--student", "ann"]) == 0
+    assert run_command(["start", "--no-lab", "--student", "ann"]) == 0
     out = capsys.readouterr().out
 
     assert course.is_dir()
@@ -78,17 +78,17 @@ def test_it_shows_where_one_stands_before_anything_is_made(course, capsys):
 
 
 def test_who_one_is_is_remembered(course, capsys):
-    run(["start", "--no-lab", "--student", "ann"])
-    run(["start", "--no-lab"])
+    run_command(["start", "--no-lab", "--student", "ann"])
+    run_command(["start", "--no-lab"])
     capsys.readouterr()
 
     assert load_progress(course)[0].student == "ann"
-    assert run([]) == 0
+    assert run_command([]) == 0
     assert "(ann)" in capsys.readouterr().out
 
 
 def test_jupyterlab_opens_the_first_lesson_and_keeps_to_itself(course):
-    assert run(["start"]) == 0
+    assert run_command(["start"]) == 0
 
     assert Lab.command[:3] == (sys.executable, "-m", "jupyterlab")
     assert Lab.command[-1] == "lessons/00_guess.ipynb"
@@ -102,7 +102,7 @@ def test_jupyterlab_opens_the_first_lesson_and_keeps_to_itself(course):
 
 
 def test_commands_of_this_environment_are_found_in_its_terminals(course):
-    run(["start"])
+    run_command(["start"])
     scripts = Path(Lab.path.split(os.pathsep, maxsplit=1)[0])
 
     assert course.is_dir()
@@ -118,7 +118,7 @@ def test_commands_of_this_environment_are_found_in_its_terminals(course):
 def test_it_ends_quietly_with_jupyterlab(monkeypatch, capsys, ends, code):
     monkeypatch.setattr(Lab, "ends", ends)
 
-    assert run(["start"]) == code
+    assert run_command(["start"]) == code
     assert capsys.readouterr().err == ""
 
 
@@ -126,7 +126,7 @@ def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
     path = course / "exercises" / "exercise1" / "checks.py"
     path.write_text(MAKER.replace('say(f"made for {student}")', "raise KeyboardInterrupt"), "utf-8")
 
-    assert run(["start"]) == 130
+    assert run_command(["start"]) == 130
     assert capsys.readouterr().err.strip() == ""
 
 
@@ -134,7 +134,7 @@ def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
 def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
     monkeypatch.setattr(starting.importlib.util, "find_spec", lambda _name: None)
 
-    assert run(["start"]) == 2
+    assert run_command(["start"]) == 2
     assert "python -m pip install jupyterlab" in capsys.readouterr().err
 
 
@@ -142,26 +142,26 @@ def test_without_lessons_it_opens_the_course_itself(course):
     for lesson in (course / "lessons").glob("*.ipynb"):
         lesson.unlink()
 
-    assert run(["start"]) == 0
+    assert run_command(["start"]) == 0
     assert Lab.command[-1] == "."
 
 
 @pytest.mark.usefixtures("course")
 def test_where_grade_cannot_be_typed_it_says_what_to_type(monkeypatch, capsys):
-    monkeypatch.setattr(starting, "_on_path", lambda _command: False)
+    monkeypatch.setattr(starting, "_is_on_path", lambda _command: False)
     monkeypatch.setattr(starting.sys, "prefix", str(Path.cwd() / ".venv"))
-    run(["start", "--no-lab"])
+    run_command(["start", "--no-lab"])
     out = capsys.readouterr().out
 
-    assert str(starting.activation(Path(".venv"))) in out
+    assert str(starting.describe_activation(Path(".venv"))) in out
     assert "python -m grader exercise4" in out
 
 
 def test_each_system_is_told_its_own_way_to_activate():
     place = Path("elsewhere") / ".venv"
 
-    assert starting.activation(place, windows=False) == f"source {place}/bin/activate"
-    assert starting.activation(place, windows=True) == rf"{place}\Scripts\activate"
+    assert starting.describe_activation(place, windows=False) == f"source {place}/bin/activate"
+    assert starting.describe_activation(place, windows=True) == rf"{place}\Scripts\activate"
 
 
 def test_jupyterlab_knows_the_settings_that_keep_it_quiet():

@@ -2,11 +2,11 @@
 
 import pytest
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.choice_answer import check_choice, read_choice
-from grader.mistake import exchanged, number, put, scaled
+from grader.mistake import change_number, exchange_numbers, put_value, scale_numbers
 from grader.student_files import write_student_files
-from grader.variant import class_secret, make_folder_name, student_seed
+from grader.variant import derive_student_seed, make_folder_name, use_class_secret
 from sim.core.errors import BadRequest
 
 TYPES = ("Simple", "Arm", "Elevator")
@@ -56,7 +56,7 @@ def test_a_word_may_be_written_in_many_ways(given, meant):
 
 @pytest.mark.parametrize("given", [None, "", 3, True, ["Arm"], "Arms", "…"])
 def test_no_word_or_another_one_gets_the_list(given):
-    with pytest.raises(Wrong) as wrong:
+    with pytest.raises(WrongAnswer) as wrong:
         read_choice(given, TYPES)
 
     assert wrong.value.hint == "Choose one of: Simple, Arm, Elevator."
@@ -64,7 +64,7 @@ def test_no_word_or_another_one_gets_the_list(given):
 
 def test_a_wrong_word_is_told_why():
     check_choice("arm", "Arm", TYPES, why=lambda _: ("no", ""))
-    with pytest.raises(Wrong, match="no gravity") as wrong:
+    with pytest.raises(WrongAnswer, match="no gravity") as wrong:
         check_choice("simple", "Arm", TYPES, why=lambda one: (f"{one} has no gravity", "M-R2"))
 
     assert wrong.value.misconception == "M-R2"
@@ -73,10 +73,10 @@ def test_a_wrong_word_is_told_why():
 @pytest.mark.parametrize(
     ("change", "made"),
     [
-        (scaled(2, "kV"), "kS = 0.1\nkV = 4\n"),
-        (exchanged("kS", "kV"), "kS = 2\nkV = 0.1\n"),
-        (number("kS", lambda all_: all_["kS"] + all_["kV"]), "kS = 2.1\nkV = 2\n"),
-        (put("kV", '"2 V"'), 'kS = 0.1\nkV = "2 V"\n'),
+        (scale_numbers(2, "kV"), "kS = 0.1\nkV = 4\n"),
+        (exchange_numbers("kS", "kV"), "kS = 2\nkV = 0.1\n"),
+        (change_number("kS", lambda all_: all_["kS"] + all_["kV"]), "kS = 2.1\nkV = 2\n"),
+        (put_value("kV", '"2 V"'), 'kS = 0.1\nkV = "2 V"\n'),
     ],
 )
 def test_answers_are_changed(change, made):
@@ -85,18 +85,18 @@ def test_answers_are_changed(change, made):
 
 def test_a_change_that_changes_nothing_is_refused():
     with pytest.raises(ValueError, match="none of the numbers"):
-        scaled(1, "kV")("kV = 2\n")
+        scale_numbers(1, "kV")("kV = 2\n")
     with pytest.raises(ValueError, match="no kA"):
-        put("kA", "1")("kV = 2\n")
+        put_value("kA", "1")("kV = 2\n")
 
 
 def test_a_class_draws_numbers_of_its_own():
-    alone = student_seed("ann", "exercise9")
-    with class_secret(b"east"):
-        east = student_seed("Ann", "exercise9")
-        with class_secret(b"west"):
-            west = student_seed("ann", "exercise9")
-        assert student_seed("ann", "exercise9") == east
+    alone = derive_student_seed("ann", "exercise9")
+    with use_class_secret(b"east"):
+        east = derive_student_seed("Ann", "exercise9")
+        with use_class_secret(b"west"):
+            west = derive_student_seed("ann", "exercise9")
+        assert derive_student_seed("ann", "exercise9") == east
     assert len({alone, east, west}) == 3
-    assert student_seed("ann", "exercise9") == alone
-    assert student_seed("ann", "exercise9", secret=b"east") == east
+    assert derive_student_seed("ann", "exercise9") == alone
+    assert derive_student_seed("ann", "exercise9", secret=b"east") == east

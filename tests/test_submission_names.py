@@ -5,11 +5,11 @@ import zipfile
 import pytest
 from small_course import HALF, RIGHT, lay_out
 
-from grader.classroom.roster import read_members
+from grader.classroom.roster import read_class_roster
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
-from grader.classroom.submissions import find_submissions, stray_files
-from grader.cli import run
-from grader.exercise import exercises
+from grader.classroom.submissions import find_stray_files, find_submissions
+from grader.cli import run_command
+from grader.exercise import list_exercises
 from sim.core.errors import BadRequest
 
 CANVAS = """\
@@ -24,13 +24,13 @@ Student,ID,SIS User ID,SIS Login ID,Section
 @pytest.fixture
 def course(tmp_path):
     lay_out(tmp_path / "course")
-    return exercises(tmp_path / "course")
+    return list_exercises(tmp_path / "course")
 
 
 def people(tmp_path, text):
     path = tmp_path / "roster.csv"
     path.write_text(text, encoding="utf-8")
-    return read_members(path).identities
+    return read_class_roster(path).identities
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,7 @@ def test_a_canvas_download_is_graded_as_it_is(tmp_path, course):
     assert all(list(one.files) == ["exercise1"] for one in found.values())
     assert all(not one.problem for one in found.values())
     assert found["zoe"].files["exercise1"] == {"answers.toml": HALF.encode()}
-    assert stray_files(place) == ("roster.csv",)
+    assert find_stray_files(place) == ("roster.csv",)
 
 
 def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
@@ -128,7 +128,7 @@ def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
     place.mkdir()
     (place / "Jane Doe - answers.toml").write_text(RIGHT, encoding="utf-8")
     (place / "Jane Doe - code.toml").write_text(HALF, encoding="utf-8")
-    (one,) = find_submissions(place, exercises(tmp_path / "course"))
+    (one,) = find_submissions(place, list_exercises(tmp_path / "course"))
 
     assert one.student == "Jane Doe"
     assert {name: list(files) for name, files in one.files.items()} == {
@@ -169,7 +169,7 @@ def test_many_tries_at_one_answer_are_not_the_best_of_them(tmp_path, course, mon
         (place / f"a{number}.toml").write_text(f"size = {number}\n", encoding="utf-8")
     monkeypatch.chdir(course[0].folder)
 
-    assert run(["class", str(tmp_path / "in")]) == 1
+    assert run_command(["class", str(tmp_path / "in")]) == 1
     page = (tmp_path / "in-graded" / "students" / "ann.html").read_text(encoding="utf-8")
     assert "5 files here could be the answer (a0.toml, a1.toml, a2.toml, …)" in page
 

@@ -14,14 +14,14 @@ import pytest
 from test_exercises import mistakes_of
 
 from grader.course import find_course
-from grader.exercise import exercises
+from grader.exercise import list_exercises
 from grader.misconception import MISCONCEPTIONS
 from sim.inspect.faults import FAULTS
 from sim.physics.effects import EFFECTS
 
 ROOT = find_course(Path(__file__).resolve().parent)
 TABLE = tomllib.loads((ROOT / "tests" / "traceability.toml").read_text(encoding="utf-8"))
-EXERCISES = {one.name: one for one in exercises(ROOT)}
+EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 LESSONS = {path.stem[:2]: path for path in sorted((ROOT / "lessons").glob("*.py"))}
 HEADING = re.compile(r"^(?P<level>#{2,3}) (?:(?P<number>\d+) )?(?P<title>.+)$", re.MULTILINE)
 

@@ -7,11 +7,11 @@ import pytest
 from small_course import RIGHT, lay_out
 
 from grader.classroom import workers
-from grader.classroom.run import GradedClass, grade_all, plan_grading
-from grader.classroom.store import Store
+from grader.classroom.class_grading import GradedClass, grade_class, plan_grading
+from grader.classroom.store import ResultStore
 from grader.classroom.submissions import find_submissions
-from grader.cli import run
-from grader.exercise import exercises
+from grader.cli import run_command
+from grader.exercise import list_exercises
 
 DOES = '''
 """An exercise whose check does what the answer asks for."""
@@ -56,16 +56,18 @@ def hand_in(place, **does):
 
 def graded(course, there, out, *, seconds):
     """Student -> score and reason, and who was graded in this run."""
-    work = GradedClass(find_submissions(there, exercises(course)), exercises(course), course)
-    store = Store(out)
+    work = GradedClass(
+        find_submissions(there, list_exercises(course)), list_exercises(course), course
+    )
+    store = ResultStore(out)
     left = plan_grading(work, store, travel=False, again=False)
     store.open()
     found = list(left.kept)
-    for one in workers.grade_in_workers(left.todo, processes=2, seconds=seconds):
+    for one in workers.grade_in_workers(left.jobs, processes=2, seconds=seconds):
         store.put(one)
         found.append(one)
     results = {one.student: (one.records[0]["score"], one.records[0]["reason"]) for one in found}
-    return results, [job.student for job in left.todo]
+    return results, [job.student for job in left.jobs]
 
 
 def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path):
@@ -85,8 +87,10 @@ def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_pa
 
 def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
     there = hand_in(tmp_path / "in", ben="hang")
-    work = GradedClass(find_submissions(there, exercises(course)), exercises(course), course)
-    store = Store(tmp_path / "out")
+    work = GradedClass(
+        find_submissions(there, list_exercises(course)), list_exercises(course), course
+    )
+    store = ResultStore(tmp_path / "out")
     looks = []
 
     def stop_if_asked():
@@ -95,7 +99,7 @@ def test_ctrl_c_ends_a_run_whose_worker_hangs(course, tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        grade_all(
+        grade_class(
             work, plan_grading(work, store, travel=False, again=False), store, processes=1,
             cluster=None, say=lambda: None, stop_if_asked=stop_if_asked,
         )  # fmt: skip
@@ -131,7 +135,7 @@ def test_a_class_of_hostile_files_grades_everybody_else(tmp_path, monkeypatch, c
     except (OSError, UnicodeError):  # a system whose names are all UTF-8
         odd = ""
 
-    assert run(["class", str(there)]) == 1
+    assert run_command(["class", str(there)]) == 1
     said = capsys.readouterr().err
     rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()[1:]
     points = dict(row.split(",")[:2] for row in rows)
@@ -151,6 +155,6 @@ def test_the_worst_bomb_that_is_read_stays_small(course, tmp_path):
         archive.writestr("exercise1/answers.toml", b"#" * 5_000_000)
     (tmp_path / "in").mkdir()
     (tmp_path / "ann.zip").rename(tmp_path / "in" / "ann.zip")
-    (one,) = find_submissions(tmp_path / "in", exercises(course))
+    (one,) = find_submissions(tmp_path / "in", list_exercises(course))
 
     assert len(one.files["exercise1"]["answers.toml"]) == 1_000_001

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answer import Asked, Band
+from grader.answer import AskedNumber, Band
 
 NEAR = Band(0.02, 0.02)  # arithmetic: within 2 % or not
 SHOWN = {  # kind -> the unit a dashboard shows, and how many of it are one of kV's
@@ -48,9 +48,9 @@ class Variant:
         friction = math.copysign(self.gains["kS"], at.velocity)
         return friction, self.gains["kV"] * at.velocity, self.gains["kA"] * at.acceleration
 
-    def asked(self, name: str) -> Asked:
+    def asked(self, name: str) -> AskedNumber:
         """The voltage at a moment, as it is asked for."""
-        return Asked(name, sum(self.terms(name)), "V", NEAR)
+        return AskedNumber(name, sum(self.terms(name)), "V", NEAR)
 
     @property
     def largest(self) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.answer import read_answer_number
-from grader.check import Wrong, check
+from grader.check import WrongAnswer, check
 from grader.consequence import Consequence
 from grader.quantity import NotAUnitError, read_unit
 from grader.student_files import write_student_files
@@ -126,7 +126,9 @@ def _voltage(name: str, answers: Answers) -> None:
         hint = f"outside the accepted ±2 %, by a {size}. Write down the three terms one by one"
     if abs(value) > BATTERY:
         hint = f"no battery of a robot has more than {BATTERY:g} V: {hint}"
-    raise Wrong(f"{value:.4g} V", hint=hint, misconception=codes.pop() if len(codes) == 1 else "")
+    raise WrongAnswer(
+        f"{value:.4g} V", hint=hint, misconception=codes.pop() if len(codes) == 1 else ""
+    )
 
 
 @check(points=2)
@@ -137,19 +139,19 @@ def kv_unit(answers: Answers) -> None:
     if not isinstance(raw, str) or not raw.strip():
         empty = raw is None or isinstance(raw, str)
         seen = "nothing yet" if empty else f"{raw}, which is no unit"
-        raise Wrong(seen, hint=letters)
+        raise WrongAnswer(seen, hint=letters)
     try:
         given = read_unit(raw)
     except NotAUnitError as part:
-        raise Wrong(f"{raw!r}, in which {str(part)!r} is not known", hint=letters) from None
+        raise WrongAnswer(f"{raw!r}, in which {str(part)!r} is not known", hint=letters) from None
     right = read_unit(f"V*s/{symbol}")
     if given.powers == right.powers and math.isclose(given.factor, right.factor):
         return
     alike = given.powers[:2] == right.powers[:2] and sum(given.powers) == sum(right.powers)
     if alike and max(given.powers[2:]) == 0:
         hint = f"of the right kind, but your velocities are in {symbol}/s"
-        raise Wrong(raw, hint=hint, misconception="M-UNITS", earned=1.0)
-    raise Wrong(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
+        raise WrongAnswer(raw, hint=hint, misconception="M-UNITS", earned=1.0)
+    raise WrongAnswer(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
 
 
 def _about_unit(given: tuple[int, ...]) -> str:
@@ -171,11 +173,11 @@ def largest(answers: Answers) -> None:
     raw, variant = answers.given.get("largest"), answers.variant
     listed = "Choose one of: kS, kV, kA."
     if raw is None or raw == "":
-        raise Wrong("nothing yet", hint=listed)
+        raise WrongAnswer("nothing yet", hint=listed)
     text = re.sub(r"[\s·⋅*()]", "", str(raw)).lower()
     word = WORDS.get(re.sub(r"^(ks|kv|ka)(sgnv|v|a)$", r"\1", text))
     if word is None:
-        raise Wrong(f'"{raw}", which is none of the terms', hint=listed)
+        raise WrongAnswer(f'"{raw}", which is none of the terms', hint=listed)
     if word == variant.largest:
         return
     hint = (
@@ -185,4 +187,4 @@ def largest(answers: Answers) -> None:
         hint = f"{word} is the largest gain, but a gain is not a voltage yet: {hint}"
     elif variant.largest == "kA" and variant.largest_at == "braking":
         hint = f"a term below zero may be large, too: {hint}"
-    raise Wrong(f"{word}, at {variant.largest_at}", hint=hint)
+    raise WrongAnswer(f"{word}, at {variant.largest_at}", hint=hint)

@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import student_rng
+from grader.variant import make_student_rng
 
 from .budget import MOMENTS, NEAR, SHOWN, Moment, Variant
 from .guess import ALIKE, ROUNDED, guesses
@@ -28,7 +28,7 @@ DIGITS = 3
 
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one; drawn until every slip can be told apart."""
-    rng = student_rng(student, "exercise1")
+    rng = make_student_rng(student, "exercise1")
     kind = tuple(SHOWN)[int(rng.integers(len(SHOWN)))]
     for _ in range(MOST_DRAWS):
         variant = _drawn(kind, rng)

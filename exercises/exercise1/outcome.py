@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from grader.answer import read_answer_number
-from grader.check import Wrong
-from grader.consequence import Consequence, Drawn
+from grader.check import WrongAnswer
+from grader.consequence import Consequence, Picture
 
 from .budget import MOMENTS, Variant
 
@@ -46,7 +46,7 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
         asked = variant.asked(name)
         try:
             value = read_answer_number(given.get(name), asked)
-        except Wrong:
+        except WrongAnswer:
             continue
         if not asked.right(value):
             motions.append(_moved(name, value, variant))
@@ -54,7 +54,7 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
         return None
     words = " ".join(_words(one, variant) for one in motions)
 
-    def draw() -> Drawn:
+    def draw() -> Picture:
         from sim.plot import consequence as plot  # noqa: PLC0415 - only who draws waits for it
 
         ylabel, done = f"velocity [{variant.symbol}/s]", "what it does"

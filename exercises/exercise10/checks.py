@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.check import NotReached, Wrong, check
+from grader.check import NotReachedError, WrongAnswer, check
 from grader.consequence import Consequence
 from grader.robotcode.gain_constants import DeployFacts, Feedforward, GainConstant, gains_of
 from grader.student_files import write_student_files
@@ -106,21 +106,21 @@ def named(code: Code) -> None:
     wanted = (*code.variant.gains, "kP")
     there = [one for one in wanted if code.facts.constant(one)]
     if not there:
-        raise Wrong(
+        raise WrongAnswer(
             "no gain in this file",
             hint=f"Write them into {HOLDER}, one constant for each: {', '.join(wanted[:1])} and "
             "so on.",
         )
     lacking = [one for one in wanted if one not in there]
     if lacking:
-        raise Wrong(
+        raise WrongAnswer(
             f"no {' and no '.join(lacking)}",
             hint="Every gain the analyzer shows gets a constant, by the name it has there.",
             earned=0.5 * len(there) / len(wanted),
         )
     outside = [one for one in code.facts.constants if "haracteri" not in one.holder]
     if outside:
-        raise Wrong(
+        raise WrongAnswer(
             f"{outside[0].name} in line {outside[0].line} is not in {HOLDER}",
             hint="A class of their own keeps measured gains apart from all other constants.",
             earned=0.5,
@@ -153,7 +153,7 @@ def _valued(gain: str, code: Code) -> None:
     if _right(constant, code.variant):
         return
     slip = constant_slip(value, gain, code.variant, text=constant.text)
-    raise Wrong(_at(constant), hint=slip.says, misconception=slip.misconception)
+    raise WrongAnswer(_at(constant), hint=slip.says, misconception=slip.misconception)
 
 
 def _right(constant: GainConstant, variant: Variant) -> bool:
@@ -167,13 +167,13 @@ def _right(constant: GainConstant, variant: Variant) -> bool:
 def _constant(gain: str, code: Code) -> GainConstant:
     found = code.facts.constant(gain)
     if found is None:
-        raise NotReached(f"looked at once there is a constant {gain}")
+        raise NotReachedError(f"looked at once there is a constant {gain}")
     return found
 
 
 def _known(value: float | None, text: str, line: int) -> float:
     if value is None:
-        raise Wrong(
+        raise WrongAnswer(
             f"I cannot tell the number by reading {text} in line {line}",
             hint="Write it as a number, or as plain arithmetic of numbers and named constants.",
         )
@@ -190,17 +190,17 @@ def units(code: Code) -> None:
     """A comment tells the unit of each gain of the feedforward."""
     found = [one for one in code.facts.constants if one.gain in code.variant.gains]
     if not found:
-        raise NotReached("looked at once there are gains")
+        raise NotReachedError("looked at once there are gains")
     for one in found:
         verdict = _unit_told(one, code)
         shown = f'"{one.comment[:50]}" beside {one.name}' if one.comment else f"{one.name} alone"
         if verdict is False:
-            raise Wrong(
+            raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",
                 hint="Write it beside the number: next year nobody knows what it means without.",
             )
         if verdict is None:
-            raise Wrong(
+            raise WrongAnswer(
                 f"{shown}, line {one.line}",
                 hint="A unit of the right kind, but not the one of this number.",
                 misconception="M-UNITS",
@@ -226,7 +226,7 @@ def feedforward(code: Code) -> str:
         check_compiles(code.facts.compile_errors, language=code.facts.language)
         return READ_ONLY[code.facts.language].partition(":")[0] + "."
     gravity = code.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"
-    raise Wrong(
+    raise WrongAnswer(
         f"{one.kind} in line {one.line}",
         hint="This class has no place for kG, and gravity pulls at this mechanism all the time."
         if gravity
@@ -250,7 +250,7 @@ def conversion(code: Code) -> None:
     for gain in ("kV", "kA"):
         try:
             _converted(gain, one, code)
-        except Wrong as why:
+        except WrongAnswer as why:
             wrong.append(why)
     if wrong:
         wrong[0].earned = 2.0 - len(wrong)
@@ -264,19 +264,21 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     constant = code.facts.constant(gain)
     if given is None and one.spread:
         hint = "Write the arguments one by one."
-        raise Wrong(f"I cannot tell by reading what {gain} it gets", hint=hint)
+        raise WrongAnswer(f"I cannot tell by reading what {gain} it gets", hint=hint)
     if given is None:
-        raise Wrong(f"the feedforward in line {one.line} gets no {gain}", hint="Hand it over, too.")
+        raise WrongAnswer(
+            f"the feedforward in line {one.line} gets no {gain}", hint="Hand it over, too."
+        )
     if constant is None and given.value is None:
-        raise Wrong(f"no constant {gain}", hint="Write it down first.")
+        raise WrongAnswer(f"no constant {gain}", hint="Write it down first.")
     if constant is not None and constant.value is not None and not _right(constant, code.variant):
-        raise Wrong(_at(constant), hint=f"Put the constant {gain} right first.")
+        raise WrongAnswer(_at(constant), hint=f"Put the constant {gain} right first.")
     value = _known(given.value, given.text, one.line)
     if near(value, code.variant.needed(gain)):
         return
     slip = handed_slip(value, gain, code.variant)
     seen = f"{given.text} in line {one.line}, which is {value:.4g}"
-    raise Wrong(seen, hint=slip.says, misconception=slip.misconception)
+    raise WrongAnswer(seen, hint=slip.says, misconception=slip.misconception)
 
 
 @check(points=1)
@@ -291,9 +293,9 @@ def kp(code: Code) -> None:
         slip = feedback_slip(value, code.variant, text=constant.text)
         seen = _at(constant) if constant.value is not None else at
         earned = 0.5 if marked else 0.0
-        raise Wrong(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
+        raise WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
     if not marked:
-        raise Wrong(
+        raise WrongAnswer(
             f'"{constant.comment[:50]}" beside kP' if constant.comment else "no comment beside kP",
             hint="The number fits. Say beside it how far to trust it: the analyzer has never seen "
             "your loop run. Is this its last word?",

@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import student_rng
+from grader.variant import make_student_rng
 
 from .key import FULL, UNITS, Variant, near
 
@@ -29,7 +29,7 @@ MOST_DRAWS = 2000
 
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same; drawn until its numbers can be told apart."""
-    rng = student_rng(student, "exercise10")
+    rng = make_student_rng(student, "exercise10")
     kind = tuple(KINDS)[int(rng.integers(len(KINDS)))]
     for _ in range(MOST_DRAWS):
         variant = _drawn(kind, rng)

@@ -2,7 +2,7 @@
 
 import re
 
-from grader.check import NotReached, Wrong
+from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.gain_constants import Argument, DeployFacts, Feedforward
 
 from .key import Variant, near
@@ -12,13 +12,13 @@ def feedforward_of(facts: DeployFacts, variant: Variant) -> Feedforward:
     """The feedforward in question: one of the right class before others.
 
     Raises:
-        Wrong: none is made.
-        NotReached: there is nothing at all yet.
+        WrongAnswer: none is made.
+        NotReachedError: there is nothing at all yet.
     """
     if not facts.feedforwards and not facts.constants:
-        raise NotReached("looked at once there are gains")
+        raise NotReachedError("looked at once there are gains")
     if not facts.feedforwards:
-        raise Wrong(
+        raise WrongAnswer(
             "no feedforward is made",
             hint="Make one of WPILib's three, and hand it your constants.",
         )
@@ -30,14 +30,14 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
     """Whether each gain stands in its place.
 
     Raises:
-        Wrong: one does not, or is left out, or cannot be told.
+        WrongAnswer: one does not, or is left out, or cannot be told.
     """
     places = _places(one)
     found = {place: _gain(arg, facts, variant) for place, arg in one.arguments.items()}
     at = f"{re.sub(r'[A-Za-z_.]+[.](?=k)', '', one.text)} in line {one.line}"
     for place, gain in found.items():
         if gain and gain != place:
-            raise Wrong(
+            raise WrongAnswer(
                 at,
                 hint=f"{gain} stands where {one.kind} expects {place}. Look at the order of its "
                 "arguments.",
@@ -45,16 +45,16 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
             )
     for place, gain in found.items():
         if not gain:
-            raise Wrong(
+            raise WrongAnswer(
                 f"I cannot tell which gain {one.arguments[place].text} is, in line {one.line}",
                 hint="Hand over the constants by their names.",
             )
     if one.spread:
         hint = "Write the arguments one by one."
-        raise Wrong(f"I cannot tell by reading which gains {at} gets", hint=hint)
+        raise WrongAnswer(f"I cannot tell by reading which gains {at} gets", hint=hint)
     lacking = [place for place in places if place not in found]
     if lacking:
-        raise Wrong(
+        raise WrongAnswer(
             f"{at} has no {' and no '.join(lacking)}",
             hint="What is left out counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,

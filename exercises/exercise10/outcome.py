@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING
 
-from grader.check import NotReached, Wrong
+from grader.check import NotReachedError, WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 from grader.robotcode.gain_constants import DeployFacts, Feedforward
 
@@ -29,7 +29,7 @@ def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
 
     try:
         one = feedforward_of(facts, variant)
-    except (Wrong, NotReached):
+    except (WrongAnswer, NotReachedError):
         return None
     gains = _gains(one)
     if gains is None or _right(one, gains, variant):

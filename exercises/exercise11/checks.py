@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import Key, judge_number, read_answer_number
-from grader.check import Check, NotReached, Wrong, check, shorten
+from grader.answer import AnswerKey, judge_number, read_answer_number
+from grader.check import Check, NotReachedError, WrongAnswer, check, shorten
 from grader.choice_answer import check_choice, read_choice
 from grader.student_files import write_student_files
 from grader.submission import read_answers
@@ -110,8 +110,10 @@ def kc2_volts(answers: Answers) -> str | None:
     if not asked.right(value):
         for slipped, says, code in answers.variant.slips:
             if abs(value - slipped) <= ROUNDED * slipped:
-                raise Wrong(f"{value:.4g} V", hint=says, misconception=code)
-    return judge_number(asked.name, {asked.name: raw}, Key({asked.name: asked}), points=SINGLE)
+                raise WrongAnswer(f"{value:.4g} V", hint=says, misconception=code)
+    return judge_number(
+        asked.name, {asked.name: raw}, AnswerKey({asked.name: asked}), points=SINGLE
+    )
 
 
 kc2_answer = _question("KC2_answer", "KC2: what to do about the missing speed.", points=TIER)
@@ -147,13 +149,13 @@ def _reason(row: Row) -> Check[Answers]:
         chosen = _argued(row, answers, asked=True)
         try:
             decided = read_choice(answers.given.get(row.name), DECISIONS, also=ALSO)
-        except Wrong:
-            raise NotReached("a reason is looked at beside a decision") from None
+        except WrongAnswer:
+            raise NotReachedError("a reason is looked at beside a decision") from None
         if chosen in row.reasons or row.argues(decided, chosen):
             return
         own, code = WRONG.get(chosen, ("", ""))
         other = f"that does not carry '{decided}' for this one: {row.told}. {row.ask}"
-        raise Wrong(f'"{REASONS[chosen]}"', hint=own or other, misconception=code)
+        raise WrongAnswer(f'"{REASONS[chosen]}"', hint=own or other, misconception=code)
 
     look.__name__ = f"reason_{row.name}"
     look.__doc__ = f"The reason: {row.name}."
@@ -171,7 +173,7 @@ def _argued(row: Row, answers: Answers, *, asked: bool = False) -> str:
         return ""
     seen = "nothing yet" if raw is None or raw == "" else f"{shorten(raw)}, which is none of them"
     ask = "Write the letter of a reason: the list is at the end of your questions.md."
-    raise Wrong(seen, hint=ask)
+    raise WrongAnswer(seen, hint=ask)
 
 
 # The loader finds checks by the names of this module, in the order they are written.

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answer import Asked, Band
-from grader.variant import cache_draws, student_rng
+from grader.answer import AskedNumber, Band
+from grader.variant import cache_draws, make_student_rng
 
 from .knowledge import CHECKS
 from .question import LETTERS, Option, lettered
@@ -34,10 +34,10 @@ class Variant:
     reasons: Mapping[str, str]
 
     @property
-    def volts(self) -> Asked:
+    def volts(self) -> AskedNumber:
         """The voltage that the shooter's feedforward asks for."""
         ks, kv, rpm = (self.numbers[name] for name in ("ks", "kv", "target"))
-        return Asked("KC2_volts", ks + kv * rpm / 60.0, "V", VOLTS)
+        return AskedNumber("KC2_volts", ks + kv * rpm / 60.0, "V", VOLTS)
 
     @property
     def slips(self) -> tuple[tuple[float, str, str], ...]:
@@ -65,7 +65,7 @@ class Variant:
 @cache_draws
 def draw(student: str) -> Variant:
     """A learner's questions, always the same."""
-    rng = student_rng(student, "exercise11")
+    rng = make_student_rng(student, "exercise11")
     target = int(rng.choice(TARGETS))
     before = round(float(rng.uniform(*KS_BEFORE)), 2)
     numbers = {

@@ -4,7 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from grader.check import Wrong, shorten
+from grader.check import WrongAnswer, shorten
 
 LETTERS = "abcdefghijklmnop"
 SHORTEST = 4  # [characters] of an option's beginning that may stand for it
@@ -50,20 +50,20 @@ class Question:
             letters: this learner's letter -> option.
 
         Raises:
-            Wrong: nothing was given, or nothing that means one of them.
+            WrongAnswer: nothing was given, or nothing that means one of them.
         """
         ask = f"Write one letter, {', '.join(letters)}: as in your questions.md."
         if raw is None or raw == "":
-            raise Wrong("nothing yet", hint=ask)
+            raise WrongAnswer("nothing yet", hint=ask)
         if not isinstance(raw, str):
-            raise Wrong(f"{shorten(raw)}, which is not a letter", hint=ask)
+            raise WrongAnswer(f"{shorten(raw)}, which is not a letter", hint=ask)
         given = plain(raw)
         if given in letters:
             return letters[given]
         same = [one for one in self.options if plain(one.text) == given]
         like = same or [one for one in self.options if plain(one.text).startswith(given)]
         if (len(given) < SHORTEST and not same) or len(like) != 1:
-            raise Wrong(f'"{shorten(raw)}", which is none of them', hint=ask)
+            raise WrongAnswer(f'"{shorten(raw)}", which is none of them', hint=ask)
         return like[0]
 
 
@@ -84,11 +84,11 @@ def judged(chosen: Option, *, points: float) -> str | None:
         A note, if there is something to say about it all the same.
 
     Raises:
-        Wrong: it is not right, or only in part.
+        WrongAnswer: it is not right, or only in part.
     """
     if chosen.share == 1.0:
         return chosen.says or None
-    raise Wrong(
+    raise WrongAnswer(
         f'"{_short(chosen.text)}"',
         hint=chosen.says,
         misconception=chosen.code,

@@ -7,8 +7,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, read_answer_number
-from grader.check import NotReached, Wrong, check
+from grader.answer import AskedNumber, Band, read_answer_number
+from grader.check import NotReachedError, WrongAnswer, check
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 from grader.variant import make_folder_name
@@ -55,12 +55,12 @@ class Answers:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The effects, in order; raises Wrong."""
+        """The effects, in order; raises WrongAnswer."""
         return names_of(self.given.get("effects"))
 
     @property
     def parts(self) -> "list[Part]":
-        """The effects with their parameters; raises Wrong."""
+        """The effects with their parameters; raises WrongAnswer."""
         from sim.core.units import find_unit  # noqa: PLC0415 - numpy only where it is needed
 
         return parts_of(self.names, self.given, find_unit(self.variant.log.units))
@@ -112,14 +112,14 @@ def first_effect(answers: Answers) -> None:
     hint = "there is an effect that narrows the gap of the validation more, alone"
     if first in answers.variant.hidden:
         hint = f"it is there, but {hint}"
-    raise Wrong(f'"{first}"', hint=f"{hint}{_alone(answers)}")
+    raise WrongAnswer(f'"{first}"', hint=f"{hint}{_alone(answers)}")
 
 
 def _alone(answers: Answers) -> str:
     """What the first effect does by itself, as the learner sized it."""
     try:
         part = answers.parts[0]
-    except Wrong:
+    except WrongAnswer:
         return ""
     validation = answers.variant.validation
     unit = noise(validation)
@@ -145,7 +145,7 @@ def all_effects(answers: Answers) -> None:
             "looks like it: try its look-alikes in its place, and keep what the validation prefers"
         )
     some = named > hidden or named < hidden
-    raise Wrong(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
+    raise WrongAnswer(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
 
 
 @check(points=3)
@@ -162,23 +162,23 @@ def held_out(answers: Answers) -> str | None:
     shrunk = (before - after) / (before - floor)
     if shrunk >= SHRINK:
         hint = "most of the way. Is an effect missing, or a parameter not yet right?"
-        raise Wrong(seen, hint=hint, earned=2.0)
+        raise WrongAnswer(seen, hint=hint, earned=2.0)
     hint = "there is much left. Are the parameters those of your own log, in its units?"
     if after > WORSE * before:
         hint = (
             "on runs it was not fitted to, your model is worse than none. What fits one log only "
             "is no physics: choose by the validation, and leave out what does not help there"
         )
-    raise Wrong(seen, hint=hint)
+    raise WrongAnswer(seen, hint=hint)
 
 
 def _reported(answers: Answers, *, before: float, after: float, seen: str) -> str:
     """Whether the gaps that the learner wrote down are those of this model."""
     for name, expected, bounds in (("gap_before", before, BASE), ("gap_after", after, SAME)):
-        asked = Asked(name, expected, "", Band(0.0, 0.0))
+        asked = AskedNumber(name, expected, "", Band(0.0, 0.0))
         try:
             _near(read_answer_number(answers.given.get(name), asked), expected, bounds)
-        except Wrong as wrong:
+        except WrongAnswer as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise
     return seen
@@ -187,7 +187,7 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
 def _near(value: float, expected: float, bounds: tuple[float, float]) -> None:
     if not bounds[0] * expected <= value <= bounds[1] * expected:
         hint = "that is not the gap of your model on the held-out log, in noises"
-        raise Wrong(f"{value:g}", hint=hint)
+        raise WrongAnswer(f"{value:g}", hint=hint)
 
 
 @check(points=2)
@@ -195,11 +195,11 @@ def justified(answers: Answers) -> None:
     """Each effect earns its place on the validation, and no parameter is at a bound."""
     try:
         parts = answers.parts
-    except Wrong:
-        raise NotReached("it takes effects and their parameters") from None
+    except WrongAnswer:
+        raise NotReachedError("it takes effects and their parameters") from None
     for part in parts:
         if stuck := on_a_bound(part):
-            raise Wrong(
+            raise WrongAnswer(
                 f"{part.effect}.{stuck} is at its bound",
                 hint="there an effect does nothing, or wants to be another one. Leave it out, or "
                 "search again from elsewhere",
@@ -209,7 +209,7 @@ def justified(answers: Answers) -> None:
     for part in parts:
         without = gap(answers.fitted([one for one in parts if one is not part]), validation)
         if not _worth(part, whole=whole, without=without, log=validation):
-            raise Wrong(
+            raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
                 "wide. That is no reason to have it: more effects always fit the log they are "

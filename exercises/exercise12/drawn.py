@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import cached_draw
-from grader.variant import cache_draws, student_rng
+from grader.draw_cache import cache_draw_on_disk
+from grader.variant import cache_draws, make_student_rng
 
 from .gap import gap, noise, with_effects
 
@@ -69,10 +69,10 @@ class Variant:
 
 
 @cache_draws
-@cached_draw
+@cache_draw_on_disk
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
-    rng = student_rng(student, "exercise12")
+    rng = make_student_rng(student, "exercise12")
     for _ in range(MOST_DRAWS):
         variant = _one(rng)
         if _determined(variant):

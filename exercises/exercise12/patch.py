@@ -5,8 +5,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, read_answer_number
-from grader.check import Wrong
+from grader.answer import AskedNumber, Band, read_answer_number
+from grader.check import WrongAnswer
 
 if TYPE_CHECKING:
     from sim.core.units import Unit
@@ -24,19 +24,23 @@ def names_of(raw: object) -> tuple[str, ...]:
     """The names of the effects, in the learner's order.
 
     Raises:
-        Wrong: there are none, or one that is none.
+        WrongAnswer: there are none, or one that is none.
     """
     some = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(some, list) or not all(isinstance(one, str) for one in some):
-        raise Wrong("not a list of names", hint=f'Write effects = ["delay", "backlash"]; {LIST}.')
+        raise WrongAnswer(
+            "not a list of names", hint=f'Write effects = ["delay", "backlash"]; {LIST}.'
+        )
     names = [one.strip().lower().replace("_", "-").replace(" ", "-") for one in some]
     names = [one for one in names if one]
     if not names:
-        raise Wrong("nothing yet", hint=f'Write effects = ["…"], the most important first; {LIST}.')
+        raise WrongAnswer(
+            "nothing yet", hint=f'Write effects = ["…"], the most important first; {LIST}.'
+        )
     for name in names[:MOST]:
         _known(name)
     if len(names) > MOST or len({*names}) < len(names):
-        raise Wrong(f"{len(names)} names", hint="Name each effect once.")
+        raise WrongAnswer(f"{len(names)} names", hint="Name each effect once.")
     return tuple(names)
 
 
@@ -44,7 +48,7 @@ def _known(name: str) -> None:
     from sim.physics.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
 
     if name in GAINS:
-        raise Wrong(
+        raise WrongAnswer(
             f'"{name}"',
             hint="that is a gain, and the base model has it already: its gains are fitted to your "
             "log as well as they can be. A gain that is bent until one log fits hides what is "
@@ -53,7 +57,7 @@ def _known(name: str) -> None:
     if name not in EFFECTS:
         near = difflib.get_close_matches(name, EFFECTS, n=1)
         also = f"Did you mean {near[0]}? " if near else ""
-        raise Wrong(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
+        raise WrongAnswer(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
 
 
 def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -> "list[Part]":
@@ -65,7 +69,7 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
         per: the unit of position in which the learner writes.
 
     Raises:
-        Wrong: a parameter is missing, or is none.
+        WrongAnswer: a parameter is missing, or is none.
     """
     from sim.physics.effects import find_effect  # noqa: PLC0415 - numpy only where it is needed
     from sim.physics.model import Part  # noqa: PLC0415 - the same
@@ -76,7 +80,7 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
         known = find_effect(name).parameters
         if not isinstance(table, dict):
             lines = ", ".join(f"{name}.{one.name} = …" for one in known)
-            raise Wrong(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
+            raise WrongAnswer(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
         values = {one.name: _value(name, one, table.get(one.name), per) for one in known}
         parts.append(Part(name, values))
     return parts
@@ -84,15 +88,17 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
 
 def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
     """A parameter, in SI."""
-    asked = Asked(f"{name}.{known.name}", 0.0, known.unit.format(u=per.symbol), Band(0.0, 0.0))
+    asked = AskedNumber(
+        f"{name}.{known.name}", 0.0, known.unit.format(u=per.symbol), Band(0.0, 0.0)
+    )
     try:
         value = read_answer_number(raw, asked)
-    except Wrong as wrong:
+    except WrongAnswer as wrong:
         wrong.seen = f"{asked.name}: {wrong.seen}"
         raise
     si = value / per.si**known.power
     if not known.least <= si <= known.most:
-        raise Wrong(
+        raise WrongAnswer(
             f"{asked.name} = {value:g} {asked.unit}",
             hint=f"that is not physics: {known.what} cannot be that. Mind the sign and the unit",
         )

@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.answer import Asked, Band, Key, judge_number, read_answer_number
-from grader.check import Wrong, check
+from grader.answer import AnswerKey, AskedNumber, Band, judge_number, read_answer_number
+from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import write_student_files
 from grader.submission import read_answers
@@ -80,7 +80,7 @@ def kv_theory(answers: Answers) -> str | None:
     variant = answers.variant
     value = read_answer_number(answers.given.get("kv_theory"), variant.asked)
     nearest = min(variant.theories, key=lambda one: abs(one - value))
-    key = Key(
+    key = AnswerKey(
         {"kV_theory": replace(variant.asked, expected=nearest)},
         Scene(lookalikes={"kV_theory": lookalikes(variant)}),
     )
@@ -93,32 +93,32 @@ def difference(answers: Answers) -> None:
     variant, value = answers.variant, _percent(answers)
     try:
         theirs = read_answer_number(answers.given.get("kv_theory"), variant.asked)
-    except Wrong:
+    except WrongAnswer:
         theirs = 0.0
     known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
     if any(_near(value, variant.percent(one), variant) for one in known):
         return
     if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
         says = "that follows from your kV_theory, but your kV_theory is not right yet"
-        raise Wrong(f"{value:.4g} %", hint=says, earned=1.0)
-    raise Wrong(f"{value:.4g} %", hint=_about_percent(value, variant))
+        raise WrongAnswer(f"{value:.4g} %", hint=says, earned=1.0)
+    raise WrongAnswer(f"{value:.4g} %", hint=_about_percent(value, variant))
 
 
 def _percent(answers: Answers) -> float:
     """The student's difference [%].
 
     Raises:
-        Wrong: it is not a number.
+        WrongAnswer: it is not a number.
     """
     raw = answers.given.get("difference")
     raw = raw.replace("%", "").replace("percent", "") if isinstance(raw, str) else raw
-    return read_answer_number(raw, Asked("difference", 0.0, "", Band(0.0, 0.0)))
+    return read_answer_number(raw, AskedNumber("difference", 0.0, "", Band(0.0, 0.0)))
 
 
 def _own_difference(answers: Answers) -> float | None:
     try:
         return _percent(answers)
-    except Wrong:
+    except WrongAnswer:
         return None
 
 

@@ -3,7 +3,7 @@
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from grader.variant import cache_draws, student_rng
+from grader.variant import cache_draws, make_student_rng
 
 from .slips import lookalikes
 from .team import NEAR, Parts, Variant, verdict
@@ -51,7 +51,7 @@ MOST_DRAWS = 2000  # a few are enough; so many would be our fault
 def draw(student: str) -> Variant:
     """A learner's team, always the same one; drawn again until every verdict is clear."""
     for attempt in range(MOST_DRAWS):
-        variant = _drawn(student_rng(student, "exercise2", draw=attempt))
+        variant = _drawn(make_student_rng(student, "exercise2", draw=attempt))
         if variant is not None and _clear(variant):
             return variant
     raise RuntimeError(f"no clear numbers for {student!r}")

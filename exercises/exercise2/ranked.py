@@ -1,6 +1,6 @@
 """A list of causes in the order in which one looks: cheap things first."""
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.choice_answer import read_choice
 
 from .team import KINDS, ORDER, Variant
@@ -23,7 +23,7 @@ def judge_list(raw: object, variant: Variant) -> None:
     possible causes.
 
     Raises:
-        Wrong: it is no such list, or a point is lost; the hint names every reason.
+        WrongAnswer: it is no such list, or a point is lost; the hint names every reason.
     """
     causes = _read(raw)
     refused = {one: why for one in causes if (why := _refused(one, variant))}
@@ -41,7 +41,7 @@ def judge_list(raw: object, variant: Variant) -> None:
         lost += sum(bool(one) for one in further)
     if found:
         codes = {code for _, code in found if code}
-        raise Wrong(
+        raise WrongAnswer(
             ", ".join(causes),
             hint="; ".join(says for says, _ in found),
             misconception=codes.pop() if len(codes) == 1 else "",
@@ -92,9 +92,9 @@ def _read(raw: object) -> list[str]:
         raw = raw.split(",")
     ask = f'Write at least two, in a list: ["...", "..."]. Choose from: {", ".join(sorted(KINDS))}.'
     if raw is None or raw in ("", []):
-        raise Wrong("nothing yet", hint=ask)
+        raise WrongAnswer("nothing yet", hint=ask)
     if not isinstance(raw, list):
-        raise Wrong(f"{raw}, which is not a list", hint=ask)
+        raise WrongAnswer(f"{raw}, which is not a list", hint=ask)
     return list(dict.fromkeys(read_choice(one, sorted(KINDS)) for one in raw))
 
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answer import Asked, Band
+from grader.answer import AskedNumber, Band
 
 NEAR = Band(0.02, 0.02)  # arithmetic: within 2 % or not
 OK, WATCH = 8.0, 20.0  # [%] above theory
@@ -99,9 +99,9 @@ class Variant:
         return "m" if self.parts.diameter else "rot"
 
     @property
-    def asked(self) -> Asked:
+    def asked(self) -> AskedNumber:
         """The number on paper, as it is asked for."""
-        return Asked("kV_theory", self.parts.paper, f"V·s/{self.symbol}", NEAR)
+        return AskedNumber("kV_theory", self.parts.paper, f"V·s/{self.symbol}", NEAR)
 
     def right(self, value: float) -> bool:
         """Whether this is a kV that theory gives, by either formula."""

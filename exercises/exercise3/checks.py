@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import HALF, Key, judge_number, read_answer_number
-from grader.check import Wrong, check
+from grader.answer import HALF, AnswerKey, judge_number, read_answer_number
+from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.consequence import Consequence
 from grader.student_files import write_student_files
@@ -30,7 +30,7 @@ class Answers:
     """What the checks look at."""
 
     given: Mapping[str, object]
-    key: Key
+    key: AnswerKey
     variant: Variant
 
 
@@ -72,7 +72,7 @@ def read(path: Path, *, student: str) -> Answers:
     offset = variant.found["arm_offset"]
     try:  # who has the offset right goes on with it as they rounded it
         theirs = turned(read_answer_number(given.get("arm_offset"), variant.offset))
-    except Wrong:
+    except WrongAnswer:
         theirs = math.inf
     key = key_of(variant, offset=theirs if variant.offset.right(theirs) else offset)
     return Answers({**given, **named}, key, variant)
@@ -144,7 +144,7 @@ def arm_offset(answers: Answers) -> str | None:
     hint, code = next(offset_slips(value, answers.variant), ("", ""))
     close = f"close: within {partial:g}°, not yet within {full:g}°" if away <= partial else ""
     hint = "; ".join(part for part in (hint, close) if part)
-    raise Wrong(
+    raise WrongAnswer(
         shown,
         hint=hint or f"outside the accepted {full:g}°. Use two rows whose sine or cosine is 0.",
         misconception=code,

@@ -3,8 +3,8 @@
 import math
 from typing import TYPE_CHECKING
 
-from grader.answer import BANDS, Asked, Band
-from grader.variant import cache_draws, student_rng
+from grader.answer import BANDS, AskedNumber, Band
+from grader.variant import cache_draws, make_student_rng
 
 from .held import Hold, Variant
 from .slips import telling
@@ -28,7 +28,7 @@ OFFSET_BAND = Band(0.0, 0.0, full_size=2.0, partial_size=5.0)
 def draw(student: str) -> Variant:
     """A learner's numbers, always the same; drawn again until each slip shows as what it is."""
     for attempt in range(MOST_DRAWS):
-        variant = _drawn(student_rng(student, "exercise3", draw=attempt))
+        variant = _drawn(make_student_rng(student, "exercise3", draw=attempt))
         if _solvable(variant) and telling(variant):
             return variant
     raise RuntimeError(f"no solvable numbers for {student!r}")
@@ -46,8 +46,8 @@ def _drawn(rng: "np.random.Generator") -> Variant:
             _held(level * math.cos(math.radians(one + way * tilt)), ks, reading=one, rng=rng)
             for one in readings
         ),
-        {name: Asked(name, volts, "V", BANDS[name[-2:]]) for name, volts in truth.items()},
-        Asked("arm_offset", way * tilt, "deg", OFFSET_BAND),
+        {name: AskedNumber(name, volts, "V", BANDS[name[-2:]]) for name, volts in truth.items()},
+        AskedNumber("arm_offset", way * tilt, "deg", OFFSET_BAND),
     )
 
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from grader.answer import Asked
+from grader.answer import AskedNumber
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,8 @@ class Variant:
 
     elevator: Hold
     arm: tuple[Hold, ...]
-    asked: Mapping[str, Asked]
-    offset: Asked
+    asked: Mapping[str, AskedNumber]
+    offset: AskedNumber
 
     @property
     def found(self) -> dict[str, float]:

@@ -8,8 +8,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, read_answer_number
-from grader.check import Wrong
+from grader.answer import AskedNumber, read_answer_number
+from grader.check import WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 
 from .held import Variant
@@ -33,11 +33,13 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
     return follow_profiles(found) if found else None
 
 
-def _numbers(given: Mapping[str, object], asked: Mapping[str, Asked]) -> dict[str, float] | None:
+def _numbers(
+    given: Mapping[str, object], asked: Mapping[str, AskedNumber]
+) -> dict[str, float] | None:
     """The numbers, if all of them are there, and not all of them right."""
     try:
         values = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
-    except Wrong:
+    except WrongAnswer:
         return None
     return None if all(one.right(values[name]) for name, one in asked.items()) else values
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from grader.answer import Key, diagnose
+from grader.answer import AnswerKey, diagnose_number
 from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 from .held import Hold, Variant
@@ -51,9 +51,9 @@ DEGREES = WrongNumber(
 )
 
 
-def key_of(variant: Variant, *, offset: float) -> Key:
+def key_of(variant: Variant, *, offset: float) -> AnswerKey:
     """What is asked for, with what slips would give who uses this offset [deg]."""
-    return Key(variant.asked, Scene(lookalikes=dict(_lookalikes(variant, offset))))
+    return AnswerKey(variant.asked, Scene(lookalikes=dict(_lookalikes(variant, offset))))
 
 
 def telling(variant: Variant) -> bool:
@@ -61,7 +61,7 @@ def telling(variant: Variant) -> bool:
     key = key_of(variant, offset=variant.found["arm_offset"])
     each = [(name, one) for name, likely in key.scene.lookalikes.items() for one in likely]
     return all(_far(name, one, key) for name, one in each) and all(
-        {slip.misconception for slip in diagnose(name, {name: share * one.value}, key)}
+        {slip.misconception for slip in diagnose_number(name, {name: share * one.value}, key)}
         == {one.slip.misconception}
         for name, one in each
         if one.value
@@ -69,7 +69,7 @@ def telling(variant: Variant) -> bool:
     )
 
 
-def _far(name: str, likely: Lookalike, key: Key) -> bool:
+def _far(name: str, likely: Lookalike, key: AnswerKey) -> bool:
     asked = key.asked[name]
     full, partial = asked.band.widths(asked.expected)
     return abs(likely.value - asked.expected) > (full if likely.slip is LARGEST else partial)

@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 
 from grader import robotcode
-from grader.check import NotReached, Status, Wrong, check, run_all
+from grader.check import NotReachedError, Status, WrongAnswer, check, run_checks
 from grader.logged_numbers import (
     check_all_logged,
     check_circumference,
@@ -24,15 +24,15 @@ from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import (
     Advice,
-    Setting,
-    cannot_tell,
-    check_alone,
+    ConfigSetting,
     check_compiles,
-    check_driven,
+    check_motor_driven,
+    check_motor_recorded,
+    check_only_test_drives,
     check_open_loop,
-    check_recorded,
     check_units,
-    no_advice,
+    explain_doubt,
+    give_no_advice,
 )
 from sim.core.errors import UnreadableFile
 
@@ -40,11 +40,11 @@ from .settled import Code, asks, noted, settle
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
 
-RAMP = Setting(
+RAMP = ConfigSetting(
     "ramp", 0.5, "V/s", "volts-per-second", 1.0, "Volts.of(0.5).per(Second)", "rampRate=0.5"
 )
-STEP = Setting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
-TIMEOUT = Setting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
+STEP = ConfigSetting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
+TIMEOUT = ConfigSetting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
 TASK = "ExampleSubsystem"  # the class of the exercise's own drivetrain, one motor on each side
 SIDES = 2
 METERS = {"METERS_PER_ROTATION": 0.0472, "METERS_PER_PULSE": 0.000156}  # as the files give them
@@ -87,7 +87,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:  # noqa: ARG001
 def _mistaken(code: Code) -> bool:
     """Whether reading alone finds a mistake; a question is none."""
     checks = (routine, ramp, step, timeout, drive, log, units, assembled, open_loop)
-    results = run_all(checks, code)
+    results = run_checks(checks, code)
     return any(one.status is Status.FAILED and not asks(one.seen) for one in results)
 
 
@@ -95,7 +95,7 @@ def _mistaken(code: Code) -> bool:
 def routine(code: Code) -> str | None:
     """Your subsystem makes a SysIdRoutine."""
     if not code.facts.routine_line:
-        raise Wrong(
+        raise WrongAnswer(
             f"no SysIdRoutine in {code.facts.class_name or 'this file'}",
             hint="Make one where the motors are made, and keep it in a field.",
         )
@@ -104,7 +104,9 @@ def routine(code: Code) -> str | None:
     return noted(code.ran, findings.format_figures)
 
 
-def _number(code: Code, wanted: Setting, said: str, *, advice: Advice = no_advice) -> str | None:
+def _number(
+    code: Code, wanted: ConfigSetting, said: str, *, advice: Advice = give_no_advice
+) -> str | None:
     """One number of the Config: as it is written, and as the run shows it."""
     name = wanted.name.split()[0]
     got = getattr(code.facts, name)
@@ -186,20 +188,20 @@ def _drive(facts: RoutineFacts) -> str | None:
     motors = list(dict.fromkeys([*facts.motors, *(call.motor for call in facts.drive)]))
     _followed(facts, whole={call.motor for call in facts.drive} >= {*motors} > set())
     if not facts.drive:
-        raise Wrong(
+        raise WrongAnswer(
             "the drive callback moves no motor" if facts.drive_found else "no drive callback",
             hint="It gets the voltage of the test: hand it to setVoltage() of every motor.",
         )
-    wrong: list[Wrong] = []
+    wrong: list[WrongAnswer] = []
     for motor in motors:
         try:
-            check_driven(motor, facts.drive)
-        except Wrong as why:
+            check_motor_driven(motor, facts.drive)
+        except WrongAnswer as why:
             wrong.append(why)
     if wrong:
         wrong[0].earned = round(3 * (1 - len(wrong) / len(motors)), 1)
         raise wrong[0]
-    check_alone(facts)
+    check_only_test_drives(facts)
     check_numbers(facts)
     note = check_signs(facts, points=3, mirrored=facts.class_name != TASK)
     if note:
@@ -213,8 +215,8 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
     """Ask, where something is missing that may be in code out of sight."""
     if facts.unread and not whole:
         first = facts.unread[0]
-        raise Wrong(
-            cannot_tell("what is out of sight", f"line {first.line}: {first.message}"),
+        raise WrongAnswer(
+            explain_doubt("what is out of sight", f"line {first.line}: {first.message}"),
             hint="Write the callback where it can be read: in this class, or in this folder.",
         )
 
@@ -234,7 +236,7 @@ def _held(ran: RunFacts) -> bool:
 
 def _log(facts: RoutineFacts, demanded: int) -> None:
     if facts.log_is_null:
-        raise Wrong(
+        raise WrongAnswer(
             "null in place of the log callback: then WPILib records nothing",
             hint="That is for vendors' own loggers. Here, write a callback that fills the log.",
         )
@@ -243,12 +245,12 @@ def _log(facts: RoutineFacts, demanded: int) -> None:
     needed = {(motor, signal) for motor in motors for signal in NEEDED}
     _followed(facts, whole=recorded >= needed > set())
     if not facts.logged:
-        raise Wrong(
+        raise WrongAnswer(
             "the log callback records nothing" if facts.log_found else "no log callback",
             hint='It gets a log: log.motor("left"), then voltage, position and velocity.',
         )
     for motor in motors:
-        check_recorded(motor, [one for one in facts.logged if one.motor == motor], points=3)
+        check_motor_recorded(motor, [one for one in facts.logged if one.motor == motor], points=3)
     check_devices(facts, points=3)
     check_all_logged(facts, demanded=demanded, points=3)
     check_logged_signs(facts.logged)
@@ -268,7 +270,7 @@ def _moved(ran: RunFacts) -> bool:
 def _units(facts: RoutineFacts) -> None:
     signals = [one for one in facts.logged if one.signal in {"position", "velocity"}]
     if not signals:
-        raise NotReached("looked at once position and velocity are recorded")
+        raise NotReachedError("looked at once position and velocity are recorded")
     task = facts.class_name == TASK
     check_units(signals, mechanism="Drivetrain" if task else facts.class_name)
     check_sources(signals, geared=facts.geared)
@@ -287,27 +289,29 @@ def assembled(code: Code) -> str | None:
 def _assembled(facts: RoutineFacts) -> None:
     this = "this" if facts.language == "java" else "self"
     if facts.config_argument > 0 or facts.mechanism_argument == 0:
-        raise Wrong(
+        raise WrongAnswer(
             f"the SysIdRoutine in line {facts.routine_line} gets its arguments in another order",
             hint="First the Config, then the Mechanism.",
             misconception="M-ARGORDER",
         )
     if facts.config_argument < 0 or facts.mechanism_argument < 0:
         part = "Config" if facts.config_argument < 0 else "Mechanism"
-        raise Wrong(f"the SysIdRoutine gets no {part}", hint=f"Give it a SysIdRoutine.{part}.")
+        raise WrongAnswer(
+            f"the SysIdRoutine gets no {part}", hint=f"Give it a SysIdRoutine.{part}."
+        )
     if facts.subsystem_passed is None:
-        raise Wrong(
-            cannot_tell("which subsystem the Mechanism gets", ""),
+        raise WrongAnswer(
+            explain_doubt("which subsystem the Mechanism gets", ""),
             hint=f"Pass {this}: the tests have to require the subsystem they drive.",
         )
     if not facts.subsystem_passed:
-        raise Wrong(
+        raise WrongAnswer(
             f"no {this} among the Mechanism's arguments",
             hint=f"Pass {this} after the two callbacks. Then no other command can move the motors "
             "during a test.",
         )
     if not facts.is_subsystem:
-        raise Wrong(
+        raise WrongAnswer(
             f"{facts.class_name} is not a subsystem",
             hint="Let it extend SubsystemBase (Python: Subsystem).",
         )
@@ -334,6 +338,6 @@ def _as_a_share(ran: RunFacts) -> RunFault | None:
 
 def _open_loop(facts: RoutineFacts) -> None:
     if not facts.drive:
-        raise NotReached("looked at once the drive callback moves a motor")
+        raise NotReachedError("looked at once the drive callback moves a motor")
     for call in facts.drive:
         check_open_loop(call)

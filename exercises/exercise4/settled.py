@@ -7,13 +7,13 @@ settles. Where nothing can be run (Java, no RobotPy, vendors' devices), reading 
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from grader.check import NotReached, Wrong
+from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.bench import RunFacts, RunOutcome
 from grader.robotcode.bench.findings import IN, RunFault
 from grader.robotcode.facts import RoutineFacts
-from grader.sysid_routine_checks import cannot_tell
+from grader.sysid_routine_checks import explain_doubt
 
-QUESTION = cannot_tell("", "").split(" by ")[0].strip()  # how everything begins that is asked
+QUESTION = explain_doubt("", "").split(" by ")[0].strip()  # how everything begins that is asked
 STOPPED = {RunOutcome.CRASHED, RunOutcome.ENDLESS}
 
 
@@ -47,7 +47,7 @@ def settle(
 
     Args:
         code: the file, read and perhaps run.
-        reading: the check by reading; returns a note, or raises Wrong or NotReached.
+        reading: the check by reading; returns a note, or raises WrongAnswer or NotReachedError.
         running: what a run that came to its end shows to be wrong, or one that did not.
         points: the check's.
         answered: whether a run that shows no fault shows that all is right.
@@ -56,21 +56,21 @@ def settle(
         The reading's note, or how its question was settled.
 
     Raises:
-        Wrong: it is wrong, or cannot be told either way.
-        NotReached: there is nothing to look at yet.
+        WrongAnswer: it is wrong, or cannot be told either way.
+        NotReachedError: there is nothing to look at yet.
     """
     ran = code.ran
     try:
         note = reading()
-    except (Wrong, NotReached) as open_still:
-        if isinstance(open_still, Wrong) and not asks(open_still.seen):
+    except (WrongAnswer, NotReachedError) as open_still:
+        if isinstance(open_still, WrongAnswer) and not asks(open_still.seen):
             raise
-        if ran is not None and ran.outcome in STOPPED and isinstance(open_still, Wrong):
+        if ran is not None and ran.outcome in STOPPED and isinstance(open_still, WrongAnswer):
             _unsettled(open_still, ran.said)
         if ran is None or ran.outcome is not RunOutcome.RAN:
             raise
         _fail(running(ran), points)
-        if isinstance(open_still, Wrong) and ran.aware:
+        if isinstance(open_still, WrongAnswer) and ran.aware:
             said = f"{ran.aware}, asks whether this is a simulation, and may differ on a robot"
             _unsettled(open_still, said)
         if not answered(ran):
@@ -81,9 +81,9 @@ def settle(
     return note
 
 
-def _unsettled(question: Wrong, said: str) -> None:
+def _unsettled(question: WrongAnswer, said: str) -> None:
     """Say that running did not answer the question, either."""
-    raise Wrong(
+    raise WrongAnswer(
         question.seen,
         hint=f"{question.hint} Running it {IN} did not help: {said}",
         misconception=question.misconception,
@@ -93,7 +93,7 @@ def _unsettled(question: Wrong, said: str) -> None:
 
 def _fail(fault: RunFault | None, points: float) -> None:
     if fault is not None:
-        raise Wrong(
+        raise WrongAnswer(
             fault.seen,
             hint=fault.hint,
             misconception=fault.misconception,

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from grader.check import NotReached, Status, Wrong, check, run_all
+from grader.check import NotReachedError, Status, WrongAnswer, check, run_checks
 from grader.robotcode import bench
 from grader.robotcode.bench import RunFacts, findings
 from grader.robotcode.bench.findings import RunFault, find_stop
@@ -48,7 +48,7 @@ def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa
         bench.refuse_tampering(path)
     if not run or facts.language != "python" or not bench.installed():
         return facts
-    right = run_all((factories, held, each_once, guard), facts)
+    right = run_checks((factories, held, each_once, guard), facts)
     return press(path, facts) if all(one.status is Status.PASSED for one in right) else facts
 
 
@@ -62,25 +62,25 @@ def factories(facts: BindingFacts) -> None:
     earned = 2 * len(public) / len(TESTS)
     hidden = [one for one in facts.factories if not one.public and all_of([one.test]) - public]
     if hidden:
-        raise Wrong(
+        raise WrongAnswer(
             f"other classes may not call {hidden[0].method}",
             hint="Make it public: in Java by that word, in Python by a name without a _ in front.",
             earned=earned,
         )
     if not made and any(not test.read for one in facts.bindings for test in one.tests):
-        raise Wrong(
+        raise WrongAnswer(
             f"I cannot see the methods that {facts.bindings[0].text} calls",
             hint="Put the subsystem's file beside this one, or its class into it, and grade again.",
         )
     if any(not one.test.direction for one in facts.factories):
         one = next(one for one in facts.factories if not one.test.direction)
-        raise Wrong(
+        raise WrongAnswer(
             f"I cannot tell the direction of {one.method} by reading",
             hint="Hand it Direction.kForward or kReverse, or let it be the method's parameter.",
             earned=earned,
         )
     lacking = named(TESTS - public)
-    raise Wrong(
+    raise WrongAnswer(
         f"no method makes {lacking}" if made else "no method makes the command of a test",
         hint="The routine makes the commands: quasistatic(direction) and dynamic(direction). Hand "
         "them out from public methods of the subsystem.",
@@ -102,7 +102,7 @@ def held(facts: BindingFacts) -> str | None:
         return agreed(facts, _stops, points=3)
     _readable(facts, earned=earned)
     hint = "Four tests, four buttons: two kinds, each forward and reverse."
-    raise Wrong(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
+    raise WrongAnswer(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
 
 
 def _stops(ran: RunFacts) -> RunFault | None:
@@ -117,9 +117,9 @@ def each_once(facts: BindingFacts) -> None:
     for one in facts.bindings:
         if len(one.tests) > 1:
             hint = "A command of several tests runs one after the other. Give each its own button."
-            raise Wrong(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
+            raise WrongAnswer(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
         if not all_of(one.tests) or one.tests[0].direction == "any":
-            raise Wrong(
+            raise WrongAnswer(
                 f"I cannot tell the direction in line {one.line} by reading {one.text}",
                 hint=WRITE_IT,
             )
@@ -128,11 +128,11 @@ def each_once(facts: BindingFacts) -> None:
         first = min(twice, key=lambda test: times(facts, test)[0])
         lines = " and ".join(f"line {line}" for line in times(facts, first))
         hint = "Copied and not changed? Look at the kind and the direction in both lines."
-        raise Wrong(f"{' '.join(first)} twice: {lines}", hint=hint)
+        raise WrongAnswer(f"{' '.join(first)} twice: {lines}", hint=hint)
     lacking = missing(facts)
     if lacking:
         only = {way for _, way in lacking} == {"reverse"}
-        raise Wrong(
+        raise WrongAnswer(
             f"{named(lacking)} missing",
             hint="The reverse runs are no luxury: friction and gravity show only in both."
             if only
@@ -145,11 +145,11 @@ def each_once(facts: BindingFacts) -> None:
 def comments(facts: BindingFacts) -> None:
     """A comment beside each binding says which test it is and what that measures."""
     reached(facts)
-    wrong: list[Wrong] = []
+    wrong: list[WrongAnswer] = []
     for one in facts.bindings:
         try:
             check_comment(one)
-        except Wrong as why:
+        except WrongAnswer as why:
             wrong.append(why)
     if wrong:
         right = len(facts.bindings) - len(wrong)
@@ -171,20 +171,20 @@ def bound(facts: BindingFacts) -> None:
     """Ask for bindings, where there are none.
 
     Raises:
-        Wrong: tests are started in another way, or cannot be read.
-        NotReached: there is nothing yet.
+        WrongAnswer: tests are started in another way, or cannot be read.
+        NotReachedError: there is nothing yet.
     """
     if facts.bindings:
         return
     if facts.elsewhere:
         text, line = facts.elsewhere[0]
-        raise Wrong(
+        raise WrongAnswer(
             f"{text} in line {line}",
             hint="There nobody holds a button, and nobody can let it go. Bind the test to one.",
         )
     _readable(facts, earned=0.0)
     if all_of(one.test for one in facts.factories) >= TESTS:
-        raise Wrong(
+        raise WrongAnswer(
             "no button runs a test",
             hint="Bind each of the four to a button. If you did: is the line reached, or does a "
             "return or a condition come before it?",
@@ -196,20 +196,20 @@ def reached(facts: BindingFacts) -> None:
     """Look no further where there are no bindings.
 
     Raises:
-        NotReached: there are none.
+        NotReachedError: there are none.
     """
     if not facts.bindings:
-        raise NotReached(READ)
+        raise NotReachedError(READ)
 
 
 def _readable(facts: BindingFacts, *, earned: float) -> None:
     """Ask, where a test that is missing may be one that cannot be read."""
     for first in facts.unread[:1]:
         hint = "Write the test into the line that binds it: then I can read it."
-        raise Wrong(f"line {first.line}: {first.message}", hint=hint, earned=earned)
+        raise WrongAnswer(f"line {first.line}: {first.message}", hint=hint, earned=earned)
     for one in facts.bindings:
         if not all_of(one.tests):
-            raise Wrong(
+            raise WrongAnswer(
                 f"I cannot tell the direction in line {one.line} by reading {one.text}",
                 hint=WRITE_IT,
                 earned=earned,

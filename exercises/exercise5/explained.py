@@ -2,7 +2,7 @@
 
 import re
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.robotcode.binding_facts import Binding
 
 NAMES = {"quasistatic": r"quasi.?static", "dynamic": r"dynamic"}
@@ -25,32 +25,32 @@ def check_comment(one: Binding) -> None:
     """Whether the comment beside a binding names its test and its property.
 
     Raises:
-        Wrong: it does not.
+        WrongAnswer: it does not.
     """
     kind = one.tests[0].kind
     other = "dynamic" if kind == "quasistatic" else "quasistatic"
     said = one.comment
     if not said:
-        raise Wrong(
+        raise WrongAnswer(
             f"no comment beside {one.text} in line {one.line}",
             hint="Write one above it, or behind it: which test, and what does it measure?",
         )
     seen = f'"{said[:60]}" beside line {one.line}'
     opposite = re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE)
     if opposite and not re.search(NAMES[kind], said, re.IGNORECASE):
-        raise Wrong(seen, hint=f"This button runs the {kind} test.")
+        raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")
     test, property_ = bool(TEST[kind].search(said)), bool(PROPERTY[kind].search(said))
     if test and property_:
         return
     if not test and TEST[other].search(said):
-        raise Wrong(seen, hint=f"This button runs the {kind} test.")
+        raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")
     if not property_ and PROPERTY[other].search(said):
         hint = f"That is what the {other} test measures. What is left for the {kind} one?"
-        raise Wrong(seen, hint=hint)
+        raise WrongAnswer(seen, hint=hint)
     if test:
         hint = "It names the test. Which property of the mechanism does the test measure?"
     elif property_:
         hint = "It names the property. Which of the tests is this, quasistatic or dynamic?"
     else:
         hint = "Name the test, quasistatic or dynamic, and the property of the mechanism it shows."
-    raise Wrong(seen, hint=hint)
+    raise WrongAnswer(seen, hint=hint)

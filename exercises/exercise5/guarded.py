@@ -1,6 +1,6 @@
 """Whether a test can be started by accident: test mode, a chord, a switch, another controller."""
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.robotcode.binding_facts import Binding, BindingFacts, Controller, Guard
 
 from .four import TESTS
@@ -20,26 +20,26 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
         A note, if there is something to say all the same.
 
     Raises:
-        Wrong: some or all are not.
+        WrongAnswer: some or all are not.
     """
     open_ = [one for one in facts.bindings if not _guarded(one, facts)]
     bound = len(facts.bindings)
     if not open_ and bound < len(TESTS):
         hint = "The guard is right. It counts for the whole once all four tests are there."
         earned = points * bound / len(TESTS)
-        raise Wrong(f"{bound} of {len(TESTS)} tests bound", hint=hint, earned=earned)
+        raise WrongAnswer(f"{bound} of {len(TESTS)} tests bound", hint=hint, earned=earned)
     if not open_:
         return _note(facts)
     first = open_[0]
     seen = f"nothing guards {first.text} in line {first.line}"
     if Guard.ASKED_ONCE in first.guards:
-        raise Wrong(
+        raise WrongAnswer(
             f"test mode is asked once for line {first.line}, while the program starts",
             hint="The robot is not in test mode then, and the answer never changes. "
             "Let the trigger ask, every time.",
         )
     if Guard.OTHER_MODE in first.guards:
-        raise Wrong(
+        raise WrongAnswer(
             f"the guard of {first.text} in line {first.line} asks for a mode other than test mode",
             hint="Then the test can start in a match, and in test mode it cannot. Ask for test "
             "mode itself, without negate(), ! or not.",
@@ -49,14 +49,14 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
         lines = ", ".join(str(one.line) for one in open_)
         said = f"{guarded} of {bound} bindings are guarded; not so: line {lines}"
         hint = "One open door is enough. Guard all four the same way."
-        raise Wrong(said, hint=hint, earned=points * guarded / max(bound, len(TESTS)))
+        raise WrongAnswer(said, hint=hint, earned=points * guarded / max(bound, len(TESTS)))
     used = [one for one in _controllers(first, facts) if one.uses]
     if used and len(facts.controllers) > 1:
         text, line = used[0].uses[0]
-        raise Wrong(
+        raise WrongAnswer(
             seen, hint=f"Its controller is in use in a match: {text} in line {line}. {WAYS}"
         )
-    raise Wrong(seen, hint=WAYS)
+    raise WrongAnswer(seen, hint=WAYS)
 
 
 def _note(facts: BindingFacts) -> str | None:

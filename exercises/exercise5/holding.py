@@ -1,6 +1,6 @@
 """Whether a test runs while its button is held, and on a button of its own."""
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.robotcode.binding_facts import (
     Binding,
     BindingFacts,
@@ -59,35 +59,37 @@ def check_hold(one: Binding, facts: BindingFacts, *, earned: float) -> None:
         earned: points all the same, if it does not.
 
     Raises:
-        Wrong: it does not, or it cannot be told.
+        WrongAnswer: it does not, or it cannot be told.
     """
     at = f"{one.text} in line {one.line}"
     if one.hold is not Hold.WHILE and one.stopped:
         hint = "There is a simpler way to run it while the button is held: whileTrue()."
-        raise Wrong(f"I cannot tell when {at} stops", hint=hint, earned=earned)
+        raise WrongAnswer(f"I cannot tell when {at} stops", hint=hint, earned=earned)
     if one.hold is not Hold.WHILE:
-        raise Wrong(at, hint=f"{SAYS[one.hold]}: whileTrue().", earned=earned)
+        raise WrongAnswer(at, hint=f"{SAYS[one.hold]}: whileTrue().", earned=earned)
     if one.scheduled:
         hint = (
             "The command that is held only starts another one, which then runs to its timeout. "
             "Hand the test itself to whileTrue()."
         )
-        raise Wrong(at, hint=hint, earned=earned)
+        raise WrongAnswer(at, hint=hint, earned=earned)
     for first in one.hindrances:
         said, hint = HINDERED[first.kind]
-        raise Wrong(said.format(text=first.text, line=one.line), hint=hint, earned=earned)
+        raise WrongAnswer(said.format(text=first.text, line=one.line), hint=hint, earned=earned)
     for name, line in facts.uncalled:
-        raise Wrong(
+        raise WrongAnswer(
             f"nothing calls {name} in line {line}",
             hint="Call it where the RobotContainer is made. Until then no button does anything.",
             earned=earned,
         )
     if not one.trigger:
         hint = "Write the button into the line that binds it: controller.a(), say."
-        raise Wrong(f"I cannot tell which button line {one.line} binds", hint=hint, earned=earned)
+        raise WrongAnswer(
+            f"I cannot tell which button line {one.line} binds", hint=hint, earned=earned
+        )
     for other in facts.bindings:
         if other.line != one.line and other.trigger == one.trigger and other.tests != one.tests:
-            raise Wrong(
+            raise WrongAnswer(
                 f"lines {one.line} and {other.line} share the trigger {one.trigger}",
                 hint="Both tests start at once, and each wants the motors for itself. Give each "
                 "its own button.",

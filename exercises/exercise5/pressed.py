@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.robotcode import bench
 from grader.robotcode.bench import RunFacts, RunOutcome
 from grader.robotcode.bench.findings import IN, RunFault
@@ -44,7 +44,7 @@ def agreed(
         A note on the run, or nothing.
 
     Raises:
-        Wrong: the run shows otherwise.
+        WrongAnswer: the run shows otherwise.
     """
     ran = facts.ran if isinstance(facts, Pressed) else None
     if ran is None:
@@ -53,7 +53,7 @@ def agreed(
         return f"Only read, not run {IN}: {ran.said}."
     fault = look(ran)
     if fault:
-        raise Wrong(
+        raise WrongAnswer(
             fault.seen,
             hint=fault.hint,
             misconception=fault.misconception,

@@ -6,8 +6,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import Asked, Band, read_answer_number
-from grader.check import Wrong, check
+from grader.answer import AskedNumber, Band, read_answer_number
+from grader.check import WrongAnswer, check
 from grader.choice_answer import normalize_choice
 from grader.consequence import Consequence
 from grader.student_files import write_student_files
@@ -93,7 +93,7 @@ def consequence(answers: Answers) -> Consequence | None:
     """What the learner's plans would do in the room there is."""
     plans = {}
     for kind, machine in answers.variant.machines.items():
-        with suppress(Wrong):
+        with suppress(WrongAnswer):
             plans[kind] = _plan(machine, answers.given)
     return outcome(plans, answers.variant.machines)
 
@@ -134,7 +134,7 @@ def _planned(kind: str, answers: Answers) -> str:
         return f"ramp and step take {run}; the ramp gets to {share:.0f} % of the free speed"
     codes = {one.misconception for one in found} - {""}
     mark = "timeout" if math.isinf(plan.release) else f"{plan.release:g} {machine.symbol}"
-    raise Wrong(
+    raise WrongAnswer(
         f"{plan.ramp:g} V/s, {plan.step:g} V, {plan.timeout:g} s, let go at {mark}",
         hint=". Also: ".join(one.says for one in found),
         misconception=codes.pop() if len(codes) == 1 else "",
@@ -146,7 +146,7 @@ def _plan(machine: Machine, given: Mapping[str, object]) -> Plan:
     """Read a plan.
 
     Raises:
-        Wrong: a part of it is missing, or no robot could do it; the message names which.
+        WrongAnswer: a part of it is missing, or no robot could do it; the message names which.
     """
     raw = given.get(f"{machine.kind}_release")
     never = isinstance(raw, str) and normalize_choice(raw) == "timeout"
@@ -160,8 +160,8 @@ def _positive(
 ) -> float:
     name = f"{machine.kind}_{what}"
     try:
-        value = read_answer_number(given.get(name), Asked(name, 1.0, unit, Band(0.0, 0.0)))
-    except Wrong as wrong:
+        value = read_answer_number(given.get(name), AskedNumber(name, 1.0, unit, Band(0.0, 0.0)))
+    except WrongAnswer as wrong:
         wrong.seen = f"{name}: {wrong.seen}"
         wrong.hint = wrong.hint.partition(", such as")[0] + f" for {name}, in {unit}."
         if what == "release":
@@ -169,7 +169,7 @@ def _positive(
         raise
     if not LEAST < value <= most:
         hint = f"Choose a number above {LEAST:g}, at most {most:g} {unit}."
-        raise Wrong(f"{name}: {value:g} {unit}", hint=hint)
+        raise WrongAnswer(f"{name}: {value:g} {unit}", hint=hint)
     return value
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.variant import cache_draws, student_rng
+from grader.variant import cache_draws, make_student_rng
 
 from .morning import Morning, morning
 from .plan import Machine, Plan, dynamic, quasistatic
@@ -60,12 +60,12 @@ def draw(student: str) -> Variant:
     machines, built = {}, {}
     for kind in MOTORS:
         machines[kind], built[kind] = _feasible(student, kind)
-    return Variant(machines, built, morning(student_rng(student, "exercise6 morning")))
+    return Variant(machines, built, morning(make_student_rng(student, "exercise6 morning")))
 
 
 def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
     for attempt in range(MOST_DRAWS):
-        rng = student_rng(student, f"exercise6 {kind}", draw=attempt)
+        rng = make_student_rng(student, f"exercise6 {kind}", draw=attempt)
         built = _built(kind, rng)
         machine = _machine(kind, built, rng)
         low, high = steps(machine)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from grader.consequence import Consequence, Drawn
+from grader.consequence import Consequence, Picture
 
 from .plan import Machine, Plan, Test, dynamic, quasistatic
 from .rules import LESS, MORE, QUARTER
@@ -46,7 +46,7 @@ def outcome(plans: Mapping[str, Plan], machines: Mapping[str, Machine]) -> Conse
         return None
     words = " ".join(one.words for one in found)
 
-    def draw() -> Drawn:
+    def draw() -> Picture:
         from sim.plot import consequence as plot  # noqa: PLC0415 - only who draws waits for it
 
         shown = [

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from grader.check import Wrong
+from grader.check import WrongAnswer
 from grader.choice_answer import check_choice, read_choice
 
 from .morning import FOLDERS, SEEN
@@ -93,12 +93,12 @@ def judge_choice(name: str, given: Mapping[str, object], right: str) -> None:
     """Hold a word against the right one.
 
     Raises:
-        Wrong: it is another, or none.
+        WrongAnswer: it is another, or none.
     """
     choice = CHOICES[name]
     try:
         check_choice(given.get(name), right, choice.words, why=choice.why, also=choice.also)
-    except Wrong as wrong:
+    except WrongAnswer as wrong:
         wrong.seen = f"{name}: {wrong.seen}"
         raise
 
@@ -107,13 +107,13 @@ def judge_all(given: Mapping[str, object], right: Mapping[str, str], *, points: 
     """Hold several words against the right ones; each earns its share.
 
     Raises:
-        Wrong: one of them is another, or none; the first of these is told.
+        WrongAnswer: one of them is another, or none; the first of these is told.
     """
     wrong = []
     for name, expected in right.items():
         try:
             judge_choice(name, given, expected)
-        except Wrong as why:
+        except WrongAnswer as why:
             wrong.append(why)
     if wrong:
         wrong[0].earned = points * (1.0 - len(wrong) / len(right))
@@ -124,19 +124,19 @@ def judge_steps(raw: object) -> None:
     """Hold an order of the four steps against the one that works.
 
     Raises:
-        Wrong: it is another, or no order of the four.
+        WrongAnswer: it is another, or no order of the four.
     """
     if isinstance(raw, str) and raw:
         raw = raw.split(",")
     ask = f"Write all four, in a list: {', '.join(LISTED)}."
     if raw is None or raw in ("", []):
-        raise Wrong("nothing yet", hint=ask)
+        raise WrongAnswer("nothing yet", hint=ask)
     if not isinstance(raw, list):
-        raise Wrong(f"{raw}, which is not a list", hint=ask)
+        raise WrongAnswer(f"{raw}, which is not a list", hint=ask)
     found = tuple(read_choice(one, LISTED) for one in raw)
     seen = ", ".join(found)
     if sorted(found) != list(LISTED):
-        raise Wrong(seen, hint=f"each of the four once. {ask}")
+        raise WrongAnswer(seen, hint=f"each of the four once. {ask}")
     late = next((one for one, right in zip(found, STEPS, strict=True) if one != right), "")
     if late:
-        raise Wrong(seen, hint=f"{late} comes too early. What has to be there before it?")
+        raise WrongAnswer(seen, hint=f"{late} comes too early. What has to be there before it?")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.check import Check, Wrong, check
+from grader.check import Check, WrongAnswer, check
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 
@@ -58,7 +58,7 @@ def _of(number: int) -> Check[Answers]:
         if result.hint:
             seen = "; ".join(one.fault for one in claims)
             code = "M-R2" if seen == CLEAN else ""
-            raise Wrong(seen, hint=result.hint, misconception=code, earned=result.points)
+            raise WrongAnswer(seen, hint=result.hint, misconception=code, earned=result.points)
 
     look.__name__ = f"log{number:02}"
     look.__doc__ = f"Log {number}: what is wrong with it, where, and what to do."

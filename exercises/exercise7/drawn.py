@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import cached_draw
-from grader.variant import cache_draws, student_rng
+from grader.draw_cache import cache_draw_on_disk
+from grader.variant import cache_draws, make_student_rng
 
 if TYPE_CHECKING:
     import numpy as np
@@ -64,10 +64,10 @@ class Case:
 
 
 @cache_draws
-@cached_draw
+@cache_draw_on_disk
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
-    rng = student_rng(student, "exercise7")
+    rng = make_student_rng(student, "exercise7")
     return tuple(_case(faults, rng) for faults in _plan(rng))
 
 

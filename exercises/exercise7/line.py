@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.check import Wrong, shorten
+from grader.check import WrongAnswer, shorten
 
 if TYPE_CHECKING:
     from sim.core.log import Log
@@ -103,19 +103,19 @@ def read_claims(raw: object) -> tuple[Claim, ...]:
     """Read one line of the answers.
 
     Raises:
-        Wrong: there is nothing, no fault in it, or a word that nobody knows.
+        WrongAnswer: there is nothing, no fault in it, or a word that nobody knows.
     """
     if raw is None or raw in ("", []):
-        raise Wrong("nothing yet", hint=f'Write "{CLEAN}", or what, where, and what to do.')
+        raise WrongAnswer("nothing yet", hint=f'Write "{CLEAN}", or what, where, and what to do.')
     parts = raw if isinstance(raw, list) else [raw]
     if not all(isinstance(part, str) for part in parts):
-        raise Wrong(f"{raw}, which is not words", hint=f"Write words in quotes. {_listed()}")
+        raise WrongAnswer(f"{raw}, which is not words", hint=f"Write words in quotes. {_listed()}")
     said = [part for whole in parts for part in re.split(r"[+;&\n]|\band\b", whole)]
     claims = tuple(_claim(part) for part in said if part.strip())
     if not claims or len(claims) > MANY:
-        raise Wrong(f"{len(claims)} faults", hint=f"Name those you can see. {_listed()}")
+        raise WrongAnswer(f"{len(claims)} faults", hint=f"Name those you can see. {_listed()}")
     if len(claims) > 1 and any(one.fault == CLEAN for one in claims):
-        raise Wrong(f'"{CLEAN}" and a fault', hint="It cannot be both. Say which.")
+        raise WrongAnswer(f'"{CLEAN}" and a fault', hint="It cannot be both. Say which.")
     return claims
 
 
@@ -133,14 +133,18 @@ def _claim(text: str) -> Claim:
     shown = f'"{shorten(text)}"'
     if unknown:
         hint = f"{_listed()} And of: {', '.join(ACTIONS)}. And of: {', '.join(PLACES)}."
-        raise Wrong(f'{shown}, in which "{shorten(unknown[0])}" is not known', hint=hint)
+        raise WrongAnswer(f'{shown}, in which "{shorten(unknown[0])}" is not known', hint=hint)
     if len(faults) != 1:
-        raise Wrong(f"{shown}, with {len(faults) or 'no'} faults in it", hint=_one_each(faults))
+        raise WrongAnswer(
+            f"{shown}, with {len(faults) or 'no'} faults in it", hint=_one_each(faults)
+        )
     if len(actions) > 1:
-        raise Wrong(f"{shown}, with {len(actions)} actions", hint="Give the one you would take.")
+        raise WrongAnswer(
+            f"{shown}, with {len(actions)} actions", hint="Give the one you would take."
+        )
     if len(times) not in (0, 2):
         hint = "Give two times, where it begins and where it ends: 1.20 to 1.66."
-        raise Wrong(f"{shown}, with {len(times)} number(s)", hint=hint)
+        raise WrongAnswer(f"{shown}, with {len(times)} number(s)", hint=hint)
     span = (min(times), max(times)) if times else None
     return Claim(faults[0], tuple(places), span, "".join(actions))
 

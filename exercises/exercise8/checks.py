@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.check import NotReached, Wrong, check
+from grader.check import NotReachedError, WrongAnswer, check
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 
@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 class Answers:
     """What the checks look at."""
 
-    preparation: Preparation | Wrong
+    preparation: Preparation | WrongAnswer
     variant: Variant
 
 
@@ -44,20 +44,20 @@ def read(path: Path, *, student: str) -> Answers:
     per = find_unit(variant.mechanism.units)
     try:
         return Answers(read_preparation(given, symbol=per.symbol, si=per.si), variant)
-    except Wrong as wrong:
+    except WrongAnswer as wrong:
         return Answers(wrong, variant)
 
 
 @check(points=2)
 def kept(answers: Answers) -> None:
     """At least 60 % of the sound samples of each test are kept."""
-    if isinstance(answers.preparation, Wrong):
+    if isinstance(answers.preparation, WrongAnswer):
         raise answers.preparation
     short = [one for one in _left(answers) if not one.enough]
     if not short:
         return
     tests = ", ".join(one.test for one in short)
-    raise Wrong(
+    raise WrongAnswer(
         f"too little is left of {tests}",
         hint="Cut only what is not the mechanism's own motion. Noise in sound samples averages "
         "out in a fit; samples that are gone tell nothing.",
@@ -80,7 +80,7 @@ def reach(answers: Answers) -> None:
         if ramps
         else "A step tells kA only while it speeds up, right after the voltage comes."
     )
-    raise Wrong(
+    raise WrongAnswer(
         f"cut off in {tests}",
         hint=why,
         misconception="M-TRIM-PRETTY",
@@ -107,8 +107,8 @@ def ka(answers: Answers) -> None:
 
 
 def _preparation(answers: Answers) -> Preparation:
-    if isinstance(answers.preparation, Wrong):
-        raise NotReached("looked at once all six lines can be read")
+    if isinstance(answers.preparation, WrongAnswer):
+        raise NotReachedError("looked at once all six lines can be read")
     return answers.preparation
 
 
@@ -116,7 +116,7 @@ def _left(answers: Answers) -> tuple[Left, ...]:
     """What is left of each test; who does nothing at all keeps everything, and earns nothing."""
     preparation = _preparation(answers)
     if preparation == NOTHING:
-        raise NotReached("looked at once you cut or filter something")
+        raise NotReachedError("looked at once you cut or filter something")
     variant = answers.variant
     return left(variant.log, preparation, valid=variant.valid, clean=variant.clean)
 
@@ -128,7 +128,7 @@ def _gain(name: str, answers: Answers) -> None:
     try:
         found = fitted(variant.log, preparation)
     except Refusal as refusal:
-        raise Wrong(
+        raise WrongAnswer(
             "no fit", hint=f"{refusal} You cut away too much.", misconception="M-TRIM-PRETTY"
         ) from None
     value, asked = found.gains[name], variant.asked[name]
@@ -137,7 +137,7 @@ def _gain(name: str, answers: Answers) -> None:
         return
     says, code = blame(name, variant, preparation)
     close = "Close. " if score else ""
-    raise Wrong(
+    raise WrongAnswer(
         f"{value:.4g} {asked.unit} comes out, with an acceleration R² of "
         f"{found.acceleration_r2:.3f}",
         hint=f"{close}{says}",

@@ -3,9 +3,9 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from grader.answer import Asked, gains_asked
-from grader.draw_cache import cached_draw
-from grader.variant import cache_draws, student_rng
+from grader.answer import AskedNumber, ask_gains
+from grader.draw_cache import cache_draw_on_disk
+from grader.variant import cache_draws, make_student_rng
 
 from .left import left
 from .preparation import LONGEST, POINTS, Preparation, points
@@ -59,17 +59,17 @@ class Variant:
 
     mechanism: "Mechanism"
     log: "Log"
-    asked: dict[str, Asked]
+    asked: dict[str, AskedNumber]
     valid: "dict[str, Flags]"
     clean: "dict[str, Array]"
     reference: Preparation
 
 
 @cache_draws
-@cached_draw
+@cache_draw_on_disk
 def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
-    rng = student_rng(student, "exercise8")
+    rng = make_student_rng(student, "exercise8")
     kind = str(rng.choice(tuple(TREMBLES)))
     for _ in range(MOST_DRAWS):
         variant = _one(kind, rng)
@@ -106,7 +106,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     return Variant(
         mechanism,
         replace(log, runs=spiky),
-        gains_asked(gains_per(mechanism.gains, factor=per.si), position=per.symbol),
+        ask_gains(gains_per(mechanism.gains, factor=per.si), position=per.symbol),
         valid,
         clean,
         Preparation(

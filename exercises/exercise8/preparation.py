@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.answer import HALF, Asked, Band, read_answer_number
-from grader.check import Wrong
+from grader.answer import HALF, AskedNumber, Band, read_answer_number
+from grader.check import WrongAnswer
 
 if TYPE_CHECKING:
     from sim.core.log import Log, Run
@@ -54,21 +54,23 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
         si: how many meters or radians one of it is.
 
     Raises:
-        Wrong: one of them is missing or makes no sense; the message names it.
+        WrongAnswer: one of them is missing or makes no sense; the message names it.
     """
     keep = {test: _window(test, given.get(test.replace("-", "_"))) for test in TESTS}
-    asked = Asked("threshold", 0.0, f"{symbol}/s", ANY)
+    asked = AskedNumber("threshold", 0.0, f"{symbol}/s", ANY)
     threshold = _number(given.get("threshold"), asked)
     if threshold < 0.0:
-        raise Wrong(f"threshold {threshold:g}", hint="A speed has no sign here. 0 drops nothing.")
+        raise WrongAnswer(
+            f"threshold {threshold:g}", hint="A speed has no sign here. 0 drops nothing."
+        )
     whole = f"Give a whole number of samples from 1, which filters nothing, to {LONGEST}."
     try:
-        window = _number(given.get("median"), Asked("median", 1.0, "", ANY))
-    except Wrong as wrong:
+        window = _number(given.get("median"), AskedNumber("median", 1.0, "", ANY))
+    except WrongAnswer as wrong:
         wrong.hint = whole
         raise
     if window != round(window) or not 1 <= window <= LONGEST:
-        raise Wrong(f"median {window:g}", hint=whole)
+        raise WrongAnswer(f"median {window:g}", hint=whole)
     return Preparation(
         {test: span for test, span in keep.items() if span is not None},
         threshold * si,
@@ -76,10 +78,10 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
     )
 
 
-def _number(raw: object, asked: Asked) -> float:
+def _number(raw: object, asked: AskedNumber) -> float:
     try:
         return read_answer_number(raw, asked)
-    except Wrong as wrong:
+    except WrongAnswer as wrong:
         wrong.seen = f"{asked.name}: {wrong.seen}"
         raise
 
@@ -91,23 +93,23 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
         'Write what to keep, from and to, in seconds since the test began: "0.4 to 5.2", or "all".'
     )
     if raw is None or raw == "":
-        raise Wrong(f"{name}: nothing yet", hint=ask)
+        raise WrongAnswer(f"{name}: nothing yet", hint=ask)
     if isinstance(raw, list):
         raw = " ".join(str(part) for part in raw)
     if not isinstance(raw, str):
-        raise Wrong(f"{name}: {raw}, which is not two times", hint=ask)
+        raise WrongAnswer(f"{name}: {raw}, which is not two times", hint=ask)
     if raw.strip().lower() in EVERYTHING:
         return None
     times = [float(part.replace(",", ".")) for part in NUMBER.findall(raw)]
     if COMMAS.search(raw):
-        raise Wrong(
+        raise WrongAnswer(
             f'{name}: "{raw[:40]}"',
             hint=f"Three numbers with commas can be read as two times in two ways. {ask}",
         )
     if len(times) != 2 or not BETWEEN.fullmatch(NUMBER.sub(" ", raw.lower())):
-        raise Wrong(f'{name}: "{raw[:40]}", which is not two times', hint=ask)
+        raise WrongAnswer(f'{name}: "{raw[:40]}", which is not two times', hint=ask)
     if times[0] >= times[1]:
-        raise Wrong(f'{name}: "{raw[:40]}"', hint=f"That ends before it begins. {ask}")
+        raise WrongAnswer(f'{name}: "{raw[:40]}"', hint=f"That ends before it begins. {ask}")
     return times[0], times[1]
 
 
@@ -139,7 +141,7 @@ def fitted(log: "Log", preparation: Preparation) -> "Fit":
     return fit(ready, type="simple", method="sysid", median=preparation.median).in_log_units()
 
 
-def earned(value: float, asked: Asked) -> float:
+def earned(value: float, asked: AskedNumber) -> float:
     """Points for one gain: all of them, half, or none."""
     if asked.right(value):
         return POINTS
@@ -148,7 +150,7 @@ def earned(value: float, asked: Asked) -> float:
 
 
 def points(
-    log: "Log", preparation: Preparation, asked: Mapping[str, Asked], *, wider: float = 1.0
+    log: "Log", preparation: Preparation, asked: Mapping[str, AskedNumber], *, wider: float = 1.0
 ) -> float:
     """What the fit of a log, so prepared, earns; were the bands this many times as wide."""
     from sim.core.errors import Refusal  # noqa: PLC0415 - numpy only where it is needed

@@ -6,12 +6,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, Key, gains_asked, judge_number, read_answer_number
-from grader.check import Wrong, check
+from grader.answer import AnswerKey, AskedNumber, Band, ask_gains, judge_number, read_answer_number
+from grader.check import WrongAnswer, check
 from grader.consequence import Consequence
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
-from grader.variant import student_rng, student_seed
+from grader.variant import derive_student_seed, make_student_rng
 
 from .outcome import outcome
 from .scene import columns, scene
@@ -44,7 +44,7 @@ class Variant:
     mechanism: "Mechanism"
     log: "Log"
     fit: "Fit"
-    asked: Mapping[str, Asked]
+    asked: Mapping[str, AskedNumber]
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Answers:
     """What the checks look at."""
 
     given: Mapping[str, object]
-    key: Key
+    key: AnswerKey
     variant: Variant
     student: str
     function: Path
@@ -61,7 +61,7 @@ class Answers:
 
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one; drawn again until SysId's own recipe finds it."""
-    return _drawn(student, student_seed(student, "exercise9"))
+    return _drawn(student, derive_student_seed(student, "exercise9"))
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -73,7 +73,7 @@ def _drawn(student: str, _seed: int) -> Variant:
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
-        rng = student_rng(student, "exercise9", draw=attempt)
+        rng = make_student_rng(student, "exercise9", draw=attempt)
         kind = KINDS[int(rng.integers(len(KINDS)))]
         mechanism = MECHANISMS[kind].draw(rng)
         routine = Routine(ramp=RAMP, step=STEPS.get(kind, USUAL_STEP), timeout=TIMEOUT)
@@ -81,14 +81,14 @@ def _drawn(student: str, _seed: int) -> Variant:
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
         per = find_unit(mechanism.units)
         gains = gains_per(mechanism.gains, factor=per.si)
-        asked = gains_asked(gains, position=per.symbol)
+        asked = ask_gains(gains, position=per.symbol)
         found_all = all(one.right(found.gains[name]) for name, one in asked.items())
         if found_all and not _alike(asked):
             return Variant(mechanism, log, found, asked)
     raise RuntimeError(f"no solvable mechanism for {student!r}")
 
 
-def _alike(asked: Mapping[str, Asked]) -> bool:
+def _alike(asked: Mapping[str, AskedNumber]) -> bool:
     """Whether two gains could change places unseen."""
     return any(
         one.right(other.expected)
@@ -121,7 +121,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Answers:
     around = scene(variant.mechanism, variant.log, variant.asked, ramp=RAMP, period=PERIOD)
     return Answers(
         {name: given.get(name.lower()) for name in names},
-        Key(variant.asked, around),
+        AnswerKey(variant.asked, around),
         variant,
         student,
         path.with_name(NAME),
@@ -159,11 +159,11 @@ def ka(answers: Answers) -> str | None:
 @check(points=1)
 def metrics(answers: Answers) -> None:
     """The acceleration R² and the simulated velocity R² of your fit."""
-    wrong: list[Wrong] = []
+    wrong: list[WrongAnswer] = []
     for name in METRICS:
         try:
             _metric(name, answers)
-        except Wrong as why:
+        except WrongAnswer as why:
             why.seen = f"{name}: {why.seen}"
             wrong.append(why)
     if wrong:
@@ -177,7 +177,7 @@ def function(answers: Answers) -> str | None:
     return judge_function(answers.function, student=answers.student, points=5, run=answers.run)
 
 
-def is_measured_r2(value: float, asked: Asked) -> bool:
+def is_measured_r2(value: float, asked: AskedNumber) -> bool:
     """Whether an R² is right: near the expected one, and 1 only where two digits make it 1."""
     return asked.right(value) and (value < 1 or round(asked.expected, 2) >= 1)
 
@@ -185,7 +185,7 @@ def is_measured_r2(value: float, asked: Asked) -> bool:
 def _metric(name: str, answers: Answers) -> None:
     expected = {one: float(getattr(answers.variant.fit, one)) for one in METRICS}
     asked = {
-        one: Asked(one, expected[one], "", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
+        one: AskedNumber(one, expected[one], "", Band(0, 0, METRIC_BANDS[one], METRIC_BANDS[one]))
         for one in METRICS
     }
     value = read_answer_number(answers.given[name], asked[name])
@@ -200,14 +200,14 @@ def _metric(name: str, answers: Answers) -> None:
         hint = f"That is the {other}. Are the two swapped?"
     else:
         hint = "sysid fit --method sysid prints both; its R² are SysId's own."
-    raise Wrong(f"{value:.4g}", hint=hint, misconception="M-R2")
+    raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 
 def _gain(name: str, answers: Answers, *, points: float) -> str | None:
     """Judge one gain; where no slip explains it, say how far the three miss the log."""
     try:
         return judge_number(name, answers.given, answers.key, points=points)
-    except Wrong as wrong:
+    except WrongAnswer as wrong:
         if "outside" in wrong.hint:
             wrong.hint += _missed(answers)
         raise
@@ -223,7 +223,7 @@ def _missed(answers: Answers) -> str:
         gains = [
             read_answer_number(answers.given[name], one) for name, one in answers.key.asked.items()
         ]
-    except Wrong:
+    except WrongAnswer:
         return ""
     known, voltage = columns(answers.variant.log, si=find_unit(answers.variant.mechanism.units).si)
     good = [answers.variant.fit.gains[name] for name in answers.key.asked]

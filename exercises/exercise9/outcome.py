@@ -2,15 +2,15 @@
 
 from collections.abc import Mapping
 
-from grader.answer import Asked, read_answer_number
-from grader.check import Wrong
+from grader.answer import AskedNumber, read_answer_number
+from grader.check import WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 
 SPINS = {"shooter"}  # mechanisms whose place does not matter
 
 
 def outcome(
-    given: Mapping[str, object], asked: Mapping[str, Asked], *, kind: str, symbol: str
+    given: Mapping[str, object], asked: Mapping[str, AskedNumber], *, kind: str, symbol: str
 ) -> Consequence | None:
     """What the gains would do; None where one is missing, or all are right.
 
@@ -26,7 +26,7 @@ def outcome(
 
     try:
         gains = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
-    except Wrong:
+    except WrongAnswer:
         return None
     if all(one.right(gains[name]) for name, one in asked.items()):
         return None

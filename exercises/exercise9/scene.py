@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked
+from grader.answer import AskedNumber
 from grader.wrong_number import Lookalike, Scene, WrongNumber
 
 if TYPE_CHECKING:
@@ -46,7 +46,12 @@ def columns(log: "Log", *, si: float) -> "tuple[Array, Array]":
 
 
 def scene(
-    mechanism: "Mechanism", log: "Log", asked: Mapping[str, Asked], *, ramp: float, period: float
+    mechanism: "Mechanism",
+    log: "Log",
+    asked: Mapping[str, AskedNumber],
+    *,
+    ramp: float,
+    period: float,
 ) -> Scene:
     """The scene of one log.
 

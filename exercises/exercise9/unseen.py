@@ -10,14 +10,14 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Key, diagnose, gains_asked, judge_number
-from grader.check import NotReached, NotRun, Wrong
-from grader.variant import student_rng, student_seed
+from grader.answer import AnswerKey, AskedNumber, ask_gains, diagnose_number, judge_number
+from grader.check import NotReachedError, NotRunError, WrongAnswer
+from grader.variant import derive_student_seed, make_student_rng
 
 from .scene import ASSUMED, USUAL, columns, scene
 
 if TYPE_CHECKING:
-    from grader.isolation import Answer, SandboxOutcome
+    from grader.isolation import CallResult, SandboxOutcome
     from sim.core.log import Array, Log
 
 NAME, FUNCTION = "fit.py", "fit"
@@ -85,7 +85,7 @@ class Hidden:
 
     recipe: Recipe
     data: Mapping[str, "Array"]
-    key: Key
+    key: AnswerKey
 
 
 @lru_cache(maxsize=REMEMBERED)
@@ -102,22 +102,22 @@ def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
 
     routine = Routine(ramp=RAMP, step=STEPS.get(recipe.kind, USUAL_STEP), timeout=TIMEOUT)
     for attempt in range(MOST_DRAWS):
-        rng = student_rng(student, f"exercise9, log {number}", draw=attempt)
+        rng = make_student_rng(student, f"exercise9, log {number}", draw=attempt)
         built = MECHANISMS[recipe.kind].draw(rng)
         noise = built.sensor.velocity_noise * recipe.noise
         built = replace(built, sensor=replace(built.sensor, velocity_noise=noise))
         log = simulate(built, routine, rng=rng, period=recipe.period)
         log = replace(log, runs=tuple(run for run in log.runs if run.test != recipe.without))
         per = find_unit(built.units)
-        asked = gains_asked(gains_per(built.gains, factor=per.si), position=per.symbol)
+        asked = ask_gains(gains_per(built.gains, factor=per.si), position=per.symbol)
         if _fair(log, asked, si=per.si, noisy=recipe.noisy):
             around = scene(built, log, asked, ramp=RAMP, period=recipe.period)
             around = replace(around, ratio=1.0, motors=1)  # a function knows of neither
-            return Hidden(recipe, _table(log, si=per.si), Key(asked, around))
+            return Hidden(recipe, _table(log, si=per.si), AnswerKey(asked, around))
     raise RuntimeError(f"no solvable log {number} for {student!r}")
 
 
-def _fair(log: "Log", asked: Mapping[str, Asked], *, si: float, noisy: bool) -> bool:
+def _fair(log: "Log", asked: Mapping[str, AskedNumber], *, si: float, noisy: bool) -> bool:
     """Whether an honest fit finds the gains with room to spare, and the naive one does not."""
     import numpy as np  # noqa: PLC0415 - numpy only where it is needed
 
@@ -130,7 +130,7 @@ def _fair(log: "Log", asked: Mapping[str, Asked], *, si: float, noisy: bool) -> 
         abs(value - one.expected) <= ROOM * one.band.widths(one.expected)[0]
         for value, one in zip(honest, asked.values(), strict=True)
     )
-    caught = not all(map(Asked.right, asked.values(), naive.tolist()))
+    caught = not all(map(AskedNumber.right, asked.values(), naive.tolist()))
     return room and (caught or not noisy)
 
 
@@ -153,9 +153,9 @@ def _outcome(text: bytes, student: str, of: int) -> "SandboxOutcome":
     """Run a function on all five logs; the same text gives the same numbers."""
     import tempfile  # noqa: PLC0415 - only where there is something to run
 
-    from grader.isolation import Call, Limits, run_functions  # noqa: PLC0415 - the same
+    from grader.isolation import FunctionCall, Limits, run_functions  # noqa: PLC0415 - the same
 
-    calls = [Call(FUNCTION, one.data) for one in hidden(student, of)]
+    calls = [FunctionCall(FUNCTION, one.data) for one in hidden(student, of)]
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder, NAME)
         source.write_bytes(text)
@@ -175,18 +175,20 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
         What it printed, if it did.
 
     Raises:
-        Wrong: at least one log came out wrong; what may be behind it.
-        NotReached: there is no file.
-        NotRun: there is one, and it may not be run.
+        WrongAnswer: at least one log came out wrong; what may be behind it.
+        NotReachedError: there is no file.
+        NotRunError: there is one, and it may not be run.
     """
     from grader.submission import read_text  # noqa: PLC0415 - beside its only use
 
     if not path.is_file():
-        raise NotReached(f"there is no {NAME} beside your answers; the exercise's folder has one")
+        raise NotReachedError(
+            f"there is no {NAME} beside your answers; the exercise's folder has one"
+        )
     text = read_text(path).encode()
     if not run:
-        raise NotRun(f"not run: {NAME} was not to be run here, and reading it cannot tell")
-    of = student_seed(student, "exercise9")
+        raise NotRunError(f"not run: {NAME} was not to be run here, and reading it cannot tell")
+    of = derive_student_seed(student, "exercise9")
     logs, outcome = hidden(student, of), _outcome(text, student, of)
     wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]
     printed = _printed(outcome.printed)
@@ -212,12 +214,12 @@ class Miss:
     """
 
     log: Hidden
-    why: Wrong
+    why: WrongAnswer
     judged: bool = False
     slips: frozenset[str] = frozenset()
 
 
-def _telling(wrong: Sequence[Sequence[Miss]]) -> Wrong:
+def _telling(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
     """Of all that is wrong, what to tell: the slip that explains most logs, else the first."""
     logs = Counter(slip for log in wrong for slip in {slip for one in log for slip in one.slips})
     misses = [miss for log in wrong for miss in log]
@@ -234,12 +236,12 @@ def _telling(wrong: Sequence[Sequence[Miss]]) -> Wrong:
     return told.why
 
 
-def _judge_log(log: Hidden, answer: "Answer") -> list[Miss]:
+def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
     """What is wrong with the numbers for one log."""
     where = f"{log.recipe.kind}, every {log.recipe.period:g} s"
     if answer.reason:
         hint = "Try it on your own log first: python exercises/exercise9/fit.py"
-        return [Miss(log, Wrong(f"{where}: {answer.reason}", hint=hint))]
+        return [Miss(log, WrongAnswer(f"{where}: {answer.reason}", hint=hint))]
     misses = (_judge_gain(name, log, answer) for name in log.key.asked)
     found = [miss for miss in misses if miss]
     for miss in found:
@@ -247,20 +249,20 @@ def _judge_log(log: Hidden, answer: "Answer") -> list[Miss]:
     return found
 
 
-def _judge_gain(name: str, log: Hidden, answer: "Answer") -> Miss | None:
+def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
     if name in answer.refused:
         hint = f"Return one number for {name}: float(...) makes one, if there is one"
-        return Miss(log, Wrong(f"{name} = {answer.refused[name]}", hint=hint))
+        return Miss(log, WrongAnswer(f"{name} = {answer.refused[name]}", hint=hint))
     one, value, period = log.key.asked[name], answer.numbers.get(name), log.recipe.period
     # a kA of 0.02 s is too large by as much as samples are closer
     if value and name == "kA" and period != USUAL and one.right(value * period / USUAL):
-        why = Wrong(f"{name} = {value:.4g} {one.unit}", hint=ASSUMED.says)
+        why = WrongAnswer(f"{name} = {value:.4g} {one.unit}", hint=ASSUMED.says)
         return Miss(log, why, judged=True, slips=frozenset({ASSUMED.code}))
     try:
         judge_number(name, answer.numbers, log.key, points=0.0)
-    except Wrong as why:
+    except WrongAnswer as why:
         why.seen = f"{name} = {why.seen}"
-        slips = diagnose(name, answer.numbers, log.key)
+        slips = diagnose_number(name, answer.numbers, log.key)
         judged = answer.numbers.get(name) is not None
         return Miss(log, why, judged=judged, slips=frozenset(slip.code for slip in slips))
     return None

@@ -9,8 +9,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.answer import Asked, Band, judge_number, read_answer_number
-from grader.check import Check, NotReached, Wrong, check
+from grader.answer import AskedNumber, Band, judge_number, read_answer_number
+from grader.check import Check, NotReachedError, WrongAnswer, check
 from grader.choice_answer import read_choice
 from grader.course import find_course
 from grader.exercise import Exercise
@@ -68,9 +68,9 @@ class Answers:
         try:
             return room.read(self._file(place), student=self.student, **asked)
         except Refusal as refusal:
-            raise NotReached(str(refusal)) from None
-        except Wrong as wrong:
-            raise NotReached(f"language: {wrong.seen}. {wrong.hint}") from None
+            raise NotReachedError(str(refusal)) from None
+        except WrongAnswer as wrong:
+            raise NotReachedError(f"language: {wrong.seen}. {wrong.hint}") from None
 
     @cached_property
     def routine(self) -> object:
@@ -148,7 +148,7 @@ def _borrowed(room: ModuleType, part: str, *, step: str, leave: tuple[str, ...] 
             continue
 
         def look(answers: Answers, theirs: Check[Any] = one) -> str | None:
-            return theirs.look(getattr(answers, part))
+            return theirs.judge(getattr(answers, part))
 
         before = tuple(ours[first.id] for first in one.after)
         name = f"{step}-{one.id}"
@@ -166,7 +166,7 @@ def _gain(name: str, *, points: float) -> None:
     def look(answers: Answers) -> str | None:
         key = answers.measured.key
         if name not in key.asked:
-            raise NotReached(f"your fit suggests no {name}")
+            raise NotReachedError(f"your fit suggests no {name}")
         given = {one: answers.given.get(one.lower()) for one in key.asked}
         return judge_number(name, given, key, points=points)
 
@@ -182,13 +182,13 @@ for _name in ("kS", "kV", "kA", "kP"):
 def r2(answers: Answers) -> None:
     """The simulated velocity R² of your fit."""
     found = float(answers.measured.fit.simulated_velocity_r2)
-    asked = Asked("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
+    asked = AskedNumber("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
     value = read_answer_number(answers.given.get("simulated_velocity_r2"), asked)
     if not NINTH.is_measured_r2(value, asked):
         hint = "There are two R². Asked for is the simulated velocity's, a share of 1."
         if value == 1:
             hint = NINTH.PERFECT
-        raise Wrong(f"{value:.4g}", hint=hint, misconception="M-R2")
+        raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
 
 
 @check(points=1, after=r2)
@@ -201,7 +201,7 @@ def hypothesis(answers: Answers) -> str | None:
     read_choice(answers.given.get("hypothesis"), tuple(FAULTS))
     first = answers.given.get("first_check")
     if not isinstance(first, str) or len(first.strip()) < LITTLE:
-        raise Wrong("no first_check", hint="In a sentence: what would you look at first?")
+        raise WrongAnswer("no first_check", hint="In a sentence: what would you look at first?")
     return None
 
 
@@ -220,4 +220,4 @@ def theory_verdict(answers: Answers) -> None:
     found = read_choice(answers.given.get("verdict"), TEAM.VERDICTS)
     if found not in right:
         hint = "find your difference in the table of exercise 2, sign and all"
-        raise Wrong(f'"{found}"', hint=hint)
+        raise WrongAnswer(f'"{found}"', hint=hint)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import Asked, Band, Key, gains_asked, read_answer_number
-from grader.check import NotReached, Wrong, shorten
+from grader.answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
+from grader.check import NotReachedError, WrongAnswer, shorten
 from grader.choice_answer import normalize_choice
 from sim.core.errors import Refusal
 
@@ -37,7 +37,7 @@ class Measured:
     """A mechanism's fit, what it is asked for, and its parts; ``why`` says what is missing."""
 
     fit: "Fit"
-    key: Key
+    key: AnswerKey
     units: str
     parts: Parts | None
     why: str = ""
@@ -60,14 +60,14 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     """A mechanism of the learner's own, from its log.
 
     Raises:
-        NotReached: the log cannot be read or fitted.
+        NotReachedError: the log cannot be read or fitted.
     """
     from sim.core.units import find_unit  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
     from sim.io import read  # noqa: PLC0415 - the same
 
     if not _is_file(path):
-        raise NotReached(f"there is no {shorten(path.name)} beside your answers.toml")
+        raise NotReachedError(f"there is no {shorten(path.name)} beside your answers.toml")
     try:
         log = read(path)
         kind = log.type or "simple"
@@ -75,10 +75,10 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
         units = "Radians" if kind == "arm" else units
         found = fit(log, type=kind, method="sysid").in_units(units.lower())
     except Refusal as refusal:
-        raise NotReached(str(refusal)) from None
+        raise NotReachedError(str(refusal)) from None
     try:
         return _measured(found, units, _parts(given, units), "")
-    except Wrong as wrong:
+    except WrongAnswer as wrong:
         return _measured(found, units, None, f"{wrong.seen}. {wrong.hint}")
 
 
@@ -93,11 +93,11 @@ def _is_file(path: Path) -> bool:
 def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measured:
     symbol = UNITS[units]
     names = [name for name in ("kS", "kV", "kA", "kG") if name in found.gains]
-    asked = gains_asked({name: found.gains[name] for name in names}, position=symbol)
+    asked = ask_gains({name: found.gains[name] for name in names}, position=symbol)
     suggested = found.feedback().get("velocity")
     if suggested is not None:
-        asked["kP"] = Asked("kP", suggested.kp, f"V·s/{symbol}", KP)
-    return Measured(found, Key(asked), units, parts, why)
+        asked["kP"] = AskedNumber("kP", suggested.kp, f"V·s/{symbol}", KP)
+    return Measured(found, AnswerKey(asked), units, parts, why)
 
 
 def _parts(given: Mapping[str, object], units: str) -> Parts:
@@ -107,13 +107,15 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
     known = {normalize_choice(name): motor for name, motor in MOTORS.items()}
     motor = known.get(normalize_choice(named)) if isinstance(named, str) else None
     if motor is None:
-        raise Wrong("no motor that is known", hint=f"Write motor = one of: {', '.join(MOTORS)}.")
+        raise WrongAnswer(
+            "no motor that is known", hint=f"Write motor = one of: {', '.join(MOTORS)}."
+        )
     free = Band(0.0, 0.0)
-    ratio = read_answer_number(given.get("ratio"), Asked("ratio", 1.0, "", free))
-    size = Asked("wheel_diameter", 1.0, "m", free)
+    ratio = read_answer_number(given.get("ratio"), AskedNumber("ratio", 1.0, "", free))
+    size = AskedNumber("wheel_diameter", 1.0, "m", free)
     diameter = read_answer_number(given.get("wheel_diameter"), size) if units == "Meters" else 0.0
     if ratio <= 0.0 or diameter < 0.0 or (units == "Meters" and not diameter):
-        raise Wrong("a ratio or a diameter that cannot be", hint="Both are larger than zero.")
+        raise WrongAnswer("a ratio or a diameter that cannot be", hint="Both are larger than zero.")
     return Parts(motor, 1, ratio, diameter)
 
 
@@ -126,10 +128,10 @@ def team_of(measured: Measured, given: Mapping[str, object], team: "ModuleType")
         team: the module of exercise 2 that says what a team's mechanism is.
 
     Raises:
-        NotReached: it takes the parts first.
+        NotReachedError: it takes the parts first.
     """
     if measured.parts is None:
-        raise NotReached(measured.why)
+        raise NotReachedError(measured.why)
     one = measured.parts
     kv = noted("kV", given, measured) * (2.0 * math.pi if measured.units == "Radians" else 1.0)
     rpm = one.motor.free_speed * 30.0 / math.pi
@@ -143,6 +145,6 @@ def noted(name: str, given: Mapping[str, object], measured: Measured) -> float:
     asked = measured.key.asked[name]
     try:
         value = read_answer_number(given.get(name.lower()), asked)
-    except Wrong:
+    except WrongAnswer:
         return asked.expected
     return value if asked.right(value) else asked.expected

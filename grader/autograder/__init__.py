@@ -27,7 +27,7 @@ EXECUTABLE, READABLE, PRIVATE = 0o755, 0o644, 0o600
 
 
 @dataclass(frozen=True)
-class Gradescope:
+class AutograderContents:
     """What Gradescope's autograder is made of.
 
     Args:
@@ -49,7 +49,7 @@ class Gradescope:
         return f"Gradescope({self.exercises!r})"
 
 
-def pack_gradescope(given: Gradescope) -> bytes:
+def pack_gradescope(given: AutograderContents) -> bytes:
     """The zip file to be uploaded as Gradescope's autograder; the same input, the same bytes."""
     here = Path(__file__).resolve().parent
     settings = {
@@ -57,26 +57,28 @@ def pack_gradescope(given: Gradescope) -> bytes:
         "STUDENT_FROM": given.student_from,
         "SECONDS_ALLOWED": str(SECONDS_ALLOWED),
     }
-    plain, robot = _requirements(given.course["pyproject.toml"])
+    plain, robot = _read_requirements(given.course["pyproject.toml"])
     files = {name: (here / name).read_bytes().replace(b"\r\n", b"\n") for name in SCRIPTS}
     files |= {
-        "settings.sh": _lines(f"{name}={shlex.quote(value)}" for name, value in settings.items()),
-        "requirements.txt": _lines(plain),
-        "requirements-robot.txt": _lines(robot),
+        "settings.sh": _join_lines(
+            f"{name}={shlex.quote(value)}" for name, value in settings.items()
+        ),
+        "requirements.txt": _join_lines(plain),
+        "requirements-robot.txt": _join_lines(robot),
         **{f"course/{name}": content for name, content in given.course.items()},
     }
     if given.roster is not None:
         files["roster.csv"] = given.roster
     if given.secret is not None:
         files["class.secret"] = given.secret + b"\n"
-    return _zipped(files)
+    return _zip_files(files)
 
 
-def _lines(lines: Iterable[str]) -> bytes:
+def _join_lines(lines: Iterable[str]) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode()
 
 
-def _requirements(pyproject: bytes) -> tuple[list[str], list[str]]:
+def _read_requirements(pyproject: bytes) -> tuple[list[str], list[str]]:
     """What to install from PyPI: always, and to run robot code."""
     project = tomllib.loads(pyproject.decode())["project"]
     plain = [
@@ -87,7 +89,7 @@ def _requirements(pyproject: bytes) -> tuple[list[str], list[str]]:
     return plain, list(project["optional-dependencies"]["robot"])
 
 
-def _zipped(files: Mapping[str, bytes]) -> bytes:
+def _zip_files(files: Mapping[str, bytes]) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():

@@ -38,13 +38,13 @@ def find_submitter(metadata: Path, *, by: str, roster: Path | None) -> str:
             where=str(metadata),
             advice="Export the autograder anew with another --student-from.",
         )
-    return check_student_name(found) if roster is None else _on_roster(found, roster)
+    return check_student_name(found) if roster is None else _find_on_roster(found, roster)
 
 
-def _on_roster(found: str, roster: Path) -> str:
-    from grader.classroom.roster import read_members  # noqa: PLC0415 - only where there is a roster
+def _find_on_roster(found: str, roster: Path) -> str:
+    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - only where there is a roster
 
-    for student, row in read_members(roster).rows.items():
+    for student, row in read_class_roster(roster).rows.items():
         if found.casefold() in {cell.strip().casefold() for cell in row.values()}:
             return student
     raise BadRequest(

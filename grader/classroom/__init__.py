@@ -1,11 +1,11 @@
 """A class: what was handed in, graded beside one another, kept, summed up and exported.
 
-handed_in.py   folders and zip files -> what each student handed in
-grading.py     one student's files -> results; where learners' code is run, it is run apart
-store.py       results on disk: a run that was ended goes on where it stopped
-run.py         all of them, on this machine or a cluster
-items.py       which question, which misconception
-page.py        the overview
-exports/       the formats of gradebooks and of other people's systems
-roster.py      who is in the class;  secret.py  what only its instructor holds
+submissions.py    folders and zip files -> what each student handed in
+grading.py        one student's files -> results; where learners' code is run, it is run apart
+store.py          results on disk: a run that was ended goes on where it stopped
+class_grading.py  all of them, on this machine or a cluster
+item_analysis.py  which question, which misconception
+result_pages.py   the overview
+exports/          the formats of gradebooks and of other people's systems
+roster.py         who is in the class;  secret.py  what only its instructor holds
 """

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from grader.fingerprint import authored_files
+from grader.fingerprint import list_authored_files
 
 
 @dataclass(frozen=True)
-class Bundle:
+class CourseBundle:
     """A course's exercises.
 
     Args:
@@ -28,24 +28,24 @@ class Bundle:
         return f"Bundle({self.digest[:8]})"
 
 
-def pack_course(course: Path) -> Bundle:
+def pack_course(course: Path) -> CourseBundle:
     """The exercises of a course, packed; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in authored_files(course / "exercises"):
+        for path in list_authored_files(course / "exercises"):
             info = zipfile.ZipInfo(path.relative_to(course).as_posix())  # its time is always 1980
             archive.writestr(info, path.read_bytes(), zipfile.ZIP_DEFLATED)
     content = stream.getvalue()
-    return Bundle(hashlib.sha256(content).hexdigest(), content)
+    return CourseBundle(hashlib.sha256(content).hexdigest(), content)
 
 
-def unpack_course(given: Path | Bundle) -> Path:
+def unpack_course(given: Path | CourseBundle) -> Path:
     """The folder of a course: as it is, or unpacked once in each process."""
-    return given if isinstance(given, Path) else _unpacked(given)
+    return given if isinstance(given, Path) else _unpack_bundle(given)
 
 
 @cache
-def _unpacked(given: Bundle) -> Path:
+def _unpack_bundle(given: CourseBundle) -> Path:
     folder = tempfile.TemporaryDirectory(prefix="course-", ignore_cleanup_errors=True)
     _KEPT.append(folder)  # removed when this process ends
     with zipfile.ZipFile(io.BytesIO(given.content)) as archive:

@@ -55,7 +55,7 @@ def grade_in_container(context: click.Context, *, course: Path, output: Path) ->
     if program is None:
         raise BadRequest(f"{engine} is not installed", advice=f"Install {engine}, then try again.")
     output.mkdir(parents=True, exist_ok=True)
-    words = [program, *container_arguments(context, course=course, output=output)]
+    words = [program, *build_container_arguments(context, course=course, output=output)]
     try:
         code = subprocess.run(words, check=False).returncode  # noqa: S603 - a list, no shell
     except KeyboardInterrupt:
@@ -69,10 +69,10 @@ def grade_in_container(context: click.Context, *, course: Path, output: Path) ->
     return code
 
 
-def container_arguments(context: click.Context, *, course: Path, output: Path) -> list[str]:
+def build_container_arguments(context: click.Context, *, course: Path, output: Path) -> list[str]:
     """The words after ``docker``: no network, nothing writable but the output folder."""
     engine, given = context.params["engine"], context.params
-    mounts = [_mount(course, "/course"), _mount(output, "/out", write=True)]
+    mounts = [_format_mount(course, "/course"), _format_mount(output, "/out", write=True)]
     words = ["class"]
     for parameter in context.command.params:
         name = str(parameter.name)
@@ -81,9 +81,9 @@ def container_arguments(context: click.Context, *, course: Path, output: Path) -
         value = given.get(name)
         if isinstance(parameter.type, click.Path) and value is not None:
             inside = f"/given/{name}/{value.resolve().name}"
-            mounts.append(_mount(value, inside))
+            mounts.append(_format_mount(value, inside))
             value = inside
-        words += _option(parameter, value)
+        words += _format_option(parameter, value)
     own = ["--security-opt", "label=disable"] if engine == "podman" else []
     if sys.platform != "win32":
         user = ["--user", f"{os.getuid()}:{os.getgid()}"]
@@ -98,7 +98,7 @@ def container_arguments(context: click.Context, *, course: Path, output: Path) -
     ]
 
 
-def _mount(path: Path, target: str, *, write: bool = False) -> str:
+def _format_mount(path: Path, target: str, *, write: bool = False) -> str:
     source = path.resolve()
     if "," in str(source) or '"' in str(source):
         raise BadRequest(
@@ -109,7 +109,7 @@ def _mount(path: Path, target: str, *, write: bool = False) -> str:
     return f"type=bind,source={source},target={target}{'' if write else ',readonly'}"
 
 
-def _option(parameter: click.Parameter, value: Any) -> Iterator[str]:  # noqa: ANN401 - whatever an option holds
+def _format_option(parameter: click.Parameter, value: Any) -> Iterator[str]:  # noqa: ANN401 - whatever an option holds
     """An option or argument with its value, as it is typed; nothing where nothing was said."""
     if value is None or (value is False and not parameter.secondary_opts):
         return
@@ -122,7 +122,7 @@ def _option(parameter: click.Parameter, value: Any) -> Iterator[str]:  # noqa: A
             yield from (parameter.opts[-1], str(one))
 
 
-def answering_engines() -> list[str]:
+def find_engines() -> list[str]:
     """The engines that answer on this machine."""
     found = []
     for engine in ENGINES:

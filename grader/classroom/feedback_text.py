@@ -7,7 +7,7 @@ from grader.misconception import MISCONCEPTIONS
 from sim.support.printable import make_printable
 
 
-def feedback(check: Mapping[str, Any]) -> str:
+def compose_feedback(check: Mapping[str, Any]) -> str:
     """What was given, the likely cause and the next step, and why; empty where all is said."""
     if check["status"] == "passed":
         return make_printable(str(check["hint"]))

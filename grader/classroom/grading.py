@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from grader.check import Status
 from grader.classroom.bundle import unpack_course
 from grader.classroom.submissions import Files
-from grader.exercise import Exercise, Grade, exercises
-from grader.variant import class_secret
+from grader.exercise import Exercise, Grade, list_exercises
+from grader.variant import use_class_secret
 
 if TYPE_CHECKING:
-    from grader.classroom.bundle import Bundle
+    from grader.classroom.bundle import CourseBundle
 
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
@@ -44,7 +44,7 @@ class GradingJob:
     problems: Mapping[str, str]
     numbers_of: str
     names: tuple[str, ...]
-    course: "Path | Bundle"
+    course: "Path | CourseBundle"
     secret: bytes | None
     run: bool
 
@@ -54,7 +54,7 @@ class GradingJob:
 
 
 @dataclass(frozen=True)
-class Graded:
+class GradedStudent:
     """One student's results, as they are kept.
 
     Args:
@@ -68,40 +68,40 @@ class Graded:
     records: tuple[Record, ...]
 
 
-def grade_one(job: GradingJob) -> Graded:
+def grade_student(job: GradingJob) -> GradedStudent:
     """Grade everything one student handed in; whatever happens is a result."""
-    there = {one.name: one for one in exercises(unpack_course(job.course))}
+    there = {one.name: one for one in list_exercises(unpack_course(job.course))}
     with (
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder,
-        class_secret(job.secret) if job.secret is not None else nullcontext(),
+        use_class_secret(job.secret) if job.secret is not None else nullcontext(),
     ):
         records = tuple(_grade(there[name], job, Path(folder) / name) for name in job.names)
-    return Graded(job.student, job.digest, records)
+    return GradedStudent(job.student, job.digest, records)
 
 
 def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
     files, student = job.files.get(exercise.name, {}), job.student
     if exercise.name in job.problems:
-        return missing_record(
+        return make_missing_record(
             exercise, student, status="ungradable", reason=job.problems[exercise.name]
         )
     if not files:
-        return missing_record(exercise, student, status=MISSING, reason=NOTHING)
+        return make_missing_record(exercise, student, status=MISSING, reason=NOTHING)
     try:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
         grade = exercise.grade(folder, student=job.numbers_of, run=job.run)
-        return grade_record(replace(grade, student=student))
+        return make_grade_record(replace(grade, student=student))
     except MemoryError:
         reason = "grading it took more memory than there is"
-        return missing_record(exercise, student, status="ungradable", reason=reason)
+        return make_missing_record(exercise, student, status="ungradable", reason=reason)
     except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
         broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"
-        return missing_record(exercise, student, status="ungradable", reason=broken)
+        return make_missing_record(exercise, student, status="ungradable", reason=broken)
 
 
-def not_graded(job: GradingJob, name: str, reason: str) -> Record:
+def make_ungraded_record(job: GradingJob, name: str, reason: str) -> Record:
     """The record of an exercise whose grading came to no end.
 
     Args:
@@ -109,11 +109,11 @@ def not_graded(job: GradingJob, name: str, reason: str) -> Record:
         name: of the exercise.
         reason: why, one line.
     """
-    there = {one.name: one for one in exercises(unpack_course(job.course))}
-    return missing_record(there[name], job.student, status="ungradable", reason=reason)
+    there = {one.name: one for one in list_exercises(unpack_course(job.course))}
+    return make_missing_record(there[name], job.student, status="ungradable", reason=reason)
 
 
-def missing_record(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:
+def make_missing_record(exercise: Exercise, student: str, *, status: str, reason: str) -> Record:
     """The record of an exercise of which nothing was graded."""
     checks = [
         {
@@ -133,7 +133,7 @@ def missing_record(exercise: Exercise, student: str, *, status: str, reason: str
     return {**head, "status": status, "file": "", "reason": reason, "checks": checks}
 
 
-def grade_record(grade: Grade) -> Record:
+def make_grade_record(grade: Grade) -> Record:
     """A grade as plain data; of paths only the file's name, so that it is the same anywhere."""
     names = ("exercise", "student", "score", "max_score", "status")
     reason = grade.reason
@@ -147,10 +147,10 @@ def grade_record(grade: Grade) -> Record:
     }
 
 
-def ungraded_student(
+def make_ungraded_student(
     student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str,
     digest: str = "",
-) -> Graded:  # fmt: skip
+) -> GradedStudent:  # fmt: skip
     """The results of a student of whom nothing could be graded.
 
     Args:
@@ -161,9 +161,9 @@ def ungraded_student(
         digest: as in ``Graded``; empty keeps the results from being taken for final.
     """
     records = tuple(
-        missing_record(one, student, status="ungradable", reason=reason)
+        make_missing_record(one, student, status="ungradable", reason=reason)
         if one.name in handed_in
-        else missing_record(one, student, status=MISSING, reason=NOTHING)
+        else make_missing_record(one, student, status=MISSING, reason=NOTHING)
         for one in asked
     )
-    return Graded(student, digest, records)
+    return GradedStudent(student, digest, records)

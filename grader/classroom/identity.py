@@ -5,8 +5,8 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import replace
 
-from grader.class_package import PLACE, ClassPackage, parse_issued
-from grader.classroom.secret import identity_seal
+from grader.class_package import PLACE, ClassPackage, parse_class_package
+from grader.classroom.secret import seal_identity
 from grader.classroom.submissions import PROGRESS, Submission
 from grader.course import NOBODY
 from grader.variant import check_student_name, make_folder_name, normalize_name
@@ -28,15 +28,15 @@ def check_identities(
     Raises:
         BadRequest: a class issued packages with its secret, and no secret was named.
     """
-    return tuple(one if one.problem else _checked(one, secret) for one in handed_in)
+    return tuple(one if one.problem else _check_identity(one, secret) for one in handed_in)
 
 
-def _checked(one: Submission, secret: bytes | None) -> Submission:
+def _check_identity(one: Submission, secret: bytes | None) -> Submission:
     content = one.identities.get(PLACE.as_posix())
     if content is None:
-        return one if secret is not None else _without_class(one)
+        return one if secret is not None else _grade_as_started(one)
     try:
-        found = parse_issued(content)
+        found = parse_class_package(content)
     except ValueError:
         return replace(one, problem=f"its {PLACE.name} cannot be read: was it changed?")
     one = _by_name(one, found.student)
@@ -46,12 +46,12 @@ def _checked(one: Submission, secret: bytes | None) -> Submission:
             where=str(one.place),
             advice="Name the file that grade release made: --secret class.secret",
         )
-    return replace(one, problem=_foreign(one, found, secret))
+    return replace(one, problem=_explain_foreign_package(one, found, secret))
 
 
-def _foreign(one: Submission, found: ClassPackage, secret: bytes) -> str:
+def _explain_foreign_package(one: Submission, found: ClassPackage, secret: bytes) -> str:
     """Why a class's package is not this student's; empty if it is."""
-    mark = identity_seal(secret, student=found.student, name=found.name)
+    mark = seal_identity(secret, student=found.student, name=found.name)
     if not hmac.compare_digest(mark.encode(), found.seal.encode()):
         return (
             f"its package was issued to {found.student} ({found.name}) with another secret, or "
@@ -65,9 +65,9 @@ def _foreign(one: Submission, found: ClassPackage, secret: bytes) -> str:
     return ""
 
 
-def _without_class(one: Submission) -> Submission:
+def _grade_as_started(one: Submission) -> Submission:
     """The same, on the numbers of whoever the course was started as."""
-    started_as = _started_as(one)
+    started_as = _read_started_student(one)
     one = _by_name(one, started_as)
     if make_folder_name(one.student) in one.data_folders:
         return one
@@ -93,7 +93,7 @@ def _by_name(one: Submission, student: str) -> Submission:
     return one
 
 
-def _started_as(one: Submission) -> str:
+def _read_started_student(one: Submission) -> str:
     """Who the course says is learning; empty where it says nothing that can be read."""
     try:
         raw = tomllib.loads(one.identities[PROGRESS].decode("utf-8"))

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from grader.classroom.grading import Graded
+from grader.classroom.grading import GradedStudent
 
 
 @dataclass(frozen=True)
-class Results:
+class ClassResults:
     """A class, graded.
 
     Args:
@@ -20,7 +20,7 @@ class Results:
     """
 
     name: str
-    students: tuple[Graded, ...]
+    students: tuple[GradedStudent, ...]
     exercises: tuple[str, ...]
     roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     header: tuple[str, ...] = ()
@@ -36,7 +36,7 @@ class Results:
         return found
 
 
-def scores(one: Graded) -> dict[str, float]:
+def collect_scores(one: GradedStudent) -> dict[str, float]:
     """Exercise -> points of one student."""
     found = {}
     for record in one.records:
@@ -45,6 +45,6 @@ def scores(one: Graded) -> dict[str, float]:
     return found
 
 
-def status_of(one: Graded) -> dict[str, str]:
+def find_status(one: GradedStudent) -> dict[str, str]:
     """Exercise -> passed, failed, missing or ungradable."""
     return {str(record["exercise"]): str(record["status"]) for record in one.records}

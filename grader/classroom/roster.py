@@ -13,7 +13,7 @@ COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "na
 
 
 @dataclass(frozen=True)
-class Members:
+class Roster:
     """The students of a class.
 
     Args:
@@ -30,7 +30,7 @@ class Members:
         return Identities(self.rows)
 
 
-def read_members(path: Path) -> Members:
+def read_class_roster(path: Path) -> Roster:
     """Read a roster.
 
     Canvas's export has a column ``Student`` with the full name and a better one, ``SIS Login ID``,
@@ -57,4 +57,4 @@ def read_members(path: Path) -> Members:
         name: dict(zip(roster.header, row, strict=False))
         for name, (_, row) in zip(names, roster.rows, strict=True)
     }
-    return Members(roster.header, rows)
+    return Roster(roster.header, rows)

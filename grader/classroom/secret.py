@@ -43,13 +43,13 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
     return Secret(secrets.token_hex(SIZE).encode(), hidden=True, new=path)
 
 
-def seal(secret: bytes, *, student: str, content: bytes) -> str:
+def seal_file(secret: bytes, *, student: str, content: bytes) -> str:
     """A text that only the holder of the secret can find for this student's file."""
     message = student.casefold().encode() + b"\0" + hashlib.sha256(content).digest()
     return hmac.digest(secret, b"seal\0" + message, hashlib.sha256).hex()
 
 
-def identity_seal(secret: bytes, *, student: str, name: str) -> str:
+def seal_identity(secret: bytes, *, student: str, name: str) -> str:
     """A text that only the class itself can find for whom it issued a package to.
 
     Args:
@@ -57,4 +57,4 @@ def identity_seal(secret: bytes, *, student: str, name: str) -> str:
         student: to whom.
         name: of the class.
     """
-    return seal(secret, student=student, content=b"identity\0" + name.encode())
+    return seal_file(secret, student=student, content=b"identity\0" + name.encode())

@@ -6,7 +6,7 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-from grader.classroom.grading import Graded
+from grader.classroom.grading import GradedStudent
 from grader.classroom.submissions import Submission
 from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
@@ -36,7 +36,7 @@ def digest_job(
     return found.hexdigest()
 
 
-class Store:
+class ResultStore:
     """A class's results in a folder.
 
     Args:
@@ -61,16 +61,16 @@ class Store:
                 advice="Name another folder with -o.",
             ) from None
 
-    def get(self, student: str, expected: str) -> Graded | None:
+    def get(self, student: str, expected: str) -> GradedStudent | None:
         """A student's results, if they are there whole and nothing they depend on has changed."""
         try:
             kept = json.loads(self._path(student).read_text(encoding="utf-8"))
-            found = Graded(kept["student"], kept["digest"], tuple(kept["records"]))
+            found = GradedStudent(kept["student"], kept["digest"], tuple(kept["records"]))
         except (OSError, ValueError, KeyError, TypeError):
             return None
         return found if (found.student, found.digest) == (student, expected) else None
 
-    def put(self, graded: Graded) -> None:
+    def put(self, graded: GradedStudent) -> None:
         """Keep a student's results.
 
         Raises:

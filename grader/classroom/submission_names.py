@@ -91,8 +91,8 @@ class Identities:
             self._canvas_ids[cells.get(CANVAS_ID, "")] = student
             if cells.get(GITHUB):
                 self._github[cells[GITHUB].casefold()] = student
-            for name in _names(student, cells):
-                for form in spellings(name):
+            for name in _list_names(student, cells):
+                for form in list_spellings(name):
                     self._aliases.setdefault(form, set()).add(student)
         self._canvas_ids.pop("", None)
 
@@ -105,7 +105,9 @@ class Identities:
         known = exact or self._canvas_ids.get(name.canvas_id)
         if known is not None:
             return known
-        meant = set().union(*(self._aliases.get(one, set()) for one in spellings(name.student)))
+        meant = set().union(
+            *(self._aliases.get(one, set()) for one in list_spellings(name.student))
+        )
         if not meant and not name.file:
             plain = name.student.casefold()
             meant = {who for login, who in self._github.items() if plain.endswith(f"-{login}")}
@@ -114,7 +116,7 @@ class Identities:
     def propose(self, name: SubmissionName) -> tuple[str, ...]:
         """Students on the roster whose names are like this one, the likeliest first."""
         likeness: dict[str, float] = {}
-        asked = spellings(name.student)
+        asked = list_spellings(name.student)
         for form, students in self._aliases.items():
             ratios = [difflib.SequenceMatcher(None, form, own).ratio() for own in asked]
             for student in students:
@@ -123,7 +125,7 @@ class Identities:
         return tuple(one for one in likely if likeness[one] >= ALIKE)[:MOST_LIKELY]
 
 
-def _names(student: str, cells: Mapping[str, str]) -> Iterator[str]:
+def _list_names(student: str, cells: Mapping[str, str]) -> Iterator[str]:
     """What one student may be called, from their row."""
     yield student
     yield from (cells[column] for column in NAMES if cells.get(column))
@@ -133,7 +135,7 @@ def _names(student: str, cells: Mapping[str, str]) -> Iterator[str]:
         yield f"{first} {last}"
 
 
-def spellings(name: str) -> frozenset[str]:
+def list_spellings(name: str) -> frozenset[str]:
     """A name's letters and digits, its words in every rotation, with accents and without.
 
     ``Doe, Zoë`` and ``Zoë Doe`` share ``zoëdoe``; Canvas's file name is ``doezo`` or ``doezoe``.

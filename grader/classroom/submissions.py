@@ -110,13 +110,14 @@ def find_submissions(
             advice="Name the folder that holds a folder or zip file for each student.",
         )
     found: dict[str, list[_Part]] = {}
-    for part in _parts(folder):
+    for part in _list_parts(folder):
         known = roster.find(part.name) if roster else None
         key = (known or part.name.canvas_id or part.name.student).casefold()
         twins = found.setdefault(key, [])
         if twins and not (part.name.file and twins[0].name.file):
             raise BadRequest(
-                f"{_shown(twins[0].path.name)} and {_shown(part.path.name)} are one student's",
+                f"{_format_name(twins[0].path.name)} and {_format_name(part.path.name)} "
+                "are one student's",
                 where=str(folder),
                 advice="Keep one of the two, or put all of that student's into one folder.",
             )
@@ -131,17 +132,17 @@ def find_submissions(
     return tuple(sorted(each, key=lambda one: one.student.casefold()))
 
 
-def stray_files(folder: Path) -> tuple[str, ...]:
+def find_stray_files(folder: Path) -> tuple[str, ...]:
     """Names of files in a class's folder that no student can be told from."""
-    taken = {part.path for part in _parts(folder)}
+    taken = {part.path for part in _list_parts(folder)}
     return tuple(
-        _shown(path.name)
+        _format_name(path.name)
         for path in sorted(folder.iterdir())
         if path not in taken and not path.name.startswith((".", "__"))
     )
 
 
-def _parts(folder: Path) -> Iterator[_Part]:
+def _list_parts(folder: Path) -> Iterator[_Part]:
     for path in sorted(folder.iterdir(), key=lambda one: os.fsencode(one.name)):
         if path.name.startswith((".", "__")) or path.is_symlink():
             continue
@@ -166,10 +167,10 @@ def _identify(
     likely = roster.propose(first.name)
     perhaps = f"; perhaps {' or '.join(likely)}" if likely else ""
     problem = (
-        f"{_shown(first.path.name)} belongs to nobody on the roster{perhaps}. "
+        f"{_format_name(first.path.name)} belongs to nobody on the roster{perhaps}. "
         "Rename it as the student, or add the student to the roster."
     )
-    return Submission(_legible(first.name.student), first.path, problem=problem)
+    return Submission(_make_legible(first.name.student), first.path, problem=problem)
 
 
 def read_submission(
@@ -202,38 +203,38 @@ def _read(
     try:
         student = check_student_name(student)
     except Refusal as refusal:
-        return Submission(_legible(student), place, problem=str(refusal))
+        return Submission(_make_legible(student), place, problem=str(refusal))
     at = ""
     try:
-        sorted_ = _Sorted(exercises, asked or exercises)
+        sorted_ = _SortedFiles(exercises, asked or exercises)
         for part in parts:
-            at = _shown(part.path.name)
-            for one in _files_of(part):
+            at = _format_name(part.path.name)
+            for one in _list_files(part):
                 sorted_.add(one)
     except UNREADABLE as error:
         reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
         return Submission(
-            student, place, problem=f"{at} cannot be read: {_shown(reason, most=200)}"
+            student, place, problem=f"{at} cannot be read: {_format_name(reason, most=200)}"
         )
     return replace(sorted_.result(), student=student, place=place)
 
 
-def _legible(name: str) -> str:
+def _make_legible(name: str) -> str:
     """A name to be shown for one that is none: what can be seen of it, and not too long."""
     try:
         return check_student_name(name)
     except Refusal:
         mark = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:8]
-        return f"{_shown(name, most=SHOWN)}… ({mark})"
+        return f"{_format_name(name, most=SHOWN)}… ({mark})"
 
 
-def _shown(name: str, *, most: int = SHOWN * 2) -> str:
+def _format_name(name: str, *, most: int = SHOWN * 2) -> str:
     """A file's name as it can be printed."""
     return "".join(sign if sign.isprintable() else "?" for sign in name)[:most]
 
 
 @dataclass(frozen=True)
-class _Found:
+class _FoundFile:
     """A file that may be an answer: where it stood, and how to get at it."""
 
     path: PurePosixPath
@@ -246,43 +247,47 @@ class _Found:
                 return stream.read(most + 1)
         archive, info = self.read
         if info.file_size > max(MOST_PACKED * info.compress_size, most // MOST_PACKED):
-            raise ValueError(f"{_shown(info.filename)} unpacks to {info.file_size / 1e6:.1f} MB")
+            raise ValueError(
+                f"{_format_name(info.filename)} unpacks to {info.file_size / 1e6:.1f} MB"
+            )
         with archive.open(info) as stream:
             return stream.read(most + 1)
 
 
-def _files_of(part: _Part) -> Iterator[_Found]:
+def _list_files(part: _Part) -> Iterator[_FoundFile]:
     """All files of one thing that was handed in."""
     if part.path.is_dir():
-        for one in _of_folder(part.path):
-            yield from _of_inner_zip(one) if _is_zip(one.path) else (one,)
+        for one in _read_folder(part.path):
+            yield from _read_inner_zip(one) if _is_zip(one.path) else (one,)
         return
     name = part.name.file or part.path.name
     if not _is_zip(PurePosixPath(name)):
-        yield _Found(PurePosixPath(name), part.path)
+        yield _FoundFile(PurePosixPath(name), part.path)
         return
     top = PurePosixPath(PurePosixPath(name).stem)  # exercise4.zip may hold answers.toml alone
     with zipfile.ZipFile(part.path) as archive:
-        for one in _of_zip(archive, top):
-            yield from _of_inner_zip(one) if _is_zip(one.path) else (one,)
+        for one in _read_zip(archive, top):
+            yield from _read_inner_zip(one) if _is_zip(one.path) else (one,)
 
 
 def _is_zip(path: PurePosixPath) -> bool:
     return path.suffix.lower() == ".zip"
 
 
-def _of_inner_zip(found: _Found) -> Iterator[_Found]:
+def _read_inner_zip(found: _FoundFile) -> Iterator[_FoundFile]:
     """Files of a zip file inside what was handed in; zip files in that are nobody's answer."""
     content = found.content(LARGEST_WHOLE)
     if len(content) > LARGEST_WHOLE:
-        raise ValueError(f"{_shown(found.path.name)} is larger than {LARGEST_WHOLE / 1e6:g} MB")
+        raise ValueError(
+            f"{_format_name(found.path.name)} is larger than {LARGEST_WHOLE / 1e6:g} MB"
+        )
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        for one in _of_zip(archive, found.path.with_suffix("")):
+        for one in _read_zip(archive, found.path.with_suffix("")):
             if not _is_zip(one.path):
                 yield one
 
 
-def _of_folder(place: Path) -> Iterator[_Found]:
+def _read_folder(place: Path) -> Iterator[_FoundFile]:
     """Files of a folder; a link is nobody's answer: it may lead anywhere."""
     seen = 0
     for top, folders, names in os.walk(place, followlinks=False):
@@ -293,21 +298,21 @@ def _of_folder(place: Path) -> Iterator[_Found]:
                 raise ValueError(f"more than {MOST_SEEN} files")
             path = Path(top) / name
             if path.is_file() and not path.is_symlink():
-                yield _Found(PurePosixPath(path.relative_to(place).as_posix()), path)
+                yield _FoundFile(PurePosixPath(path.relative_to(place).as_posix()), path)
 
 
-def _of_zip(archive: zipfile.ZipFile, top: PurePosixPath) -> Iterator[_Found]:
+def _read_zip(archive: zipfile.ZipFile, top: PurePosixPath) -> Iterator[_FoundFile]:
     if len(archive.infolist()) > MOST_SEEN:
         raise ValueError(f"more than {MOST_SEEN} files")
     for info in sorted(archive.infolist(), key=lambda one: one.filename):
         path = top / info.filename.replace("\\", "/").lstrip("/")
         link = stat.S_ISLNK(info.external_attr >> 16)
         if not (info.is_dir() or link or {*path.parts} & NOT_THEIRS):
-            yield _Found(path, (archive, info))
+            yield _FoundFile(path, (archive, info))
 
 
 @dataclass(frozen=True)
-class _Taken:
+class _TakenFile:
     """A file of an answer: how deep it lay, its content, and why it cannot be graded."""
 
     depth: int
@@ -315,7 +320,7 @@ class _Taken:
     problem: str = ""
 
 
-class _Sorted:
+class _SortedFiles:
     """Files sorted into exercises as they come.
 
     Args:
@@ -325,18 +330,18 @@ class _Sorted:
 
     def __init__(self, exercises: Sequence[Exercise], asked: Sequence[Exercise]) -> None:
         self._by_folder = {one.name.casefold(): one for one in exercises}
-        self._by_file = _only_holders(exercises)
+        self._by_file = _find_only_holders(exercises)
         self._asked = {one.name for one in asked}
         self._only = asked[0] if len(asked) == 1 else None
-        self._kinds = {one.name: _endings(one) for one in asked}
-        self._files: dict[str, dict[str, _Taken]] = {}  # exercise -> name -> file
-        self._outside: dict[str, dict[str, _Taken]] = {}  # the same, in no exercise's folder
+        self._kinds = {one.name: _list_endings(one) for one in asked}
+        self._files: dict[str, dict[str, _TakenFile]] = {}  # exercise -> name -> file
+        self._outside: dict[str, dict[str, _TakenFile]] = {}  # the same, in no exercise's folder
         self._has_folders = False
         self._identities: dict[str, bytes] = {}
         self._data: set[str] = set()
         self._left = LARGEST_WHOLE
 
-    def add(self, found: _Found) -> None:
+    def add(self, found: _FoundFile) -> None:
         """Take a file, if it is an answer or says whose numbers these are."""
         path = found.path
         inside = path.parts[:-1]
@@ -350,7 +355,7 @@ class _Sorted:
         elif path.name not in OURS and not any(one.startswith(".") for one in path.parts):
             self._add_answer(found)
 
-    def _add_answer(self, found: _Found) -> None:
+    def _add_answer(self, found: _FoundFile) -> None:
         exercise = self._of_folder(found.path)
         self._has_folders = self._has_folders or exercise is not None
         outside = exercise is None
@@ -366,24 +371,24 @@ class _Sorted:
         if name in mine and mine[name].depth < depth:
             return
         if name not in mine and len(mine) >= MOST_FILES:
-            name, file = "", _Taken(0, b"", f"more than {MOST_FILES} files may belong to it")
+            name, file = "", _TakenFile(0, b"", f"more than {MOST_FILES} files may belong to it")
         else:
             file = self._taken(found, exercise, depth)
         if name in mine and mine[name].depth == depth and mine[name].content != file.content:
-            said = f"there are two different files {_shown(name)}; keep the one that counts"
+            said = f"there are two different files {_format_name(name)}; keep the one that counts"
             file = replace(file, problem=said)
         mine[name] = file
 
-    def _taken(self, found: _Found, exercise: Exercise, depth: int) -> "_Taken":
-        log = found.path.suffix.lower() in exercise.logs
+    def _taken(self, found: _FoundFile, exercise: Exercise, depth: int) -> "_TakenFile":
+        log = found.path.suffix.lower() in exercise.log_endings
         most = LARGEST_LOG if log else LARGEST
         content = self._content(found, most)
         if log and len(content) > most:
-            said = f"{_shown(found.path.name)} is larger than {most / 1e6:g} MB"
-            return _Taken(depth, b"", said)
-        return _Taken(depth, content)
+            said = f"{_format_name(found.path.name)} is larger than {most / 1e6:g} MB"
+            return _TakenFile(depth, b"", said)
+        return _TakenFile(depth, content)
 
-    def _content(self, found: _Found, most: int) -> bytes:
+    def _content(self, found: _FoundFile, most: int) -> bytes:
         content = found.content(min(most, self._left))
         self._left -= len(content)
         if self._left < 0:
@@ -417,16 +422,16 @@ class _Sorted:
         )
 
 
-def _endings(exercise: Exercise) -> set[str]:
+def _list_endings(exercise: Exercise) -> set[str]:
     """What the names of an exercise's files end in."""
-    named = {Path(file).suffix for file in (*exercise.files, *exercise.beside)}
-    return {*named, *exercise.logs}
+    named = {Path(file).suffix for file in (*exercise.files, *exercise.companion_files)}
+    return {*named, *exercise.log_endings}
 
 
-def _only_holders(exercises: Sequence[Exercise]) -> dict[str, Exercise]:
+def _find_only_holders(exercises: Sequence[Exercise]) -> dict[str, Exercise]:
     """File name -> the only exercise that has a file of this name."""
     holders: dict[str, list[Exercise]] = {}
     for one in exercises:
-        for name in (*one.files, *one.beside):
+        for name in (*one.files, *one.companion_files):
             holders.setdefault(name, []).append(one)
     return {name: held[0] for name, held in holders.items() if len(held) == 1}

@@ -14,7 +14,13 @@ from dataclasses import dataclass, field, replace
 
 from pebble import ProcessExpired, ProcessPool
 
-from grader.classroom.grading import Graded, GradingJob, Record, grade_one, not_graded
+from grader.classroom.grading import (
+    GradedStudent,
+    GradingJob,
+    Record,
+    grade_student,
+    make_ungraded_record,
+)
 from grader.classroom.submissions import Files
 from sim.support.work.interrupt import interrupts_blocked_for_children
 from sim.support.work.process_pool import serve_quietly
@@ -31,18 +37,18 @@ Task = tuple[GradingJob, str]  # a student, and one of their exercises
 
 
 @dataclass
-class _Open:
+class _OpenStudent:
     """A student of whom some exercises are graded."""
 
     job: GradingJob
     records: dict[str, Record] = field(default_factory=dict)
 
-    def graded(self) -> Graded | None:
+    def graded(self) -> GradedStudent | None:
         """Their results, once there are all."""
         if len(self.records) < len(self.job.names):
             return None
         records = tuple(self.records[name] for name in self.job.names)
-        return Graded(self.job.student, self.job.digest, records)
+        return GradedStudent(self.job.student, self.job.digest, records)
 
 
 def grade_in_workers(
@@ -51,7 +57,7 @@ def grade_in_workers(
     processes: int,
     stop_if_asked: Callable[[], None] = lambda: None,
     seconds: float = SECONDS,
-) -> Iterator[Graded]:
+) -> Iterator[GradedStudent]:
     """Grade students on this machine, each as soon as all their exercises are graded.
 
     Args:
@@ -83,16 +89,16 @@ def _grade(
     workers: int,
     stop_if_asked: Callable[[], None],
     seconds: float,
-) -> Iterator[Graded]:
-    students = {job.student: _Open(job) for job, _ in tasks}
-    waiting, running = iter(tasks), dict[Future[Graded], Task]()
+) -> Iterator[GradedStudent]:
+    students = {job.student: _OpenStudent(job) for job, _ in tasks}
+    waiting, running = iter(tasks), dict[Future[GradedStudent], Task]()
 
     def hand_out() -> None:
         with interrupts_blocked_for_children():
             while len(running) < AHEAD * workers and (task := next(waiting, None)):
                 job, name = task
-                part = replace(job, names=(name,), files=_only(job, name))
-                running[pool.schedule(grade_one, args=(part,), timeout=seconds)] = task
+                part = replace(job, names=(name,), files=_select_exercise(job, name))
+                running[pool.schedule(grade_student, args=(part,), timeout=seconds)] = task
 
     hand_out()
     while running:
@@ -101,25 +107,25 @@ def _grade(
         for future in done:
             job, name = running.pop(future)
             one = students[job.student]
-            one.records[name] = _record(future, job, name)
+            one.records[name] = _make_record(future, job, name)
             if (graded := one.graded()) is not None:
                 del students[job.student]
                 yield graded
         hand_out()
 
 
-def _record(future: Future[Graded], job: GradingJob, name: str) -> Record:
+def _make_record(future: Future[GradedStudent], job: GradingJob, name: str) -> Record:
     """The result of one exercise, or why there is none."""
     try:
         (record,) = future.result().records
     except TimedOut:
-        return not_graded(job, name, TOO_LONG)
+        return make_ungraded_record(job, name, TOO_LONG)
     except ProcessExpired:
-        return not_graded(job, name, ENDED)
+        return make_ungraded_record(job, name, ENDED)
     return record
 
 
-def _only(job: GradingJob, name: str) -> Mapping[str, Files]:
+def _select_exercise(job: GradingJob, name: str) -> Mapping[str, Files]:
     """What was handed in for one exercise."""
     return {name: job.files[name]} if name in job.files else {}
 

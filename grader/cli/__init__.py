@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, cast
 
 import click
 
-from grader.terminal import complain, show
+from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
@@ -102,13 +102,13 @@ def exercise(
     plain: bool,
 ) -> int:
     """Grade an exercise, or say how far you are."""
-    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - --help has to start at once
+    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help has to start at once
 
     folder, progress, who = locate_course(student)
     if exercise is not None:
         one = find_exercise(exercise, folder)
         if hint:
-            return _hint(one, folder, progress, who)
+            return _show_hint(one, folder, progress, who)
         return grade_file(
             one, file, folder, progress, who, as_json=as_json, plain=plain, picture=picture
         )
@@ -116,9 +116,9 @@ def exercise(
         option = "json" if as_json else "hint" if hint else f"picture {picture}"
         advice = f"Say which: grade exercise4 --{option}"
         raise BadRequest("no exercise was named", advice=advice)
-    from grader.report import overview  # noqa: PLC0415 - the same
+    from grader.report import format_overview  # noqa: PLC0415 - the same
 
-    show(overview(folder, exercises(folder), progress, student=who, plain=plain))
+    print_lines(format_overview(folder, list_exercises(folder), progress, student=who, plain=plain))
     return 0
 
 
@@ -135,7 +135,7 @@ def start(student: str | None, *, no_lab: bool) -> int:
     of_class = read_class_package(folder)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
-        _tell(update_progress(folder, lambda now: replace(now, student=who)))
+        _print_message(update_progress(folder, lambda now: replace(now, student=who)))
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
@@ -146,12 +146,12 @@ def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
         BadRequest: there is no course here, or the name is none.
     """
     from grader.class_package import find_learner  # noqa: PLC0415 - the same
-    from grader.course import find_course, load_progress, other_code  # noqa: PLC0415 - --help must not wait
+    from grader.course import describe_other_code, find_course, load_progress  # noqa: PLC0415 - --help must not wait
 
     folder = find_course(Path.cwd())
-    _tell(other_code(folder))
+    _print_message(describe_other_code(folder))
     progress, said = load_progress(folder)
-    _tell(said)
+    _print_message(said)
     return folder, progress, find_learner(folder, known=progress.student, student=student)
 
 
@@ -169,67 +169,69 @@ def grade_file(
     """Grade an answer, note the score, and show the result; the exit code."""
     from grader.class_package import explain_no_grading, read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.draw_cache import draw_cache_enabled  # noqa: PLC0415 - the same
-    from grader.report import to_json, to_lines, to_receipt  # noqa: PLC0415 - the same
+    from grader.draw_cache import enable_draw_cache  # noqa: PLC0415 - the same
+    from grader.report import format_grade, format_receipt, grade_to_json  # noqa: PLC0415 - the same
 
     of_class = read_class_package(folder)
-    if of_class and one.personal and of_class.is_for(who):
-        show(to_receipt(one, file))
+    if of_class and one.is_personal and of_class.is_for(who):
+        print_lines(format_receipt(one, file))
         raise explain_no_grading(one.name, of_class)
-    with draw_cache_enabled():
-        one.prepare(who, say=complain)
+    with enable_draw_cache():
+        one.prepare(who, say=print_error)
         result = one.grade(file, student=who)
     gradable = result.status != "ungradable"
     if gradable:  # kept before anything is shown: a reader may stop reading
         points = {"score": result.score, "max_score": result.max_score}
-        _tell(update_progress(folder, lambda now: now.with_score(who, one.name, **points)))
-    then = None if as_json and picture is None else one.consequence(result)
+        _print_message(update_progress(folder, lambda now: now.add_score(who, one.name, **points)))
+    then = None if as_json and picture is None else one.find_consequence(result)
     if as_json:
-        click.echo(to_json(result))
-    elif result.reached:
-        shown, words = progress.of(who, one.name).hints, then.words if then else ""
-        show(to_lines(result, hints_shown=shown, solution=one.solution, plain=plain, then=words))
-    _tell(result.reason)
+        click.echo(grade_to_json(result))
+    elif result.is_readable:
+        shown, words = progress.find_standing(who, one.name).hints, then.words if then else ""
+        print_lines(
+            format_grade(result, hints_shown=shown, solution=one.solution, plain=plain, then=words)
+        )
+    _print_message(result.reason)
     if picture is not None:
-        _draw(then, picture)
+        _draw_consequence(then, picture)
     return (DONE if result.status == "passed" else NOT_RIGHT) if gradable else COULD_NOT
 
 
-def _draw(then: "Consequence | None", picture: Path) -> None:
+def _draw_consequence(then: "Consequence | None", picture: Path) -> None:
     """Write what the answer would do as a picture, and say what became of it.
 
     Raises:
         BadRequest: the name ends in no kind of picture, or the file cannot be written.
     """
     if then is None:
-        _tell(f"{picture} was not written: this answer leaves nothing to see on a robot")
+        _print_message(f"{picture} was not written: this answer leaves nothing to see on a robot")
         return
     then.draw().save(picture)
-    _tell(f"what your answer would do: {picture}")
+    _print_message(f"what your answer would do: {picture}")
 
 
-def _hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
+def _show_hint(one: "Exercise", folder: Path, progress: "Progress", who: str) -> int:
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
-    from grader.report import hint_lines  # noqa: PLC0415 - the same
+    from grader.report import format_hints  # noqa: PLC0415 - the same
 
-    standing = progress.of(who, one.name)
-    show(hint_lines(one, shown=standing.hints))
+    standing = progress.find_standing(who, one.name)
+    print_lines(format_hints(one, shown=standing.hints))
     if standing.hints < len(one.hints):
         shown = standing.hints + 1
-        _tell(update_progress(folder, lambda now: now.with_hints(who, one.name, shown)))
+        _print_message(update_progress(folder, lambda now: now.add_hints(who, one.name, shown)))
     return 0
 
 
-def _tell(said: str) -> None:
+def _print_message(said: str) -> None:
     if said:
-        complain(said)
+        print_error(said)
 
 
-def run(arguments: list[str] | None = None) -> int:
+def run_command(arguments: list[str] | None = None) -> int:
     """Run the command and return its exit code; nothing gets out as a traceback."""
     return command_line.run_command(grade, name="grade", arguments=arguments)
 
 
 def main() -> None:
     """Start as a command."""
-    sys.exit(run())
+    sys.exit(run_command())

@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.terminal import complain, line, show, wrapped
+from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from grader.classroom.exports import Export
-    from grader.classroom.grading import Graded
-    from grader.classroom.results import Results
-    from grader.classroom.roster import Members
-    from grader.classroom.run import GradedClass
+    from grader.classroom.class_grading import GradedClass
+    from grader.classroom.exports import ExportFormat
+    from grader.classroom.grading import GradedStudent
+    from grader.classroom.results import ClassResults
+    from grader.classroom.roster import Roster
     from grader.classroom.submissions import Submission
     from grader.exercise import Exercise
 
@@ -71,73 +71,73 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
     """
+    from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
-    from grader.classroom.results import Results  # noqa: PLC0415 - the same
-    from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
-    from grader.classroom.run import GradedClass  # noqa: PLC0415 - the same
+    from grader.classroom.results import ClassResults  # noqa: PLC0415 - the same
+    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
-    from grader.course import find_course, other_code  # noqa: PLC0415 - the same
+    from grader.course import describe_other_code, find_course  # noqa: PLC0415 - the same
 
-    known = read_members(roster) if roster else None
+    known = read_class_roster(roster) if roster else None
     formats = choose_exports(wanted, roster=known)
     course = find_course(Path.cwd())
-    if said := other_code(course):
-        complain(said)
+    if said := describe_other_code(course):
+        print_error(said)
     out = output or folder.with_name(f"{folder.resolve().name.removesuffix('.zip')}-graded")
     if engine:
         from grader.classroom.container import grade_in_container  # noqa: PLC0415 - the same
 
         return grade_in_container(click.get_current_context(), course=course, output=out)
-    asked = _asked(only, course)
+    asked = _find_asked_exercises(only, course)
     kept = find_secret(secret, make=False)
     value = kept.value if kept else None
-    there = _found(folder, course, asked, known, student=student)
+    there = _find_submissions(folder, course, asked, known, student=student)
     there = check_identities(there, secret=value)
     _tell_problems(there)
-    run = _shut_in(asked, run=run, cluster=cluster)
+    run = _decide_running(asked, run=run, cluster=cluster)
     work = GradedClass(there, asked, course, value, run)
     graded = _run(work, out, processes=processes, cluster=cluster, again=again)
     if graded is None:
         return INTERRUPTED
     title = name or folder.resolve().stem
-    everybody = _with_absent(graded, known, asked)
+    everybody = _add_absent(graded, known, asked)
     rows, header = (known.rows, known.header) if known else ({}, ())
-    results = Results(title, everybody, tuple(one.name for one in asked), rows, header)
-    return _written(results, out, formats)
+    results = ClassResults(title, everybody, tuple(one.name for one in asked), rows, header)
+    return _write_results(results, out, formats)
 
 
 COMMAND = class_
 
 
-def _asked(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
-    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - --help must not wait for it
+def _find_asked_exercises(only: tuple[str, ...], course: Path) -> "tuple[Exercise, ...]":
+    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help must not wait for it
 
     if not only:
-        return exercises(course)
+        return list_exercises(course)
     names = {find_exercise(one, course).name for one in only}
-    return tuple(one for one in exercises(course) if one.name in names)
+    return tuple(one for one in list_exercises(course) if one.name in names)
 
 
-def _found(
+def _find_submissions(
     folder: Path,
     course: Path,
     asked: "Sequence[Exercise]",
-    known: "Members | None",
+    known: "Roster | None",
     *,
     student: str | None,
 ) -> "tuple[Submission, ...]":
     """What was handed in: by one student, or by everybody in the folder."""
-    from grader.classroom.submissions import find_submissions, read_submission, stray_files  # noqa: PLC0415 - --help
-    from grader.exercise import exercises  # noqa: PLC0415 - must not wait for any of these
+    from grader.classroom.submissions import find_stray_files, find_submissions, read_submission  # noqa: PLC0415 - --help
+    from grader.exercise import list_exercises  # noqa: PLC0415 - must not wait for any of these
 
-    everything = exercises(course)
+    everything = list_exercises(course)
     if student:
         return (read_submission(folder, everything, asked=asked, student=student),)
     roster = known.identities if known else None
     there = find_submissions(folder, everything, asked=asked, roster=roster)
-    if stray := stray_files(folder):
-        complain(f"left out, for their names are no student's: {', '.join(stray)}")
+    if stray := find_stray_files(folder):
+        print_error(f"left out, for their names are no student's: {', '.join(stray)}")
     return there
 
 
@@ -145,41 +145,44 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
     """Say before the grading who is graded otherwise than their folder's name says."""
     for one in there:
         if one.problem:
-            complain(f"{one.student}: {one.problem}")
+            print_error(f"{one.student}: {one.problem}")
     nameless = [one.student for one in there if one.worked_as]
     if nameless:
-        complain(f"worked without a name, and are graded on those numbers: {_some(nameless)}")
+        print_error(
+            "worked without a name, and are graded on those numbers: "
+            f"{_format_first_names(nameless)}"
+        )
     matched = [
         f"{one.place.name} as {one.student}"
         for one in there
         if not one.problem and one.student.casefold() not in one.place.name.casefold()
     ]
     if matched:
-        complain(f"found on the roster: {_some(matched)}")
+        print_error(f"found on the roster: {_format_first_names(matched)}")
 
 
-def _some(names: "Sequence[str]") -> str:
+def _format_first_names(names: "Sequence[str]") -> str:
     """The first few of many, and how many more there are."""
     more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
     return "; ".join(names[:SHOWN]) + more
 
 
-def _shut_in(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
+def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
     """Whether students' code is run: as told, else where it does no harm; says what that means."""
-    from grader.isolation import isolation_level  # noqa: PLC0415 - --help must not wait for it
+    from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
 
-    if run is False or not any(one.runs for one in asked):
+    if run is False or not any(one.runs_code for one in asked):
         return False
-    found = "one of a cluster, and nobody knows of all" if cluster else isolation_level()
+    found = "one of a cluster, and nobody knows of all" if cluster else find_isolation_level()
     if found.startswith("isolated"):
         return True
     if run:
-        complain(
+        print_error(
             f"students' code is run although this machine is {found}. It can read what you can "
             "read: the class's secret, other students' answers. Safer: grade class --in docker."
         )
         return True
-    complain(
+    print_error(
         f"students' code is not run: this machine is {found}. Robot code is only read, and a "
         "fit.py waits for you as ungradable. --in docker runs both in a container; --run runs "
         "them here all the same."
@@ -189,17 +192,17 @@ def _shut_in(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | No
 
 def _run(
     work: "GradedClass", out: Path, *, processes: int | None, cluster: str | None, again: bool
-) -> "tuple[Graded, ...] | None":
+) -> "tuple[GradedStudent, ...] | None":
     """Grade what is left; None where it was stopped."""
-    from grader.classroom.run import grade_all, plan_grading  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.store import Store  # noqa: PLC0415 - the same
+    from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
     from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
-    store = Store(out)
+    store = ResultStore(out)
     left = plan_grading(work, store, travel=cluster is not None, again=again)
-    total = len(left.kept) + len(left.todo)
+    total = len(left.kept) + len(left.jobs)
     with (
         progress_bar("students", total, done=len(left.kept)) as (step, done),
         deferred_interrupt() as stop_if_noted,
@@ -210,41 +213,44 @@ def _run(
             stop_if_noted()
 
         try:  # one more than there are cores, for while one waits for a learner's code
-            return grade_all(
+            return grade_class(
                 work, left, store, processes=processes or available_cores() + 1, cluster=cluster,
                 say=say, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:
             count = done()
-    complain(f"stopped with {count} of {total} students graded. The same command goes on.")
+    print_error(f"stopped with {count} of {total} students graded. The same command goes on.")
     return None
 
 
-def _with_absent(
-    graded: "tuple[Graded, ...]", known: "Members | None", asked: "Sequence[Exercise]"
-) -> "tuple[Graded, ...]":
+def _add_absent(
+    graded: "tuple[GradedStudent, ...]", known: "Roster | None", asked: "Sequence[Exercise]"
+) -> "tuple[GradedStudent, ...]":
     """Everybody, and whoever is on the roster and handed nothing in."""
-    from grader.classroom.grading import ungraded_student  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.grading import make_ungraded_student  # noqa: PLC0415 - --help must not wait for it
     from grader.variant import normalize_name  # noqa: PLC0415 - the same
 
     present = {normalize_name(one.student) for one in graded}
     absent = [name for name in (known.rows if known else ()) if normalize_name(name) not in present]
-    found = [*graded, *(ungraded_student(name, asked, handed_in=(), reason="") for name in absent)]
+    found = [
+        *graded,
+        *(make_ungraded_student(name, asked, handed_in=(), reason="") for name in absent),
+    ]
     return tuple(sorted(found, key=lambda one: one.student.casefold()))
 
 
-def _written(results: "Results", out: Path, formats: "Sequence[Export]") -> int:
-    from grader.classroom.page import class_summary, write_pages  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.results import status_of  # noqa: PLC0415 - the same
+def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
+    from grader.classroom.result_pages import summarize_class, write_pages  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.results import find_status  # noqa: PLC0415 - the same
 
     page = write_pages(results, out)
     files = [path for one in formats for path in one.write(results, out)]
-    unread = [one.student for one in results.students if "ungradable" in status_of(one).values()]
-    show(wrapped(class_summary(results), lead=""))
-    show([line(f"Overview: {page}")])
+    unread = [one.student for one in results.students if "ungradable" in find_status(one).values()]
+    print_lines(wrap_text(summarize_class(results), lead=""))
+    print_lines([style_line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
-    show([line(f"Beside it: {', '.join([*tops, 'students', 'results'])}")])
+    print_lines([style_line(f"Beside it: {', '.join([*tops, 'students', 'results'])}")])
     if unread:
         count = f"{len(unread)} student{'s' if len(unread) > 1 else ''}"
-        complain(f"something of {count} could not be graded; the overview begins with it")
+        print_error(f"something of {count} could not be graded; the overview begins with it")
     return NOT_RIGHT if unread else DONE

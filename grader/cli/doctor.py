@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from grader.terminal import StyledText, show, wrapped
+from grader.terminal import StyledText, print_lines, wrap_text
 from sim.support.command_line import DONE, NOT_RIGHT
 
 
@@ -15,16 +15,16 @@ def doctor() -> int:
     Exit codes: 0 everything needed is there, 1 something needed is missing.
     """
     from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
-    from grader.doctor import examine  # noqa: PLC0415 - the same
+    from grader.doctor import examine_machine  # noqa: PLC0415 - the same
 
     bad = False
-    for one in examine(find_course(Path.cwd())):
+    for one in examine_machine(find_course(Path.cwd())):
         mark, style = ("✓", "green") if one.right else ("✗", "red") if one.needed else ("–", "dim")
-        rows = wrapped(one.found, lead=f"  {one.what:<16}")
+        rows = wrap_text(one.found, lead=f"  {one.what:<16}")
         rows[0] = (StyledText(f"{mark} ", style), StyledText(f"{one.what:<16}"), *rows[0][1:])
-        show(rows)
+        print_lines(rows)
         if not one.right:
-            show(wrapped(one.advice, lead="    ", style="cyan"))
+            print_lines(wrap_text(one.advice, lead="    ", style="cyan"))
         bad = bad or (one.needed and not one.right)
     return NOT_RIGHT if bad else DONE
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from grader.terminal import complain, line, show
+from grader.terminal import print_error, print_lines, style_line
 from sim.support.command_line import DONE
 
 
@@ -14,13 +14,15 @@ from sim.support.command_line import DONE
 def edition(output: Path, only: tuple[str, ...]) -> int:
     """Run all lessons and write them as pages: to read without installing, as slides, to print."""
     from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
-    from grader.edition import build  # noqa: PLC0415 - the same
+    from grader.edition import build_pages  # noqa: PLC0415 - the same
 
     notebooks = sorted((find_course(Path.cwd()) / "lessons").glob("*.ipynb"))
     asked = tuple(one.zfill(2) for one in only)
     chosen = [path for path in notebooks if not asked or path.name.startswith(asked)]
-    index = build(chosen, output, say=lambda name: complain(f"running {name}"))
-    show([line(f"{index}: {len(chosen)} lessons, their slides, and handout.html to print")])
+    index = build_pages(chosen, output, say=lambda name: print_error(f"running {name}"))
+    print_lines(
+        [style_line(f"{index}: {len(chosen)} lessons, their slides, and handout.html to print")]
+    )
     return DONE
 
 

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.cli.release import PATH, put, refuse_secret_inside, tell_left_out
-from grader.terminal import complain, line, show
+from grader.cli.release import PATH, refuse_secret_inside, report_left_out, write_file
+from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.command_line import DONE
 
@@ -47,24 +47,27 @@ def gradescope(
     It holds the course without solutions. Make one for each assignment: Gradescope puts uploaded
     files beside one another, and an answers.toml can only belong to one exercise.
     """
-    from grader.autograder import Gradescope, pack_gradescope  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
+    from grader.autograder import AutograderContents, pack_gradescope  # noqa: PLC0415 - --help must not wait
+    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
 
-    course, asked = _asked(only)
+    course, asked = _find_asked_exercises(only)
     if secret is not None:
         refuse_secret_inside(secret, {"course folder": course})
     kept = find_secret(secret, make=False) if secret else None
     if roster is not None:
-        read_members(roster)  # what is wrong with it is said here, and not on Gradescope
+        read_class_roster(roster)  # what is wrong with it is said here, and not on Gradescope
     chosen = select_package_files(course)
     chosen.refuse_secret(kept.value if kept else b"")
-    tell_left_out(chosen.left_out)
+    report_left_out(chosen.left_out)
     value = kept.value if kept else None
     listed = roster.read_bytes() if roster else None
     names = tuple(one.name for one in asked)
-    put(output, pack_gradescope(Gradescope(chosen.files, names, student_from, listed, value)))
+    write_file(
+        output,
+        pack_gradescope(AutograderContents(chosen.files, names, student_from, listed, value)),
+    )
     if value is not None or listed is not None:
         output.chmod(OWNER_ONLY)
     _tell_gradescope(asked, output, with_secret=value is not None)
@@ -73,22 +76,22 @@ def gradescope(
 
 def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret: bool) -> None:
     if with_secret:
-        complain(
+        print_error(
             f"{output} holds your class's secret. Code of students runs in Gradescope's container; "
             "where that cannot be shut in (the autograder's output says so), it can read the "
             "secret, and then anybody's numbers. Upload it nowhere else"
         )
-    elif any(one.personal for one in asked):
-        complain(
+    elif any(one.is_personal for one in asked):
+        print_error(
             "without --secret, numbers depend on the student's name alone; if you released with a "
             "roster, students have others, and right answers would be marked wrong"
         )
     if len(asked) > 1:
-        complain(
+        print_error(
             f"{len(asked)} exercises in one autograder: students have to hand in a zip file with "
             "a folder for each. For single files, make one for each exercise: --exercise 9"
         )
-    show([line(f"{output}: upload it to Gradescope, under Configure Autograder")])
+    print_lines([style_line(f"{output}: upload it to Gradescope, under Configure Autograder")])
 
 
 @export.command()
@@ -102,26 +105,26 @@ def github(output: Path, only: tuple[str, ...]) -> int:
     """
     from grader.autograder import make_workflow  # noqa: PLC0415 - --help must not wait for it
 
-    _, asked = _asked(only)
-    put(output, make_workflow([one.name for one in asked]).encode())
-    show([line(f"{output}: for the repository that students start from")])
+    _, asked = _find_asked_exercises(only)
+    write_file(output, make_workflow([one.name for one in asked]).encode())
+    print_lines([style_line(f"{output}: for the repository that students start from")])
     return DONE
 
 
-def _asked(only: tuple[str, ...]) -> "tuple[Path, tuple[Exercise, ...]]":
+def _find_asked_exercises(only: tuple[str, ...]) -> "tuple[Path, tuple[Exercise, ...]]":
     """The course folder, and the exercises asked for.
 
     Raises:
         BadRequest: there is no such exercise, or none at all.
     """
-    from grader.course import find_course, other_code  # noqa: PLC0415 - --help must not wait for it
-    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - the same
+    from grader.course import describe_other_code, find_course  # noqa: PLC0415 - --help must not wait for it
+    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - the same
 
     course = find_course(Path.cwd())
-    if said := other_code(course):
-        complain(said)
+    if said := describe_other_code(course):
+        print_error(said)
     names = {find_exercise(one, course).name for one in only}
-    asked = tuple(one for one in exercises(course) if not only or one.name in names)
+    asked = tuple(one for one in list_exercises(course) if not only or one.name in names)
     if not asked:
         raise BadRequest(
             "there are no exercises here",

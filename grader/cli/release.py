@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from grader.terminal import complain, line, show
+from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -88,11 +88,11 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
             )
 
 
-def tell_left_out(left_out: "Sequence[str]") -> None:
+def report_left_out(left_out: "Sequence[str]") -> None:
     """Say which files of the course folder students do not get."""
     if left_out:
         more = f" and {len(left_out) - NAMED} more" if len(left_out) > NAMED else ""
-        complain(f"left out, as no part of the course: {', '.join(left_out[:NAMED])}{more}")
+        print_error(f"left out, as no part of the course: {', '.join(left_out[:NAMED])}{more}")
 
 
 def _release(
@@ -105,44 +105,52 @@ def _release(
     processes: int | None,
 ) -> int:
     from grader.classroom.bundle import pack_course  # noqa: PLC0415 - --help must not wait for it
-    from grader.classroom.roster import read_members  # noqa: PLC0415 - the same
-    from grader.course import other_code  # noqa: PLC0415 - the same
+    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
+    from grader.course import describe_other_code  # noqa: PLC0415 - the same
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
-    from grader.release import Package, student_package, zip_files  # noqa: PLC0415 - the same
+    from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
     from grader.variant import make_folder_name  # noqa: PLC0415 - the same
     from sim.support.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
-    students = tuple(read_members(roster).rows) if roster else ()
-    said = other_code(course)
+    students = tuple(read_class_roster(roster).rows) if roster else ()
+    said = describe_other_code(course)
     if said:
-        complain(said)
+        print_error(said)
     chosen = select_package_files(course)
     chosen.refuse_secret(secret.value if secret else b"")
-    tell_left_out(chosen.left_out)
+    report_left_out(chosen.left_out)
     everybody = zip_files(chosen.files)
     if secret and secret.new:
         secret.save()
-        complain(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
+        print_error(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
     packed = pack_course(course)
     value = secret.value if secret else b""
-    packages = [Package(student, value, name, packed) for student in students]
-    put(output / "course.zip", everybody)
+    packages = [StudentPackage(student, value, name, packed) for student in students]
+    write_file(output / "course.zip", everybody)
     with progress_bar("students", len(packages)) as (step, _):
         made = run_jobs_locally(
-            student_package, packages, processes=processes or available_cores(), worth=WORTH
+            make_student_package, packages, processes=processes or available_cores(), worth=WORTH
         )
         for student, content in made:
-            put(output / "students" / f"{make_folder_name(student)}.zip", content)
+            write_file(output / "students" / f"{make_folder_name(student)}.zip", content)
             step()
-    show([line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")])
+    print_lines(
+        [style_line(f"{output / 'course.zip'}: for everybody, {len(everybody) / 1e6:.1f} MB")]
+    )
     if students:
         place = output / "students"
-        show([line(f"{place}: a zip file for each of {len(students)} students, to unpack over it")])
+        print_lines(
+            [
+                style_line(
+                    f"{place}: a zip file for each of {len(students)} students, to unpack over it"
+                )
+            ]
+        )
     return DONE
 
 
-def put(path: Path, content: bytes) -> None:
+def write_file(path: Path, content: bytes) -> None:
     """Write a file whole or not at all.
 
     Raises:
@@ -172,7 +180,13 @@ def _check(place: Path, secret: bytes) -> int:
             advice="Name the folder that holds .course and exercises.",
         )
     wrong = find_broken_seals(place, found, secret=secret)
-    show([line(f"{name}: not as it was issued") for name in wrong])
+    print_lines([style_line(f"{name}: not as it was issued") for name in wrong])
     if not wrong:
-        show([line(f"{place}: issued to {found.student}; all {len(found.sealed)} files whole.")])
+        print_lines(
+            [
+                style_line(
+                    f"{place}: issued to {found.student}; all {len(found.sealed)} files whole."
+                )
+            ]
+        )
     return NOT_RIGHT if wrong else DONE

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from grader.terminal import complain, line, show
+from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.command_line import COULD_NOT, DONE
 
@@ -31,21 +31,21 @@ def serve(
     that each comes in with. Everything runs on this machine; two students take about 1 GB. Run by
     root on Linux or macOS, each student's server has a system user of its own.
     """
-    from grader.classroom.roster import read_members  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - --help must not wait for it
     from grader.course import find_course  # noqa: PLC0415 - the same
-    from grader.release import common_package  # noqa: PLC0415 - the same
+    from grader.release import make_common_package  # noqa: PLC0415 - the same
     from grader.serve.jupyter_servers import JupyterServers  # noqa: PLC0415 - the same
     from grader.serve.login_page import ServedClass, serve_forever  # noqa: PLC0415 - the same
-    from grader.serve.student_folders import login_codes, student_folder  # noqa: PLC0415 - the same
+    from grader.serve.student_folders import load_login_codes, prepare_student_folder  # noqa: PLC0415 - the same
     from grader.variant import make_folder_name  # noqa: PLC0415 - the same
     from sim.bench.dataset.secret import VARIABLE  # noqa: PLC0415 - the same
 
     os.environ.pop(VARIABLE, None)  # neither this process nor a student's needs the secret
     folder = folder.resolve()
-    separate = _separate(folder, packages, unprotected=unprotected)
+    separate = _decide_separation(folder, packages, unprotected=unprotected)
     course = find_course(Path.cwd())
-    students = tuple(read_members(roster).rows)
-    shared = common_package(course)
+    students = tuple(read_class_roster(roster).rows)
+    shared = make_common_package(course)
     lessons = sorted((course / "lessons").glob("*.ipynb"))
     first = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
 
@@ -58,26 +58,27 @@ def serve(
                 advice="Make it with grade release --roster.",
             )
         given = [shared, *([own.read_bytes()] if own else [])]
-        return student_folder(folder, student, packages=given)
+        return prepare_student_folder(folder, student, packages=given)
 
-    house = ServedClass(
-        login_codes(folder, students), at_home, JupyterServers(host, separate=separate), first
+    served = ServedClass(
+        load_login_codes(folder, students), at_home, JupyterServers(host, separate=separate), first
     )
 
     def ready(taken: int) -> None:
-        address = _own_address() if host == EVERYWHERE else host
-        show([
-            line(f"The door: http://{address}:{taken}", "bold"),
-            line(f"Names and codes of {len(students)} students: {folder / 'codes.csv'}"),
-            line("Everybody on this network can reach the door; Ctrl-C closes it, work is kept."),
+        address = _find_own_address() if host == EVERYWHERE else host
+        print_lines([
+            style_line(f"The door: http://{address}:{taken}", "bold"),
+            style_line(f"Names and codes of {len(students)} students: {folder / 'codes.csv'}"),
+            style_line("Everybody on this network can reach the door; "
+                "Ctrl-C closes it, work is kept."),
         ])  # fmt: skip
 
     try:
-        asyncio.run(serve_forever(house, port=port, ready=ready))
+        asyncio.run(serve_forever(served, port=port, ready=ready))
     except KeyboardInterrupt:
         return DONE
     except OSError as error:
-        complain(f"port {port} cannot be had ({error.strerror}). Name another with --port.")
+        print_error(f"port {port} cannot be had ({error.strerror}). Name another with --port.")
         return COULD_NOT
     return DONE
 
@@ -85,7 +86,7 @@ def serve(
 COMMAND = serve
 
 
-def _separate(folder: Path, packages: Path | None, *, unprotected: bool) -> bool:
+def _decide_separation(folder: Path, packages: Path | None, *, unprotected: bool) -> bool:
     """Whether each student gets a system user of their own; else say what that means.
 
     Raises:
@@ -101,11 +102,17 @@ def _separate(folder: Path, packages: Path | None, *, unprotected: bool) -> bool
             "students could read and change each other's files, so no packages are served",
             advice="Serve as root on Linux or macOS, or say --unprotected.",
         )
-    show([line("Students can read and change each other's files: do not grade this work.", "bold")])
+    print_lines(
+        [
+            style_line(
+                "Students can read and change each other's files: do not grade this work.", "bold"
+            )
+        ]
+    )
     return False
 
 
-def _own_address() -> str:
+def _find_own_address() -> str:
     """The address other machines reach this one by; nothing is sent to find it."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
         try:

@@ -2,7 +2,7 @@
 
 import click
 
-from grader.terminal import line, show
+from grader.terminal import print_lines, style_line
 from sim.core.errors import Refusal
 from sim.support.command_line import COULD_NOT, DONE, print_error
 
@@ -17,19 +17,19 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     Without EXERCISE: the first one that is not done yet.
     """
     from grader.cli import grade_file, locate_course  # noqa: PLC0415 - --help has to start at once
-    from grader.exercise import exercises, find_exercise  # noqa: PLC0415 - the same
-    from grader.watch import display_path, first_unfinished  # noqa: PLC0415 - the same
-    from grader.watch import watch as keep_watching  # noqa: PLC0415 - the same
+    from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - the same
+    from grader.watch import find_first_unfinished, format_path  # noqa: PLC0415 - the same
+    from grader.watch import watch_exercise as keep_watching  # noqa: PLC0415 - the same
 
     folder, progress, who = locate_course(student)
-    found = exercises(folder)
+    found = list_exercises(folder)
     one = (
         find_exercise(exercise, folder)
         if exercise
-        else first_unfinished(found, lambda name: progress.of(who, name).done)
+        else find_first_unfinished(found, lambda name: progress.find_standing(who, name).is_done)
     )
     if one is None:
-        show([line("Everything here is done.", "bold green")])
+        print_lines([style_line("Everything here is done.", "bold green")])
         return DONE
 
     def grade() -> int:
@@ -40,8 +40,11 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
             print_error(str(refusal), name="grade")
             code = COULD_NOT
         if code != DONE:
-            show(
-                [line(), line(f"Waiting for {display_path(one, folder)} to be saved; Ctrl-C ends.")]
+            print_lines(
+                [
+                    style_line(),
+                    style_line(f"Waiting for {format_path(one, folder)} to be saved; Ctrl-C ends."),
+                ]
             )
         return code
 
@@ -50,8 +53,10 @@ def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     except KeyboardInterrupt:
         return DONE
     _, after, _ = locate_course(student)
-    rest = first_unfinished(found, lambda name: after.of(who, name).done)
-    show([line(f"Next: grade watch {rest.name}" if rest else "Everything here is done.")])
+    rest = find_first_unfinished(found, lambda name: after.find_standing(who, name).is_done)
+    print_lines(
+        [style_line(f"Next: grade watch {rest.name}" if rest else "Everything here is done.")]
+    )
     return DONE
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
-from grader.edition.executed import execute
-from grader.edition.rendered import LessonPart, split_notebook
+from grader.edition.notebook_execution import execute_notebook
+from grader.edition.notebook_html import LessonPart, split_notebook
 from sim.core.errors import BadRequest
 from sim.report.page_file import load_templates
 
@@ -42,7 +42,7 @@ class Lesson:
         return f"{self.name}-slides.html"
 
 
-def build(
+def build_pages(
     notebooks: Sequence[Path], folder: Path, *, say: Callable[[str], None] = lambda _: None
 ) -> Path:
     """Run lessons and write their pages.
@@ -63,19 +63,19 @@ def build(
     lessons = []
     for path in notebooks:
         say(path.stem)
-        lessons.append(Lesson(path.stem, split_notebook(execute(path))))
+        lessons.append(Lesson(path.stem, split_notebook(execute_notebook(path))))
     for place, lesson in enumerate(lessons):
         before = lessons[place - 1].page if place else ""
         after = lessons[place + 1].page if place + 1 < len(lessons) else ""
         for slides in (False, True):
-            text = _page(lesson, before=before, after=after, slides=slides)
+            text = _write_page(lesson, before=before, after=after, slides=slides)
             write_private_file(folder / (lesson.slides if slides else lesson.page), text)
-    write_private_file(folder / "handout.html", _handout(lessons))
+    write_private_file(folder / "handout.html", _write_handout(lessons))
     text = _fill("index.html.jinja", lessons=lessons)
     return write_private_file(folder / "index.html", text)
 
 
-def _page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
+def _write_page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
     return _fill(
         "lesson.html.jinja",
         title=lesson.title,
@@ -87,7 +87,7 @@ def _page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str:
     )
 
 
-def _handout(lessons: Sequence[Lesson]) -> str:
+def _write_handout(lessons: Sequence[Lesson]) -> str:
     checks = [
         {"title": lesson.title, "html": part.html}
         for lesson in lessons

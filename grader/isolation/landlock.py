@@ -31,7 +31,7 @@ SOURCES = ("/dev/zero", "/dev/random", "/dev/urandom")
 PACKAGES = {"site-packages", "dist-packages"}  # inside Python's library, but not all of it ours
 
 
-def abi() -> int:
+def find_abi_version() -> int:
     """Which version this system has; 0 is none."""
     if not sys.platform.startswith("linux"):
         return 0
@@ -39,7 +39,7 @@ def abi() -> int:
     return max(found, 0)
 
 
-def restrict(
+def restrict_files(
     *, readable: Iterable[Path], folder: Path, hidden: Path, newest: int | None = None
 ) -> int:
     """From here on this process reads only Python and ``readable``, and writes only ``folder``.
@@ -53,7 +53,7 @@ def restrict(
     Returns:
         The ABI in force; 0 if there is none.
     """
-    version = abi() if newest is None else min(abi(), newest)
+    version = find_abi_version() if newest is None else min(find_abi_version(), newest)
     if not version:
         return 0
     call = ctypes.CDLL(None, use_errno=True).syscall
@@ -68,22 +68,24 @@ def restrict(
     if rules < 0:
         return 0
     try:
-        for path, rights in _allowed(readable, folder, hidden):
-            _add(call, rules, path, rights & known)
+        for path, rights in _list_permissions(readable, folder, hidden):
+            _allow_path(call, rules, path, rights & known)
         ctypes.CDLL(None).prctl(NO_NEW_PRIVILEGES, 1, 0, 0, 0)
         return version if call(RESTRICT_SELF, rules, 0) == 0 else 0
     finally:
         os.close(rules)
 
 
-def _allowed(readable: Iterable[Path], folder: Path, hidden: Path) -> Iterator[tuple[Path, int]]:
+def _list_permissions(
+    readable: Iterable[Path], folder: Path, hidden: Path
+) -> Iterator[tuple[Path, int]]:
     """Each path, and what may be done with it and what is beneath."""
     yield folder, FOLDER
     yield Path(os.devnull), DEVICE
     for path in readable:
         yield path, TREE
     for name in (*LIBRARIES, *SOURCES):
-        for part in _without(Path(name), hidden):
+        for part in _exclude_folder(Path(name), hidden):
             yield part, TREE
     for shared in (Path(sys.base_prefix) / "lib").glob("*.so*"):
         yield shared, READ_FILE
@@ -95,17 +97,17 @@ def _allowed(readable: Iterable[Path], folder: Path, hidden: Path) -> Iterator[t
                     yield part, TREE
 
 
-def _without(tree: Path, hidden: Path) -> Iterator[Path]:
+def _exclude_folder(tree: Path, hidden: Path) -> Iterator[Path]:
     """A tree, or all of its parts but one."""
     whole = tree.resolve()
     if not hidden.is_relative_to(whole):
         yield tree
     elif whole != hidden and whole.is_dir():
         for part in whole.iterdir():
-            yield from _without(part, hidden)
+            yield from _exclude_folder(part, hidden)
 
 
-def _add(call: "ctypes._NamedFuncPointer", rules: int, path: Path, rights: int) -> None:
+def _allow_path(call: "ctypes._NamedFuncPointer", rules: int, path: Path, rights: int) -> None:
     """Allow one path; one that is not there needs no permission."""
     try:
         opened = os.open(path, os.O_PATH | os.O_CLOEXEC)

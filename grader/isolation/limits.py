@@ -17,7 +17,7 @@ def end_with_parent() -> None:
         ctypes.CDLL(None).prctl(PARENT_DEATH_SIGNAL, int(signal.SIGKILL), 0, 0, 0)
 
 
-def limit(*, seconds: int, memory: int, file: int, processes: bool) -> tuple[str, ...]:
+def set_limits(*, seconds: int, memory: int, file: int, processes: bool) -> tuple[str, ...]:
     """Set the limits this system has; there is no way back.
 
     Args:
@@ -31,10 +31,12 @@ def limit(*, seconds: int, memory: int, file: int, processes: bool) -> tuple[str
     """
     if sys.platform == "win32":
         return ()
-    return tuple(_set(seconds=seconds, memory=memory, file=file, processes=processes))
+    return tuple(
+        _set_resource_limits(seconds=seconds, memory=memory, file=file, processes=processes)
+    )
 
 
-def _set(*, seconds: int, memory: int, file: int, processes: bool) -> Iterator[str]:
+def _set_resource_limits(*, seconds: int, memory: int, file: int, processes: bool) -> Iterator[str]:
     resource = importlib.import_module("resource")  # Windows has none
     wanted = [
         ("RLIMIT_CPU", seconds, "processor time"),

@@ -10,7 +10,7 @@ NO_NUMBERS = {"nan": "nan", "inf": "a number without end"}
 
 
 @dataclass(frozen=True)
-class Answer:
+class CallResult:
     """What one call gave.
 
     Args:
@@ -36,7 +36,7 @@ class ParsedResults:
     """
 
     force: Mapping[str, object] | None
-    answers: Mapping[int, Answer]
+    answers: Mapping[int, CallResult]
     crash: str = ""
 
 
@@ -49,20 +49,20 @@ def parse_results(raw: bytes, *, nonce: str, file: str) -> ParsedResults:
         file: name of the learner's file, for messages.
     """
     force: Mapping[str, object] | None = None
-    answers: dict[int, Answer] = {}
+    answers: dict[int, CallResult] = {}
     crash = ""
-    for said in _lines(raw, nonce):
+    for said in _read_lines(raw, nonce):
         ready, number = said.get("ready"), said.get("call")
         if force is None:
             force = ready if isinstance(ready, dict) else {}
         elif type(number) is int:
-            answers.setdefault(number, _answer(said, file))
+            answers.setdefault(number, _read_answer(said, file))
         elif "crash" in said:
-            crash = crash or _crash(said["crash"], file)
+            crash = crash or _describe_crash(said["crash"], file)
     return ParsedResults(force, answers, crash)
 
 
-def _lines(raw: bytes, nonce: str) -> Iterator[Mapping[str, object]]:
+def _read_lines(raw: bytes, nonce: str) -> Iterator[Mapping[str, object]]:
     for line in raw.split(b"\n"):
         try:
             said = json.loads(line)
@@ -72,34 +72,36 @@ def _lines(raw: bytes, nonce: str) -> Iterator[Mapping[str, object]]:
             yield said
 
 
-def _answer(said: Mapping[str, object], file: str) -> Answer:
+def _read_answer(said: Mapping[str, object], file: str) -> CallResult:
     if "crash" in said:
-        return Answer(reason=_crash(said["crash"], file))
+        return CallResult(reason=_describe_crash(said["crash"], file))
     result = said.get("result")
     pairs = result.get("names") if isinstance(result, dict) else None
     if not isinstance(pairs, list):
-        return Answer(reason=f"{file} returned {_kind(result)}, not numbers by name in a dict")
+        return CallResult(
+            reason=f"{file} returned {_describe_kind(result)}, not numbers by name in a dict"
+        )
     numbers: dict[str, float] = {}
     refused: dict[str, str] = {}
     for pair in pairs:
         if not (isinstance(pair, list) and len(pair) == 2 and isinstance(pair[0], str)):  # noqa: PLR2004 - a name and what it stands for
             continue
         name, value = one_line(pair[0]), pair[1]
-        if type(value) in {int, float} and _finite(value):
+        if type(value) in {int, float} and _require_finite(value):
             numbers[name] = float(value)
         else:
-            refused[name] = _kind(value)
-    return Answer(numbers, refused)
+            refused[name] = _describe_kind(value)
+    return CallResult(numbers, refused)
 
 
-def _finite(value: float) -> bool:
+def _require_finite(value: float) -> bool:
     try:
         return math.isfinite(float(value))
     except OverflowError:
         return False
 
 
-def _kind(value: object) -> str:
+def _describe_kind(value: object) -> str:
     """What something that is no number is, in words."""
     if value is None:
         return "None"
@@ -108,11 +110,11 @@ def _kind(value: object) -> str:
     if isinstance(value, str):
         return NO_NUMBERS.get(value, "a text")
     if isinstance(value, int | float):
-        return "a number" if _finite(value) else "a number without end"
-    return _type(value) if isinstance(value, dict) else "something that is no number"
+        return "a number" if _require_finite(value) else "a number without end"
+    return _describe_type(value) if isinstance(value, dict) else "something that is no number"
 
 
-def _type(told: Mapping[str, object]) -> str:
+def _describe_type(told: Mapping[str, object]) -> str:
     """What the child says of the type of something, in words."""
     name, of = one_line(told.get("is")), told.get("of")
     if name == "ndarray":
@@ -123,7 +125,7 @@ def _type(told: Mapping[str, object]) -> str:
     return f"a {name}, which only poses as a number" if poses else f"a {name}"
 
 
-def _crash(told: object, file: str) -> str:
+def _describe_crash(told: object, file: str) -> str:
     """``fit.py, line 12: ZeroDivisionError: division by zero``."""
     if not isinstance(told, dict):
         return f"{file} stopped"

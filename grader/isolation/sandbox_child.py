@@ -15,9 +15,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.isolation.landlock import restrict
-from grader.isolation.limits import end_with_parent, limit
-from grader.isolation.seccomp import forbid
+from grader.isolation.landlock import restrict_files
+from grader.isolation.limits import end_with_parent, set_limits
+from grader.isolation.seccomp import forbid_syscalls
 
 HERE = Path(__file__).resolve()
 MOST_NAMES = 32  # numbers of one answer
@@ -28,29 +28,29 @@ LONGEST = 200  # [characters] of what is said about anything
 def main() -> None:
     """Do what standard input asks for."""
     orders = json.load(sys.stdin)
-    say = _speaker(orders["nonce"])
+    say = _open_result_stream(orders["nonce"])
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
-    sys.meta_path.append(Packages(orders["packages"]))
-    force = confine(orders)
+    sys.meta_path.append(PackageFinder(orders["packages"]))
+    force = confine_process(orders)
     unload_course_modules()
     if orders["arrays"]:
         import numpy as np  # noqa: F401, PLC0415 - before the clock starts; only where it is needed
     say({"ready": force})
     path = Path(orders["source"])
     try:
-        module = _load(path)
+        module = _load_module(path)
     except BaseException as error:  # noqa: BLE001 - sys.exit too is only an answer that is missing
-        say({"crash": _crash(error, path)})
+        say({"crash": _describe_crash(error, path)})
         return
     for number, call in enumerate(orders["calls"]):
         try:
-            said: dict[str, object] = {"result": _shown(_call(module, call))}
+            said: dict[str, object] = {"result": _encode_result(_call_function(module, call))}
         except BaseException as error:  # noqa: BLE001 - the same
-            said = {"crash": _crash(error, path)}
+            said = {"crash": _describe_crash(error, path)}
         say({"call": number, **said})
 
 
-def _speaker(nonce: str) -> Callable[[Mapping[str, object]], None]:
+def _open_result_stream(nonce: str) -> Callable[[Mapping[str, object]], None]:
     """Keep what was standard output for what is said; prints go to standard error."""
     out = os.dup(1)
     os.dup2(2, 1)
@@ -73,7 +73,7 @@ def close_input() -> None:
     os.close(empty)
 
 
-class Packages:
+class PackageFinder:
     """Finds the packages a learner may import, and no others that happen to be installed."""
 
     def __init__(self, places: Mapping[str, str]) -> None:
@@ -98,7 +98,7 @@ class Packages:
         return spec
 
 
-def confine(orders: Mapping[str, Any]) -> dict[str, object]:
+def confine_process(orders: Mapping[str, Any]) -> dict[str, object]:
     """Give up what the learner's code does not need, and say what that was."""
     end_with_parent()
     readable = [Path(orders["given"])]
@@ -107,14 +107,18 @@ def confine(orders: Mapping[str, Any]) -> dict[str, object]:
     hidden = HERE.parents[1]
     asked, confined = orders["limits"], orders["confined"]
     newest = orders["landlock_abi"]
-    landlock = confined and restrict(
+    landlock = confined and restrict_files(
         readable=readable, folder=Path.cwd(), hidden=hidden, newest=newest
     )
-    limited = limit(**asked, processes=True)
-    seccomp = confined and forbid()
+    limited = set_limits(**asked, processes=True)
+    seccomp = confined and forbid_syscalls()
     if not seccomp:  # a filter lets no process start; without it the limit does what it can
-        limit(**asked, processes=False)
-    return {"landlock": landlock if _closed() else 0, "seccomp": seccomp, "limited": limited}
+        set_limits(**asked, processes=False)
+    return {
+        "landlock": landlock if _is_source_hidden() else 0,
+        "seccomp": seccomp,
+        "limited": limited,
+    }
 
 
 def unload_course_modules() -> None:
@@ -123,7 +127,7 @@ def unload_course_modules() -> None:
         del sys.modules[name]
 
 
-def _closed() -> bool:
+def _is_source_hidden() -> bool:
     """Whether this program can no longer be read: a try tells more than a promise."""
     try:
         HERE.open("rb").close()
@@ -132,7 +136,7 @@ def _closed() -> bool:
     return False
 
 
-def _load(path: Path) -> ModuleType:
+def _load_module(path: Path) -> ModuleType:
     module = ModuleType(path.stem)
     module.__file__ = str(path)
     sys.modules[path.stem] = module
@@ -141,7 +145,7 @@ def _load(path: Path) -> ModuleType:
     return module
 
 
-def _call(module: ModuleType, call: Mapping[str, Any]) -> object:
+def _call_function(module: ModuleType, call: Mapping[str, Any]) -> object:
     function = getattr(module, call["function"], None)
     if not callable(function):
         raise TypeError(f"there is no function {call['function']}")
@@ -154,15 +158,15 @@ def _call(module: ModuleType, call: Mapping[str, Any]) -> object:
     return function(**arguments)
 
 
-def _shown(result: object) -> object:
+def _encode_result(result: object) -> object:
     """What was returned, as JSON can say it: numbers as numbers, the rest by what it is."""
     if type(result) is not dict:
-        return _plain(result)
+        return _encode_value(result)
     items = list(result.items())[:MOST_NAMES]
-    return {"names": [[str(name)[:LONGEST], _plain(value)] for name, value in items]}
+    return {"names": [[str(name)[:LONGEST], _encode_value(value)] for name, value in items]}
 
 
-def _plain(value: object) -> object:
+def _encode_value(value: object) -> object:
     """A number, or ``{"is": its type, "of": what that is a kind of}``."""
     kind = type(value)
     numpy = sys.modules.get("numpy")
@@ -183,7 +187,7 @@ def _plain(value: object) -> object:
     return {"is": kind.__name__, "of": [one.__name__ for one in kind.__mro__[1:-1]]}
 
 
-def _crash(error: BaseException, path: Path) -> dict[str, object]:
+def _describe_crash(error: BaseException, path: Path) -> dict[str, object]:
     """Where in the learner's file, and the last line of the traceback."""
     steps = traceback.extract_tb(error.__traceback__)
     lines = [step.lineno for step in steps if step.filename == str(path)]

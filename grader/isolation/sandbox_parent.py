@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, cast
 
 from grader.isolation.landlock import SCOPE_ABI
-from grader.isolation.result_parsing import Answer, ParsedResults, parse_results
+from grader.isolation.result_parsing import CallResult, ParsedResults, parse_results
 from grader.isolation.scratch import scratch_folder
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ PIECE = 65536  # [bytes]
 
 
 @dataclass(frozen=True)
-class Call:
+class FunctionCall:
     """One call of a function of the learner's.
 
     Args:
@@ -88,7 +88,7 @@ class SandboxOutcome:
         seconds: [s] from start to end.
     """
 
-    answers: tuple[Answer, ...]
+    answers: tuple[CallResult, ...]
     ended: str
     printed: str
     level: str
@@ -98,7 +98,7 @@ class SandboxOutcome:
 def run_functions(
     source: Path,
     *,
-    calls: Sequence[Call],
+    calls: Sequence[FunctionCall],
     limits: Limits = Limits(),
     packages: Sequence[str] = ("numpy",),
 ) -> SandboxOutcome:
@@ -121,25 +121,25 @@ def run_functions(
             "root": str(ROOT),
             "confined": CONFINED,
             "landlock_abi": LANDLOCK_ABI,
-            "packages": package_paths(packages),
-            **_hand_over(source, calls, given),
+            "packages": find_package_paths(packages),
+            **_write_orders(source, calls, given),
             "limits": limits.for_child(),
         }
         child = _Child(orders, work=work, limits=limits)
         ended = child.watch(limits.seconds)
     received = parse_results(child.said.kept, nonce=nonce, file=source.name)
-    return _outcome(received, calls, ended, child, time.monotonic() - begin)
+    return _make_outcome(received, calls, ended, child, time.monotonic() - begin)
 
 
-def isolation_level() -> str:
+def find_isolation_level() -> str:
     """What confines a learner's code on this system: tried, not assumed."""
     with tempfile.TemporaryDirectory() as made:
         probe = Path(made, "probe.py")
         probe.write_text("def probe():\n    return {}\n", encoding="utf-8")
-        return run_functions(probe, calls=[Call("probe")]).level
+        return run_functions(probe, calls=[FunctionCall("probe")]).level
 
 
-def package_paths(packages: Sequence[str]) -> dict[str, str]:
+def find_package_paths(packages: Sequence[str]) -> dict[str, str]:
     """Package -> its folder, or its only file, of those that are installed."""
     specs = {name: importlib.util.find_spec(name) for name in packages}
     found: dict[str, str] = {}
@@ -151,7 +151,7 @@ def package_paths(packages: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def _hand_over(source: Path, calls: Sequence[Call], given: Path) -> dict[str, object]:
+def _write_orders(source: Path, calls: Sequence[FunctionCall], given: Path) -> dict[str, object]:
     """Write what the child is to read; the part of its orders that says where it stands."""
     copy = given / source.name
     copy.write_bytes(source.read_bytes())
@@ -202,7 +202,7 @@ class _Child:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             cwd=work,
-            env=child_environment(work),
+            env=make_child_environment(work),
             start_new_session=True,
         )
         into, said, printed = (
@@ -211,7 +211,7 @@ class _Child:
         )
         self.ready = threading.Event()
         self.said = _Pipe(said, most=limits.numbers, line=self.ready.set)
-        self.printed = _Pipe(printed, most=limits.prints, line=_nothing)
+        self.printed = _Pipe(printed, most=limits.prints, line=_do_nothing)
         with contextlib.suppress(OSError):  # one that has ended reads no orders
             into.write(json.dumps(orders).encode())
             into.close()
@@ -226,7 +226,7 @@ class _Child:
             ended = f"it was still running after {seconds:g} s and was stopped"
         finally:
             self._end()
-        return ended or _why(self.process.returncode)
+        return ended or _explain_end(self.process.returncode)
 
     def _end(self) -> None:
         """End it and all that it started, and take what is left in the pipes."""
@@ -246,18 +246,18 @@ def end_session(process: "subprocess.Popen[bytes]") -> None:
     process.wait()
 
 
-def _nothing() -> None:
+def _do_nothing() -> None:
     pass
 
 
-def child_environment(work: Path) -> dict[str, str]:
+def make_child_environment(work: Path) -> dict[str, str]:
     """The few variables a child gets; what is temporary or at home is in its own folder."""
     kept = {name: os.environ[name] for name in KEPT if name in os.environ}
     own = dict.fromkeys(("HOME", "TMPDIR", "TEMP", "TMP"), str(work))
     return {**kept, **own, **dict.fromkeys(THREADS, "1")}
 
 
-def _why(code: int) -> str:
+def _explain_end(code: int) -> str:
     """Why a process ended, by its code; nothing if it ended as it should."""
     if code >= 0:
         return "" if code == 0 else f"it ended itself, with code {code}"
@@ -267,22 +267,26 @@ def _why(code: int) -> str:
     return f"the system stopped it ({name})"
 
 
-def _outcome(
-    received: ParsedResults, calls: Sequence[Call], ended: str, child: _Child, seconds: float
+def _make_outcome(
+    received: ParsedResults,
+    calls: Sequence[FunctionCall],
+    ended: str,
+    child: _Child,
+    seconds: float,
 ) -> SandboxOutcome:
     missing = received.crash or ended or "it ended itself before it had answered"
     answers = tuple(
-        received.answers.get(number, Answer(reason=missing)) for number in range(len(calls))
+        received.answers.get(number, CallResult(reason=missing)) for number in range(len(calls))
     )
     whole = len(received.answers) == len(calls)
     printed = child.printed.kept.decode("utf-8", errors="replace")
     if child.printed.dropped:
         printed += f"\n… and {child.printed.dropped:,} bytes more, which were dropped"
     said = "" if whole else missing
-    return SandboxOutcome(answers, said, printed, _level(received.force), seconds)
+    return SandboxOutcome(answers, said, printed, _describe_level(received.force), seconds)
 
 
-def _level(force: Mapping[str, object] | None) -> str:
+def _describe_level(force: Mapping[str, object] | None) -> str:
     """What confined the child, in words."""
     if force is None:
         return "not started"

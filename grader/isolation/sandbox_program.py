@@ -47,7 +47,7 @@ def run_program(
         "confined": sandbox_parent.CONFINED,
         "landlock_abi": sandbox_parent.LANDLOCK_ABI,
         "given": str(given),
-        "packages": sandbox_parent.package_paths(packages),
+        "packages": sandbox_parent.find_package_paths(packages),
         "limits": limits.for_child(),
     }
     with tempfile.TemporaryFile() as stdout:
@@ -57,7 +57,7 @@ def run_program(
             stdout=stdout,
             stderr=subprocess.DEVNULL,
             cwd=folder,
-            env=sandbox_parent.child_environment(folder),
+            env=sandbox_parent.make_child_environment(folder),
             start_new_session=True,
         )
         ended = True

@@ -11,7 +11,12 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
-from grader.isolation.sandbox_child import Packages, close_input, confine, unload_course_modules
+from grader.isolation.sandbox_child import (
+    PackageFinder,
+    close_input,
+    confine_process,
+    unload_course_modules,
+)
 
 
 def main() -> None:
@@ -21,17 +26,17 @@ def main() -> None:
     sys.stdin = io.StringIO(orders["stdin"])
     script = Path(orders["script"])
     for path in map(Path, orders["beside"]):
-        sys.modules[path.stem] = _loaded(path)
+        sys.modules[path.stem] = _load_module(path)
     code = compile(script.read_text(encoding="utf-8"), str(script), "exec")
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
-    sys.meta_path.append(Packages(orders["packages"]))
+    sys.meta_path.append(PackageFinder(orders["packages"]))
     sys.argv[:] = [str(script), *orders["arguments"]]
-    confine(orders)
+    confine_process(orders)
     unload_course_modules()
     exec(code, {"__name__": "__main__", "__file__": str(script)})  # noqa: S102 - ours, and the only way once its file is out of reach
 
 
-def _loaded(path: Path) -> ModuleType:
+def _load_module(path: Path) -> ModuleType:
     """A file of ours as a module."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     if spec is None or spec.loader is None:

@@ -30,7 +30,7 @@ def remove_tree(top: Path) -> None:
     waiting, moved = [top], 0
     while waiting:
         folder = waiting.pop()
-        for entry in _entries(folder):
+        for entry in _list_entries(folder):
             with contextlib.suppress(OSError):
                 if not entry.is_dir(follow_symlinks=False):
                     os.unlink(entry.path)  # noqa: PTH108 - an entry, not a Path
@@ -47,7 +47,7 @@ def remove_tree(top: Path) -> None:
         top.rmdir()
 
 
-def _entries(folder: Path) -> list["os.DirEntry[str]"]:
+def _list_entries(folder: Path) -> list["os.DirEntry[str]"]:
     try:
         with os.scandir(folder) as found:
             return list(found)

@@ -76,7 +76,7 @@ TABLES = {
 }  # fmt: skip
 
 
-def forbid() -> bool:
+def forbid_syscalls() -> bool:
     """Give the calls up; whether this system and processor could."""
     table = TABLES.get(platform.machine())
     if table is None or not sys.platform.startswith("linux") or sys.maxsize < 2**32:
@@ -86,13 +86,13 @@ def forbid() -> bool:
     system.syscall(table.capset, header, struct.pack("=6I", *[0] * 6))  # root is nobody special
     if system.prctl(NO_NEW_PRIVILEGES, 1, 0, 0, 0) != 0:
         return False
-    steps = b"".join(struct.pack("=HBBI", *step) for step in _steps(table))
+    steps = b"".join(struct.pack("=HBBI", *step) for step in _make_filter(table))
     kept = ctypes.create_string_buffer(steps)
     program = struct.pack("@HP", len(steps) // 8, ctypes.addressof(kept))
     return bool(system.prctl(SET_SECCOMP, FILTER, program, 0, 0) == 0)
 
 
-def _steps(table: SyscallTable) -> Iterator[tuple[int, int, int, int]]:
+def _make_filter(table: SyscallTable) -> Iterator[tuple[int, int, int, int]]:
     """The filter: code, steps to skip if so, steps to skip if not, number."""
     yield LOAD, 0, 0, ARCHITECTURE
     yield EQUAL, 1, 0, table.architecture

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.serve.student_folders import assign_account
-from grader.start import QUIET, as_root
+from grader.start import QUIET, choose_root_option
 from sim.bench.dataset.secret import VARIABLE
 from sim.core.errors import BadRequest
 from sim.support.work.cache import CACHE
@@ -46,7 +46,7 @@ class JupyterServer:
     process: "subprocess.Popen[bytes]"
     runtime: Path
 
-    def alive(self) -> bool:
+    def is_alive(self) -> bool:
         """Whether it still runs."""
         return self.process.poll() is None
 
@@ -62,7 +62,7 @@ class JupyterServers:
     def __init__(self, host: str, *, separate: bool = False) -> None:
         self.host = host
         self.separate = separate
-        self._rooms: dict[str, JupyterServer] = {}
+        self._servers: dict[str, JupyterServer] = {}
         self._closed = False
 
     def open(self, student: str, course: Path) -> JupyterServer:
@@ -73,42 +73,44 @@ class JupyterServers:
         """
         if there := self.find(student):
             return there
-        if ended := self._rooms.pop(student, None):
+        if ended := self._servers.pop(student, None):
             shutil.rmtree(ended.runtime, ignore_errors=True)
         course = course.absolute()  # a link that the student made is not followed
         account = assign_account(course.parent) if self.separate else None
-        self._rooms[student] = room = _start(student, course, host=self.host, account=account)
+        self._servers[student] = server = _start_server(
+            student, course, host=self.host, account=account
+        )
         if self._closed:  # ended while this one started
-            room.process.terminate()
-        return room
+            server.process.terminate()
+        return server
 
     def find(self, student: str) -> JupyterServer | None:
         """The student's server if it runs."""
-        there = self._rooms.get(student)
-        return there if there and there.alive() else None
+        there = self._servers.get(student)
+        return there if there and there.is_alive() else None
 
     def close(self) -> None:
         """End them all, and those that still start as soon as they have."""
         self._closed = True
-        for room in tuple(self._rooms.values()):
-            room.process.terminate()
-        for room in tuple(self._rooms.values()):
+        for server in tuple(self._servers.values()):
+            server.process.terminate()
+        for server in tuple(self._servers.values()):
             with contextlib.suppress(subprocess.TimeoutExpired):
-                room.process.wait(timeout=10)
-            if room.alive():
-                room.process.kill()
-            shutil.rmtree(room.runtime, ignore_errors=True)
+                server.process.wait(timeout=10)
+            if server.is_alive():
+                server.process.kill()
+            shutil.rmtree(server.runtime, ignore_errors=True)
 
     @property
-    def running(self) -> int:
+    def running_count(self) -> int:
         """How many run."""
-        return sum(room.alive() for room in self._rooms.values())
+        return sum(server.is_alive() for server in self._servers.values())
 
 
-def _start(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:
-    port, token = _free_port(host), secrets.token_hex(16)
+def _start_server(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:
+    port, token = _find_free_port(host), secrets.token_hex(16)
     command = [
-        sys.executable, "-m", "jupyterlab", *QUIET, *as_root(),
+        sys.executable, "-m", "jupyterlab", *QUIET, *choose_root_option(),
         "--no-browser", f"--ip={host}", f"--port={port}", "--ServerApp.port_retries=0",
         f"--ServerApp.root_dir={course}",
         f"--ServerApp.shutdown_no_activity_timeout={IDLE}",
@@ -116,13 +118,13 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     ]  # fmt: skip
     if account is not None:  # a port of this machine is open to every user of it, a socket is not
         command.append("--KernelManager.transport=ipc")
-    runtime = _runtime_folder(account)
+    runtime = _make_runtime_folder(account)
     environment = {
-        **server_environment(course, runtime, own=account is not None),
+        **make_server_environment(course, runtime, own=account is not None),
         "JUPYTER_TOKEN": token,
     }
     try:
-        process = _run(command, course.parent, environment, account)
+        process = _run_server(command, course.parent, environment, account)
     except OSError as error:
         raise BadRequest(
             f"JupyterLab cannot be started: {error.strerror}",
@@ -132,7 +134,7 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     deadline = time.monotonic() + PATIENCE
     listening = runtime / f"jpserver-{process.pid}.json"  # written once the port is its own
     while time.monotonic() < deadline and process.poll() is None:
-        if listening.exists() and _answers(host, port):
+        if listening.exists() and _is_answering(host, port):
             return JupyterServer(student, port, token, process, runtime)
         time.sleep(PAUSE)
     process.kill()
@@ -144,7 +146,7 @@ def _start(student: str, course: Path, *, host: str, account: int | None) -> Jup
     )
 
 
-def _answers(host: str, port: int) -> bool:
+def _is_answering(host: str, port: int) -> bool:
     """Whether the server answers a request: its port is open some seconds before it does."""
     connection = http.client.HTTPConnection(
         "127.0.0.1" if host == EVERY_ADDRESS else host, port, timeout=ONE_ANSWER
@@ -160,7 +162,7 @@ def _answers(host: str, port: int) -> bool:
         connection.close()
 
 
-def _runtime_folder(account: int | None) -> Path:
+def _make_runtime_folder(account: int | None) -> Path:
     """A folder that nobody but the student may enter.
 
     It does not lie in the home, because a socket's path may not be longer than some 100 signs.
@@ -171,7 +173,7 @@ def _runtime_folder(account: int | None) -> Path:
     return folder
 
 
-def _run(
+def _run_server(
     command: list[str], place: Path, environment: dict[str, str], account: int | None
 ) -> "subprocess.Popen[bytes]":
     """Start it in the home, whose name nobody but the operator can change."""
@@ -190,13 +192,13 @@ def _run(
         )  # fmt: skip
 
 
-def _free_port(host: str) -> int:
+def _find_free_port(host: str) -> int:
     with socket.socket() as one:
         one.bind((host, 0))
         return int(one.getsockname()[1])
 
 
-def server_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str]:
+def make_server_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str]:
     """The environment of a student's server: what it writes and caches goes into their home.
 
     Args:

@@ -1,4 +1,4 @@
-"""The door: a page that asks for a name and a code, and leads to the student's own server."""
+"""The login page: it asks for a name and a code, and leads to the student's own server."""
 
 import asyncio
 import contextlib
@@ -16,11 +16,11 @@ from tornado.httpserver import HTTPServer
 from tornado.web import Application, RequestHandler, stream_request_body
 
 from grader.serve.jupyter_servers import JupyterServer, JupyterServers
-from grader.serve.student_folders import code_is_right, find_student
+from grader.serve.student_folders import find_student, is_code_right
 from sim.core.errors import Refusal
 
 _PAGES = template.Loader(str(Path(__file__).parent))
-PAGE, QUEUE = _PAGES.load("door.html"), _PAGES.load("queue.html")
+PAGE, QUEUE = _PAGES.load("login.html"), _PAGES.load("queue.html")
 WAIT = 1.0  # [s] after the first wrong code; doubled by each further one
 DOUBLINGS = 5  # up to 32 s: who guesses is stopped, who is guessed at still comes in
 LONGEST = 60.0  # [s] that a request is kept waiting before it is refused
@@ -37,20 +37,20 @@ CLOSED = {
 
 @dataclass(frozen=True)
 class ServedClass:
-    """What the door needs to know.
+    """What the login page needs to know.
 
     Args:
         codes: student -> code.
-        home: student -> their course folder; may take a moment the first time.
-        rooms: the servers.
-        first: what a student sees first, seen from the course folder.
+        find_home: student -> their course folder; may take a moment the first time.
+        servers: the servers.
+        first_page: what a student sees first, seen from the course folder.
         wait: seconds to wait after a wrong code.
     """
 
     codes: Mapping[str, str]
-    home: Callable[[str], Path]
-    rooms: JupyterServers
-    first: str
+    find_home: Callable[[str], Path]
+    servers: JupyterServers
+    first_page: str
     wait: float = WAIT
 
     def enter(self, student: str) -> JupyterServer:
@@ -59,10 +59,10 @@ class ServedClass:
         Raises:
             Refusal: home or server cannot be made.
         """
-        return self.rooms.open(student, self.home(student))
+        return self.servers.open(student, self.find_home(student))
 
 
-class Delays:
+class LoginDelays:
     """Growing waits after wrong codes, one for each student and one for each address.
 
     Args:
@@ -100,18 +100,18 @@ class Delays:
 
 
 @dataclass
-class Queue:
+class StartQueue:
     """Students whose servers start, in the order they came.
 
     Args:
-        house: what starts them.
+        served_class: what starts them.
         slots: as many start at once.
         starts: student -> their start, which may be over.
         tickets: what a waiting browser shows instead of a code -> student.
         waiting: who has no running server yet.
     """
 
-    house: ServedClass
+    served_class: ServedClass
     slots: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(AT_ONCE))
     starts: "dict[str, asyncio.Task[JupyterServer]]" = field(default_factory=dict)
     tickets: dict[str, str] = field(default_factory=dict)
@@ -125,32 +125,32 @@ class Queue:
             self.waiting.append(student)
         return there
 
-    def ticket(self, student: str) -> str:
+    def issue_ticket(self, student: str) -> str:
         """The student's ticket; the one before it holds no longer."""
         self.tickets = {one: who for one, who in self.tickets.items() if who != student}
         ticket = secrets.token_urlsafe(16)
         self.tickets[ticket] = student
         return ticket
 
-    def place(self, student: str) -> int:
+    def find_position(self, student: str) -> int:
         """Where the student stands: 1 is next or already starting."""
         return self.waiting.index(student) + 1 if student in self.waiting else 1
 
     async def _start(self, student: str) -> JupyterServer:
         try:
             async with self.slots:
-                return await asyncio.to_thread(self.house.enter, student)
+                return await asyncio.to_thread(self.served_class.enter, student)
         finally:
             self.waiting.remove(student)
 
 
-class Page(RequestHandler):
+class BasePage(RequestHandler):
     """What both pages share."""
 
-    queue: Queue
-    delays: Delays
+    queue: StartQueue
+    delays: LoginDelays
 
-    def initialize(self, queue: Queue, delays: Delays) -> None:
+    def initialize(self, queue: StartQueue, delays: LoginDelays) -> None:
         """Tornado's own way to hand something in."""
         self.queue, self.delays = queue, delays
 
@@ -159,14 +159,14 @@ class Page(RequestHandler):
         for name, value in CLOSED.items():
             self.set_header(name, value)
 
-    def lead_in(self, student: str, start: "asyncio.Task[JupyterServer]") -> None:
+    def redirect_to_server(self, student: str, start: "asyncio.Task[JupyterServer]") -> None:
         """To the server that started, or back to the page with the reason."""
         try:
             room = start.result()
         except Refusal as refusal:
             self.refuse(student, f"{refusal} Tell your instructor.")
             return
-        place = f"/lab/tree/{self.queue.house.first}?token={room.token}"
+        place = f"/lab/tree/{self.queue.served_class.first_page}?token={room.token}"
         self.redirect(f"http://{self.request.host_name}:{room.port}{place}", status=303)
 
     def refuse(self, name: str, wrong: str, status: int = 403) -> None:
@@ -176,7 +176,7 @@ class Page(RequestHandler):
 
 
 @stream_request_body
-class LoginPage(Page):
+class LoginPage(BasePage):
     """Asks who is there."""
 
     def prepare(self) -> None:
@@ -201,14 +201,14 @@ class LoginPage(Page):
         """Let a student in, or say what was wrong; in no words that help who tries."""
         form = parse_qs(self.body.decode("utf-8", "replace"))
         name, code = (form.get(one, [""])[0] for one in ("student", "code"))
-        known = self.queue.house.codes
+        known = self.queue.served_class.codes
         student = find_student(known, name)
         keys: tuple[str, ...] = (f"address {self.request.remote_ip}",)
         keys += (f"student {student}",) if student is not None else ()
         if not await self.delays.hold(keys):
             self.refuse(name, "Too many wrong codes. Wait a minute, then try again.", 429)
             return
-        if student is None or not code_is_right(code, known[student]):
+        if student is None or not is_code_right(code, known[student]):
             self.delays.count_wrong(keys)
             self.refuse(name, "No student of that name has that code. Look at both once more.")
             return
@@ -216,12 +216,12 @@ class LoginPage(Page):
         start = self.queue.join(student)
         done, _ = await asyncio.wait({start}, timeout=SHORT)
         if done:
-            self.lead_in(student, start)
+            self.redirect_to_server(student, start)
         else:
-            self.redirect(f"/wait?ticket={quote(self.queue.ticket(student))}", status=303)
+            self.redirect(f"/wait?ticket={quote(self.queue.issue_ticket(student))}", status=303)
 
 
-class Wait(Page):
+class WaitingPage(BasePage):
     """Tells a student their place until their server runs."""
 
     def get(self) -> None:
@@ -231,31 +231,33 @@ class Wait(Page):
         if student is None or start is None:
             self.redirect("/", status=303)
         elif start.done():
-            self.lead_in(student, start)
+            self.redirect_to_server(student, start)
         else:
-            self.finish(QUEUE.generate(place=self.queue.place(student)))
+            self.finish(QUEUE.generate(place=self.queue.find_position(student)))
 
 
-def make_application(house: ServedClass) -> Application:
-    """The door as a web application."""
-    shared = {"queue": Queue(house), "delays": Delays(house.wait)}
-    return Application([("/", LoginPage, shared), ("/wait", Wait, shared)])
+def make_application(served_class: ServedClass) -> Application:
+    """The login page as a web application."""
+    shared = {"queue": StartQueue(served_class), "delays": LoginDelays(served_class.wait)}
+    return Application([("/", LoginPage, shared), ("/wait", WaitingPage, shared)])
 
 
-async def serve_forever(house: ServedClass, *, port: int, ready: Callable[[int], None]) -> None:
-    """Keep the door until the task is ended, or the process is asked to; then end all servers.
+async def serve_forever(
+    served_class: ServedClass, *, port: int, ready: Callable[[int], None]
+) -> None:
+    """Serve the login page until the task or the process is ended; then end all servers.
 
     Args:
-        house: what it leads to.
+        served_class: what it leads to.
         port: where it listens; 0 takes a free one.
         ready: called with the port once it does.
 
     Raises:
         OSError: the port is taken.
     """
-    listening = socket.create_server((house.rooms.host, port))
+    listening = socket.create_server((served_class.servers.host, port))
     listening.setblocking(False)  # noqa: FBT003 - the socket's own way to say so
-    server = HTTPServer(make_application(house))
+    server = HTTPServer(make_application(served_class))
     server.add_socket(listening)
     ended = asyncio.Event()
     with contextlib.suppress(NotImplementedError):  # Windows ends a program without asking it
@@ -265,4 +267,4 @@ async def serve_forever(house: ServedClass, *, port: int, ready: Callable[[int],
         await ended.wait()
     finally:
         server.stop()
-        house.rooms.close()
+        served_class.servers.close()

@@ -29,7 +29,7 @@ _ASSIGNING = threading.Lock()  # two students who come at once must not get one 
 CHECK = "import os, sys, jupyterlab, numpy; os.stat(sys.argv[1])"
 
 
-def login_codes(folder: Path, students: Iterable[str]) -> dict[str, str]:
+def load_login_codes(folder: Path, students: Iterable[str]) -> dict[str, str]:
     """Student -> the code they come in with; made once, kept in ``codes.csv``.
 
     Raises:
@@ -40,7 +40,7 @@ def login_codes(folder: Path, students: Iterable[str]) -> dict[str, str]:
     if path.exists():
         roster = read_roster(path, advice="Remove it: new codes are made.")
         known = {normalize_name(row[0]): row[1] for _, row in roster.rows if len(row) > 1}
-    found = {name: known.get(normalize_name(name)) or _code() for name in students}
+    found = {name: known.get(normalize_name(name)) or _make_code() for name in students}
     if {normalize_name(name): code for name, code in found.items()} != known:
         stream = io.StringIO(newline="")
         csv.writer(stream).writerows([("student", "code"), *found.items()])
@@ -95,11 +95,14 @@ def assign_account(place: Path) -> int:
         if FIRST <= (own := place.lstat().st_uid) < END:
             return own
         used = {one.lstat().st_uid for one in place.parent.iterdir()}
-        free = next((uid for uid in range(FIRST, END) if uid not in used and not _known(uid)), None)
+        free = next(
+            (uid for uid in range(FIRST, END) if uid not in used and not _is_known_account(uid)),
+            None,
+        )
         if free is None:
             raise BadRequest("no user id is left", where=str(place.parent), advice="Tidy homes.")
         try:
-            _give(place, free)
+            _change_owner(place, free)
         except OSError as error:
             raise BadRequest(
                 f"a home cannot be given to its student: {error.strerror}",
@@ -109,7 +112,7 @@ def assign_account(place: Path) -> int:
         return free
 
 
-def _give(place: Path, uid: int) -> None:
+def _change_owner(place: Path, uid: int) -> None:
     """Everything in it first, the folder last: an interrupted change is repeated."""
     for parent, folders, files in os.walk(place):
         for name in (*folders, *files):
@@ -118,7 +121,7 @@ def _give(place: Path, uid: int) -> None:
     os.chown(place, uid, uid, follow_symlinks=False)
 
 
-def _known(uid: int) -> bool:
+def _is_known_account(uid: int) -> bool:
     import pwd  # noqa: PLC0415 - not on Windows
 
     try:
@@ -128,17 +131,17 @@ def _known(uid: int) -> bool:
     return True
 
 
-def _code() -> str:
+def _make_code() -> str:
     return "".join(secrets.choice(LETTERS) for _ in range(LENGTH))
 
 
-def code_is_right(given: str, code: str) -> bool:
+def is_code_right(given: str, code: str) -> bool:
     """Whether this is the code, in capitals or not; how long it takes tells nothing."""
     plain = given.strip().upper().encode("utf-8", "replace")
     return hmac.compare_digest(plain, code.encode())
 
 
-def student_folder(folder: Path, student: str, *, packages: Iterable[bytes]) -> Path:
+def prepare_student_folder(folder: Path, student: str, *, packages: Iterable[bytes]) -> Path:
     """A student's course folder; unpacked where it is not there yet, else left as it is.
 
     Args:
@@ -163,7 +166,7 @@ def student_folder(folder: Path, student: str, *, packages: Iterable[bytes]) -> 
             if said := update_progress(new / "course", lambda now: replace(now, student=student)):
                 raise BadRequest(said, where=str(course), advice="Allow writing there.")
             if FIRST <= (own := place.lstat().st_uid) < END:  # who removed their course
-                _give(new, own)
+                _change_owner(new, own)
             (new / "course").rename(course)
         finally:
             shutil.rmtree(new, ignore_errors=True)

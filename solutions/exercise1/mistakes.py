@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, replacing
+from grader.mistake import Mistake, replace_text
 
 ANSWERS = "answers.toml"
 ROW = re.compile(
@@ -170,11 +170,18 @@ MISTAKES = (
         "forward",
         "outside the accepted ±2 %, by a little",
     ),
-    Mistake("nothing", ANSWERS, replacing(("forward = ", 'forward = "" # ')), "forward", "nothing"),
-    Mistake("kA's unit", ANSWERS, replacing(("V·s/", "V·s²/")), "kv-unit", "to kA", "M-UNITS"),
+    Mistake(
+        "nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward", "nothing"
+    ),
+    Mistake("kA's unit", ANSWERS, replace_text(("V·s/", "V·s²/")), "kv-unit", "to kA", "M-UNITS"),
     Mistake("kS's unit", ANSWERS, unit("V"), "kv-unit", "to kS", "M-UNITS"),
     Mistake(
-        "no parentheses", ANSWERS, replacing(("V·s/", "V/s/")), "kv-unit", "parentheses", "M-UNITS"
+        "no parentheses",
+        ANSWERS,
+        replace_text(("V·s/", "V/s/")),
+        "kv-unit",
+        "parentheses",
+        "M-UNITS",
     ),
     Mistake("another length", ANSWERS, unit("V·s/in"), "kv-unit", "of the right kind", "M-UNITS"),
     Mistake("not a unit", ANSWERS, unit("volt per banana"), "kv-unit", "'banana' is not known"),
@@ -182,7 +189,7 @@ MISTAKES = (
     Mistake(
         "a word that is no term",
         ANSWERS,
-        replacing(("largest = ", 'largest = "torque" # ')),
+        replace_text(("largest = ", 'largest = "torque" # ')),
         "largest",
         "Choose one of: kS, kV, kA.",
     ),

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, replacing
+from grader.mistake import Mistake, replace_text
 
 JAVA, PYTHON = "ExampleMechanism.java", "example_mechanism.py"
 CLASS = r"(SimpleMotor|Elevator|Arm)Feedforward"
@@ -52,7 +52,7 @@ def other_output(text: str) -> str:
     return re.sub(r"(kP = \S+ \* CONVERSION)", r"\1 / 12", text)
 
 
-SWAPPED = replacing((".kV, CharacterizationConstants.kA", ".kA, CharacterizationConstants.kV"))
+SWAPPED = replace_text((".kV, CharacterizationConstants.kA", ".kA, CharacterizationConstants.kV"))
 
 MISTAKES = (
     Mistake(
@@ -145,7 +145,7 @@ MISTAKES = (
     Mistake(
         "kP as the last word",
         JAVA,
-        replacing(("the analyzer's suggestion: start here, then tune", "proportional gain")),
+        replace_text(("the analyzer's suggestion: start here, then tune", "proportional gain")),
         "kp",
         "Is this its last word?",
     ),
@@ -167,7 +167,7 @@ MISTAKES = (
     Mistake(
         "a class of another name",
         PYTHON,
-        replacing(("CharacterizationConstants", "Gains")),
+        replace_text(("CharacterizationConstants", "Gains")),
         "named",
         "is not in CharacterizationConstants",
     ),

@@ -1,6 +1,6 @@
 """Wrong answers to exercise 11, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, number, put
+from grader.mistake import Mistake, change_number, put_value
 
 ANSWERS = "answers.toml"
 
@@ -8,13 +8,15 @@ ANSWERS = "answers.toml"
 def chose(name: str, words: str, says: str, code: str = "") -> Mistake:
     """A wrong option, chosen by its first words: letters are everybody's own."""
     check = name.lower().replace("_", "-")
-    return Mistake(f"{name}: {words}", ANSWERS, put(name, f'"{words}"'), check, says, code)
+    return Mistake(f"{name}: {words}", ANSWERS, put_value(name, f'"{words}"'), check, says, code)
 
 
 MISTAKES = (
-    Mistake("nothing chosen", ANSWERS, put("KC1_answer", '""'), "kc1-answer", "nothing yet"),
-    Mistake("a number", ANSWERS, put("KC1_answer", "1"), "kc1-answer", "not a letter"),
-    Mistake("a letter too far", ANSWERS, put("KC1_answer", '"z"'), "kc1-answer", "one letter, a"),
+    Mistake("nothing chosen", ANSWERS, put_value("KC1_answer", '""'), "kc1-answer", "nothing yet"),
+    Mistake("a number", ANSWERS, put_value("KC1_answer", "1"), "kc1-answer", "not a letter"),
+    Mistake(
+        "a letter too far", ANSWERS, put_value("KC1_answer", '"z"'), "kc1-answer", "one letter, a"
+    ),
     chose("Q0_guess", "Which model of the physics", "records tests first"),
     chose("Q0_sysid", "Which gain makes it behave", "asked anew"),
     chose("Q0_brace", "kV", "does not stand in that formula", "M-KV-MASS"),
@@ -48,7 +50,7 @@ MISTAKES = (
     Mistake(
         "rpm as rotations per second",
         ANSWERS,
-        number("KC2_volts", lambda right: 60.0 * right["KC2_volts"]),
+        change_number("KC2_volts", lambda right: 60.0 * right["KC2_volts"]),
         "kc2-volts",
         "rpm are rotations in a minute",
         "M-UNITS",
@@ -56,7 +58,7 @@ MISTAKES = (
     Mistake(
         "an output for the voltage",
         ANSWERS,
-        number("KC2_volts", lambda right: right["KC2_volts"] / 12.0),
+        change_number("KC2_volts", lambda right: right["KC2_volts"] / 12.0),
         "kc2-volts",
         "volts",
         "M-DUTY",
@@ -64,32 +66,36 @@ MISTAKES = (
     Mistake(
         "no test for the drivetrain",
         ANSWERS,
-        put("drivetrain", '"usually not"'),
+        put_value("drivetrain", '"usually not"'),
         "decision-drivetrain",
         "autonomous path",
     ),
     Mistake(
         "a shooter that may be guessed",
         ANSWERS,
-        put("shooter", '"optional"'),
+        put_value("shooter", '"optional"'),
         "decision-shooter",
         "3 % less speed",
     ),
     Mistake(
         "always, without a reason that carries it",
         ANSWERS,
-        put("conveyor", '"always"'),
+        put_value("conveyor", '"always"'),
         "decision-conveyor",
         "do better",
     ),
     Mistake(
         "a word that is none",
         ANSWERS,
-        put("arm", '"maybe"'),
+        put_value("arm", '"maybe"'),
         "decision-arm",
         "Choose one of: always, recommended, optional, usually not",
     ),
     Mistake(
-        "no reason", ANSWERS, put("climber_reason", '""'), "reason-climber", "letter of a reason"
+        "no reason",
+        ANSWERS,
+        put_value("climber_reason", '""'),
+        "reason-climber",
+        "letter of a reason",
     ),
 )

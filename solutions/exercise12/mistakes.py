@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put
+from grader.mistake import Mistake, put_value
 
 ANSWERS = "answers.toml"
 LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)
@@ -33,11 +33,11 @@ def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
 
 
 MISTAKES = (
-    Mistake("no effect named", ANSWERS, put("effects", "[]"), "first-effect", "nothing yet"),
+    Mistake("no effect named", ANSWERS, put_value("effects", "[]"), "first-effect", "nothing yet"),
     Mistake(
         "kA fixes it",
         ANSWERS,
-        put("effects", '["kA"]'),
+        put_value("effects", '["kA"]'),
         "first-effect",
         "hides what is missing",
     ),
@@ -54,7 +54,7 @@ MISTAKES = (
     Mistake(
         "a word of one's own",
         ANSWERS,
-        put("effects", '["air resistance"]'),
+        put_value("effects", '["air resistance"]'),
         "first-effect",
         "sysid effects lists the names",
     ),
@@ -119,12 +119,16 @@ MISTAKES = (
         "M-UNITS",
     ),
     Mistake(
-        "no gaps written down", ANSWERS, put("gap_after", '""'), "held-out", "gap_after: nothing"
+        "no gaps written down",
+        ANSWERS,
+        put_value("gap_after", '""'),
+        "held-out",
+        "gap_after: nothing",
     ),
     Mistake(
         "a gap below what noise allows",
         ANSWERS,
-        put("gap_after", "0.2"),
+        put_value("gap_after", "0.2"),
         "held-out",
         "not the gap of your model",
     ),

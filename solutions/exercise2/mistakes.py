@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, number, put, scaled
+from grader.mistake import Mistake, change_number, put_value, scale_numbers
 
 ANSWERS = "answers.toml"
 
@@ -17,12 +17,12 @@ def measured(right: str) -> float:
 
 def verdict(text: str) -> str:
     """A verdict of another bucket: ok, or what a low kV is called."""
-    return put("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
+    return put_value("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
 
 
 def flag(text: str) -> str:
     """Another word about kS."""
-    return put("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
+    return put_value("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
 
 
 def wires_first(text: str) -> str:
@@ -36,15 +36,15 @@ def wires_first(text: str) -> str:
 
 def causes(*words: str) -> Callable[[str], str]:
     """Make another list of causes."""
-    return put("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
+    return put_value("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
 
 
 MISTAKES = (
-    Mistake("nothing", ANSWERS, put("kV_theory", '""'), "kv-theory", "nothing yet"),
+    Mistake("nothing", ANSWERS, put_value("kV_theory", '""'), "kv-theory", "nothing yet"),
     Mistake(
         "divided by rpm",
         ANSWERS,
-        scaled(1 / 60, "kV_theory"),
+        scale_numbers(1 / 60, "kV_theory"),
         "kv-theory",
         "Did you divide by rpm?",
         "M-UNITS",
@@ -52,7 +52,7 @@ MISTAKES = (
     Mistake(
         "radians for rotations, or no way around the wheel",
         ANSWERS,
-        scaled(1 / (2 * math.pi), "kV_theory"),
+        scale_numbers(1 / (2 * math.pi), "kV_theory"),
         "kv-theory",
         "2π = 6.28",
         "M-UNITS",
@@ -60,7 +60,7 @@ MISTAKES = (
     Mistake(
         "one volt for twelve",
         ANSWERS,
-        scaled(1 / 12, "kV_theory"),
+        scale_numbers(1 / 12, "kV_theory"),
         "kv-theory",
         "12 V is a full battery",
         "M-DUTY",
@@ -68,14 +68,16 @@ MISTAKES = (
     Mistake(
         "the measured kV",
         ANSWERS,
-        lambda text: number("kV_theory", lambda right: right["kV_theory"] * measured(text))(text),
+        lambda text: change_number("kV_theory", lambda right: right["kV_theory"] * measured(text))(
+            text
+        ),
         "kv-theory",
         "that is the measured kV",
     ),
     Mistake(
         "a unit that measures something else",
         ANSWERS,
-        put("kV_theory", '"2 m/s"'),
+        put_value("kV_theory", '"2 m/s"'),
         "kv-theory",
         "does not measure",
         "M-UNITS",
@@ -83,30 +85,32 @@ MISTAKES = (
     Mistake(
         "a number from nowhere",
         ANSWERS,
-        scaled(1.37, "kV_theory"),
+        scale_numbers(1.37, "kV_theory"),
         "kv-theory",
         "outside the accepted ±2 %",
     ),
-    Mistake("a share", ANSWERS, scaled(0.01, "difference"), "difference", "that is a share"),
-    Mistake("above for below", ANSWERS, scaled(-1, "difference"), "difference", "the sign is not"),
+    Mistake("a share", ANSWERS, scale_numbers(0.01, "difference"), "difference", "that is a share"),
+    Mistake(
+        "above for below", ANSWERS, scale_numbers(-1, "difference"), "difference", "the sign is not"
+    ),
     Mistake(
         "percent of theory",
         ANSWERS,
-        number("difference", lambda right: right["difference"] + 100.0),
+        change_number("difference", lambda right: right["difference"] + 100.0),
         "difference",
         "How much more than 100 %",
     ),
     Mistake(
         "a difference from nowhere",
         ANSWERS,
-        number("difference", lambda right: right["difference"] + 41.0),
+        change_number("difference", lambda right: right["difference"] + 41.0),
         "difference",
         "outside the accepted ±1 %",
     ),
     Mistake(
         "a word that is none",
         ANSWERS,
-        put("verdict", '"great"'),
+        put_value("verdict", '"great"'),
         "verdict",
         "Choose one of: bookkeeping, ok, watch, inspect",
     ),
@@ -147,7 +151,11 @@ MISTAKES = (
         "name at least 2 causes",
     ),
     Mistake(
-        "no list", ANSWERS, put("inspection", "[]"), "inspection", "Choose from: constant-friction"
+        "no list",
+        ANSWERS,
+        put_value("inspection", "[]"),
+        "inspection",
+        "Choose from: constant-friction",
     ),
     Mistake(
         "a cause that there is not",

@@ -2,7 +2,7 @@
 
 import math
 
-from grader.mistake import Mistake, Numbers, exchanged, number, replacing
+from grader.mistake import Mistake, Numbers, change_number, exchange_numbers, replace_text
 
 ANSWERS = "answers.toml"
 
@@ -19,14 +19,14 @@ MISTAKES = (
     Mistake(
         "nothing for kG",
         ANSWERS,
-        replacing(("elevator_kG = ", 'elevator_kG = "" # ')),
+        replace_text(("elevator_kG = ", 'elevator_kG = "" # ')),
         "elevator-kg",
         "nothing yet",
     ),
     Mistake(
         "where it begins to rise for the elevator's kG",
         ANSWERS,
-        number("elevator_kG", lambda right: right["elevator_kG"] + right["elevator_kS"]),
+        change_number("elevator_kG", lambda right: right["elevator_kG"] + right["elevator_kS"]),
         "elevator-kg",
         "an edge of the band",
         EDGE,
@@ -34,7 +34,7 @@ MISTAKES = (
     Mistake(
         "where it does not fall for the elevator's kG",
         ANSWERS,
-        number("elevator_kG", lambda right: right["elevator_kG"] - right["elevator_kS"]),
+        change_number("elevator_kG", lambda right: right["elevator_kG"] - right["elevator_kS"]),
         "elevator-kg",
         "an edge of the band",
         EDGE,
@@ -42,7 +42,7 @@ MISTAKES = (
     Mistake(
         "both edges added up",
         ANSWERS,
-        number("elevator_kG", lambda right: 2.0 * right["elevator_kG"]),
+        change_number("elevator_kG", lambda right: 2.0 * right["elevator_kG"]),
         "elevator-kg",
         "added up",
         EDGE,
@@ -50,7 +50,7 @@ MISTAKES = (
     Mistake(
         "the whole band for the elevator's kS",
         ANSWERS,
-        number("elevator_kS", lambda right: 2.0 * right["elevator_kS"]),
+        change_number("elevator_kS", lambda right: 2.0 * right["elevator_kS"]),
         "elevator-ks",
         "the whole width",
         EDGE,
@@ -58,7 +58,7 @@ MISTAKES = (
     Mistake(
         "a quarter of the band for the arm's kS",
         ANSWERS,
-        number("arm_kS", lambda right: right["arm_kS"] / 2.0),
+        change_number("arm_kS", lambda right: right["arm_kS"] / 2.0),
         "arm-ks",
         "a quarter of the width",
         EDGE,
@@ -66,7 +66,7 @@ MISTAKES = (
     Mistake(
         "gravity and friction in one",
         ANSWERS,
-        number("elevator_kS", lambda right: right["elevator_kG"] + right["elevator_kS"]),
+        change_number("elevator_kS", lambda right: right["elevator_kG"] + right["elevator_kS"]),
         "elevator-ks",
         "in one",
         SIMPLE,
@@ -74,7 +74,7 @@ MISTAKES = (
     Mistake(
         "no gravity at all",
         ANSWERS,
-        number("elevator_kG", lambda _: 0.0),
+        change_number("elevator_kG", lambda _: 0.0),
         "elevator-kg",
         "takes nothing",
         SIMPLE,
@@ -82,7 +82,7 @@ MISTAKES = (
     Mistake(
         "kG and kS swapped",
         ANSWERS,
-        exchanged("elevator_kG", "elevator_kS"),
+        exchange_numbers("elevator_kG", "elevator_kS"),
         "elevator-kg",
         "swapped?",
         "M-ARGORDER",
@@ -90,7 +90,7 @@ MISTAKES = (
     Mistake(
         "an edge for the arm's kG",
         ANSWERS,
-        number("arm_kG", lambda right: right["arm_kG"] + right["arm_kS"]),
+        change_number("arm_kG", lambda right: right["arm_kG"] + right["arm_kS"]),
         "arm-kg",
         "an edge of the band",
         EDGE,
@@ -98,7 +98,7 @@ MISTAKES = (
     Mistake(
         "the reading taken for the angle",
         ANSWERS,
-        number(
+        change_number(
             "arm_kG",
             lambda right: right["arm_kG"] * math.cos(math.radians(right["arm_offset"])),
         ),
@@ -108,7 +108,7 @@ MISTAKES = (
     Mistake(
         "degrees in the cosine",
         ANSWERS,
-        number("arm_kG", in_degrees),
+        change_number("arm_kG", in_degrees),
         "arm-kg",
         "counts in radians",
         UNITS,
@@ -116,14 +116,14 @@ MISTAKES = (
     Mistake(
         "the offset turned around",
         ANSWERS,
-        number("arm_offset", lambda right: -right["arm_offset"]),
+        change_number("arm_offset", lambda right: -right["arm_offset"]),
         "arm-offset",
         "the sign is not",
     ),
     Mistake(
         "the offset in radians",
         ANSWERS,
-        number("arm_offset", lambda right: math.radians(right["arm_offset"])),
+        change_number("arm_offset", lambda right: math.radians(right["arm_offset"])),
         "arm-offset",
         "in radians?",
         UNITS,
@@ -131,14 +131,14 @@ MISTAKES = (
     Mistake(
         "the offset from vertical",
         ANSWERS,
-        number("arm_offset", lambda right: right["arm_offset"] - 90.0),
+        change_number("arm_offset", lambda right: right["arm_offset"] - 90.0),
         "arm-offset",
         "from vertical?",
     ),
     Mistake(
         "cosine over sine for the tangent",
         ANSWERS,
-        number(
+        change_number(
             "arm_offset",
             lambda right: math.copysign(90.0, right["arm_offset"]) - right["arm_offset"],
         ),
@@ -148,7 +148,7 @@ MISTAKES = (
     Mistake(
         "an offset in volts",
         ANSWERS,
-        replacing(("arm_offset = ", 'arm_offset = "3 V" # ')),
+        replace_text(("arm_offset = ", 'arm_offset = "3 V" # ')),
         "arm-offset",
         "does not measure",
         UNITS,
@@ -156,7 +156,7 @@ MISTAKES = (
     Mistake(
         "Simple for the elevator",
         ANSWERS,
-        replacing(('elevator_type = "Elevator"', 'elevator_type = "Simple"')),
+        replace_text(('elevator_type = "Elevator"', 'elevator_type = "Simple"')),
         "elevator-type",
         "knows no gravity",
         SIMPLE,
@@ -164,7 +164,7 @@ MISTAKES = (
     Mistake(
         "a motor's class for the arm",
         ANSWERS,
-        replacing(('"ArmFeedforward"', '"SimpleMotorFeedforward"')),
+        replace_text(('"ArmFeedforward"', '"SimpleMotorFeedforward"')),
         "arm-class",
         "knows no gravity",
         SIMPLE,
@@ -172,21 +172,21 @@ MISTAKES = (
     Mistake(
         "the elevator's type for the arm",
         ANSWERS,
-        replacing(('arm_type = "Arm"', 'arm_type = "elevator"')),
+        replace_text(('arm_type = "Arm"', 'arm_type = "elevator"')),
         "arm-type",
         "change with an angle",
     ),
     Mistake(
         "a class that there is not",
         ANSWERS,
-        replacing(('"ElevatorFeedforward"', '"LiftFeedforward"')),
+        replace_text(('"ElevatorFeedforward"', '"LiftFeedforward"')),
         "elevator-class",
         "Choose one of: SimpleMotorFeedforward, ArmFeedforward, ElevatorFeedforward",
     ),
     Mistake(
         "a number for a word",
         ANSWERS,
-        replacing(('arm_type = "Arm"', "arm_type = 2")),
+        replace_text(('arm_type = "Arm"', "arm_type = 2")),
         "arm-type",
         "not a word",
     ),

@@ -1,6 +1,6 @@
 """Wrong answers to exercise 4, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, replacing
+from grader.mistake import Mistake, replace_text
 
 JAVA, PYTHON = "ExampleSubsystem.java", "example_subsystem.py"
 
@@ -18,7 +18,7 @@ MISTAKES = (
     Mistake(
         "the routine is never made",
         JAVA,
-        replacing(
+        replace_text(
             ("private final SysIdRoutine m_routine =\n      new SysIdRoutine(\n", ""),
             (f"          {CONFIG},\n", ""),
             (f"          {MECHANISM});\n", ""),
@@ -29,7 +29,7 @@ MISTAKES = (
     Mistake(
         "a ramp in volts",
         JAVA,
-        replacing(("Volts.of(0.5).per(Second)", "Volts.of(0.5)")),
+        replace_text(("Volts.of(0.5).per(Second)", "Volts.of(0.5)")),
         "ramp",
         "The ramp is in V/s",
         "M-UNITS",
@@ -37,14 +37,14 @@ MISTAKES = (
     Mistake(
         "half a volt by dividing whole numbers",
         JAVA,
-        replacing(("Volts.of(0.5)", "Volts.of(1 / 2)")),
+        replace_text(("Volts.of(0.5)", "Volts.of(1 / 2)")),
         "ramp",
         "1 / 2 is 0",
     ),
     Mistake(
         "a slower ramp, to be on the safe side",
         PYTHON,
-        replacing(("rampRate=0.5", "rampRate=0.25")),
+        replace_text(("rampRate=0.5", "rampRate=0.25")),
         "ramp",
         "Slower is not safer",
         "M-SLOW-SAFE",
@@ -52,28 +52,28 @@ MISTAKES = (
     Mistake(
         "a ramp left to WPILib",
         JAVA,
-        replacing(("Volts.of(0.5).per(Second)", "null")),
+        replace_text(("Volts.of(0.5).per(Second)", "null")),
         "ramp",
         "WPILib's default, 1 V/s",
     ),
     Mistake(
         "None where Java would take null",
         PYTHON,
-        replacing(("rampRate=0.5", "rampRate=None")),
+        replace_text(("rampRate=0.5", "rampRate=None")),
         "ramp",
         "RobotPy stops with a TypeError",
     ),
     Mistake(
         "the step of the lesson's example",
         JAVA,
-        replacing(("Volts.of(3.5)", "Volts.of(3.0)")),
+        replace_text(("Volts.of(3.5)", "Volts.of(3.0)")),
         "step",
         "3 V is the lesson's own example",
     ),
     Mistake(
         "a step left to WPILib",
         JAVA,
-        replacing(("Volts.of(3.5)", "null")),
+        replace_text(("Volts.of(3.5)", "null")),
         "step",
         "7 V, WPILib's default, is almost always too much",
         "M-BIG-STEP",
@@ -81,21 +81,21 @@ MISTAKES = (
     Mistake(
         "a step that only running the code could tell",
         PYTHON,
-        replacing(("stepVoltage=3.5", "stepVoltage=load_step()")),
+        replace_text(("stepVoltage=3.5", "stepVoltage=load_step()")),
         "step",
         "I cannot tell the step voltage by reading load_step()",
     ),
     Mistake(
         "a timeout of one minute",
         JAVA,
-        replacing(("Seconds.of(10)", "Minutes.of(1)")),
+        replace_text(("Seconds.of(10)", "Minutes.of(1)")),
         "timeout",
         "60 s",
     ),
     Mistake(
         "a share of the battery, Java",
         JAVA,
-        replacing(
+        replace_text(
             (LEFT, "m_left.set(voltage.in(Volts) / 12.0)"),
             (RIGHT, "m_right.set(voltage.in(Volts) / 12.0)"),
         ),
@@ -106,7 +106,7 @@ MISTAKES = (
     Mistake(
         "a share of the battery, Python",
         PYTHON,
-        replacing(
+        replace_text(
             ("self.left.setVoltage(voltage)", "self.left.set(voltage / 12)"),
             ("self.right.setVoltage(voltage)", "self.right.set(voltage / 12)"),
         ),
@@ -117,7 +117,7 @@ MISTAKES = (
     Mistake(
         "volts divided by twelve and sent as volts",
         JAVA,
-        replacing((LEFT, "m_left.setVoltage(voltage.in(Volts) / 12)")),
+        replace_text((LEFT, "m_left.setVoltage(voltage.in(Volts) / 12)")),
         "drive",
         "takes the volts as they come",
         "M-DUTY",
@@ -125,7 +125,7 @@ MISTAKES = (
     Mistake(
         "a closed loop in the drive callback",
         JAVA,
-        replacing(
+        replace_text(
             (LEFT, "m_left.setControl(new VelocityVoltage(voltage.in(Volts)))"),
             (RIGHT, "m_right.setControl(new VelocityVoltage(voltage.in(Volts)))"),
         ),
@@ -136,35 +136,35 @@ MISTAKES = (
     Mistake(
         "only one of two motors driven",
         JAVA,
-        replacing((f"    {RIGHT};\n", "")),
+        replace_text((f"    {RIGHT};\n", "")),
         "drive",
         "m_right gets no voltage",
     ),
     Mistake(
         "one motor driven backward, though nothing inverts it",
         JAVA,
-        replacing((RIGHT, RIGHT.replace("voltage", "-voltage"))),
+        replace_text((RIGHT, RIGHT.replace("voltage", "-voltage"))),
         "drive",
         "the sign of the voltage is changed",
     ),
     Mistake(
         "always the same voltage",
         PYTHON,
-        replacing(("setVoltage(voltage)", "setVoltage(3.5)")),
+        replace_text(("setVoltage(voltage)", "setVoltage(3.5)")),
         "drive",
         "the same whatever the test asks for",
     ),
     Mistake(
         "no log callback",
         JAVA,
-        replacing(("this::record", "null")),
+        replace_text(("this::record", "null")),
         "log",
         "null in place of the log callback",
     ),
     Mistake(
         "the voltage that was asked for in the log",
         JAVA,
-        replacing(
+        replace_text(
             (
                 "  /** Called in every loop",
                 "  private double m_asked;\n\n  /** Called in every loop",
@@ -179,14 +179,14 @@ MISTAKES = (
     Mistake(
         "no velocity in the log",
         PYTHON,
-        replacing((".velocity(self.left_encoder.getRate())", "")),
+        replace_text((".velocity(self.left_encoder.getRate())", "")),
         "log",
         "no velocity of left",
     ),
     Mistake(
         "one side's numbers under both names",
         JAVA,
-        replacing(
+        replace_text(
             *((f"{part}m_right)", f"{part}m_left)") for part in ("Meters(", "Second(")),
             ("m_right.getMotorVoltage", "m_left.getMotorVoltage"),
         ),
@@ -196,21 +196,21 @@ MISTAKES = (
     Mistake(
         "the velocity in place of the position",
         JAVA,
-        replacing(("Meters.of(getMeters(m_left))", "Meters.of(getMetersPerSecond(m_left))")),
+        replace_text(("Meters.of(getMeters(m_left))", "Meters.of(getMetersPerSecond(m_left))")),
         "log",
         "the position of left is the velocity of m_left",
     ),
     Mistake(
         "one side is not in the log",
         PYTHON,
-        replacing(*((line, "") for line in LOGGED_RIGHT)),
+        replace_text(*((line, "") for line in LOGGED_RIGHT)),
         "log",
         "no right motor in the log",
     ),
     Mistake(
         "rotations under the name of meters",
         JAVA,
-        replacing(
+        replace_text(
             ("getMeters(m_left)", "m_left.getPosition().getValueAsDouble()"),
             ("getMetersPerSecond(m_left)", "m_left.getVelocity().getValueAsDouble()"),
         ),
@@ -221,7 +221,7 @@ MISTAKES = (
     Mistake(
         "the position in meters, the velocity in rotations",
         JAVA,
-        replacing(
+        replace_text(
             (
                 ".linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_left)))",
                 ".angularVelocity(RotationsPerSecond.of(m_left.getVelocity().getValueAsDouble()))",
@@ -234,7 +234,7 @@ MISTAKES = (
     Mistake(
         "an arm in meters",
         PYTHON,
-        replacing(("ExampleSubsystem", "ArmSubsystem")),
+        replace_text(("ExampleSubsystem", "ArmSubsystem")),
         "units",
         "moves in Rotations or Radians",
         "M-UNITS",
@@ -242,7 +242,7 @@ MISTAKES = (
     Mistake(
         "the two arguments swapped",
         JAVA,
-        replacing(
+        replace_text(
             (CONFIG, "CONFIG"),
             (MECHANISM, CONFIG),
             ("CONFIG,", f"{MECHANISM},"),
@@ -254,14 +254,14 @@ MISTAKES = (
     Mistake(
         "the subsystem forgotten",
         JAVA,
-        replacing((", this))", ", null))")),
+        replace_text((", this))", ", null))")),
         "assembled",
         "no this among the Mechanism's arguments",
     ),
     Mistake(
         "a class that is no subsystem",
         PYTHON,
-        replacing(("class ExampleSubsystem(Subsystem)", "class ExampleSubsystem")),
+        replace_text(("class ExampleSubsystem(Subsystem)", "class ExampleSubsystem")),
         "assembled",
         "not a subsystem",
     ),

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, replacing
+from grader.mistake import Mistake, replace_text
 
 JAVA, PYTHON = "RobotContainer.java", "robotcontainer.py"
 
@@ -29,35 +29,35 @@ MISTAKES = (
     Mistake(
         "started by a press",
         JAVA,
-        replacing(("whileTrue", "onTrue")),
+        replace_text(("whileTrue", "onTrue")),
         "held",
         "runs to its timeout even after release",
     ),
     Mistake(
         "started by a press, Python",
         PYTHON,
-        replacing(("whileTrue", "onTrue")),
+        replace_text(("whileTrue", "onTrue")),
         "held",
         "runs to its timeout even after release",
     ),
     Mistake(
         "started by one press and stopped by another",
         JAVA,
-        replacing(("whileTrue", "toggleOnTrue")),
+        replace_text(("whileTrue", "toggleOnTrue")),
         "held",
         "takes a second press to stop",
     ),
     Mistake(
         "running while nobody holds the button",
         PYTHON,
-        replacing(("whileTrue", "whileFalse")),
+        replace_text(("whileTrue", "whileFalse")),
         "held",
         "runs as long as nobody presses",
     ),
     Mistake(
         "handed to the scheduler, and let go",
         JAVA,
-        replacing(
+        replace_text(
             ("m_subsystem.sysId", "Commands.runOnce(() -> m_subsystem.sysId"),
             ("Direction.kForward));", "Direction.kForward).schedule()));"),
             ("Direction.kReverse));", "Direction.kReverse).schedule()));"),
@@ -68,28 +68,28 @@ MISTAKES = (
     Mistake(
         "two tests on one button",
         JAVA,
-        replacing(("m_driverController.b()", "m_driverController.a()")),
+        replace_text(("m_driverController.b()", "m_driverController.a()")),
         "held",
         "share the trigger",
     ),
     Mistake(
         "two tests on one button, Python",
         PYTHON,
-        replacing(("self.driver.y()", "self.driver.x()")),
+        replace_text(("self.driver.y()", "self.driver.x()")),
         "held",
         "share the trigger",
     ),
     Mistake(
         "a method with the bindings that nobody calls",
         JAVA,
-        replacing(("    configureBindings();\n", "")),
+        replace_text(("    configureBindings();\n", "")),
         "held",
         "nothing calls configureBindings",
     ),
     Mistake(
         "forward twice, never reverse",
         JAVA,
-        replacing(
+        replace_text(
             (
                 (
                     "b().and(testing).whileTrue(\n"
@@ -107,14 +107,14 @@ MISTAKES = (
     Mistake(
         "quasistatic twice, never dynamic",
         PYTHON,
-        replacing(("self.subsystem.dynamic(", "self.subsystem.quasistatic(")),
+        replace_text(("self.subsystem.dynamic(", "self.subsystem.quasistatic(")),
         "each-once",
         "quasistatic forward twice",
     ),
     Mistake(
         "a routine's dynamic method that runs the quasistatic test",
         JAVA,
-        replacing(("m_routine.dynamic(", "m_routine.quasistatic(")),
+        replace_text(("m_routine.dynamic(", "m_routine.quasistatic(")),
         "factories",
         "no method makes dynamic forward and dynamic reverse",
     ),
@@ -129,21 +129,21 @@ MISTAKES = (
     Mistake(
         "methods that others may not call",
         JAVA,
-        replacing(("public Command sysId", "private Command sysId")),
+        replace_text(("public Command sysId", "private Command sysId")),
         "factories",
         "other classes may not call sysIdQuasistatic",
     ),
     Mistake(
         "methods that others should not call",
         PYTHON,
-        replacing((" quasistatic(", " _quasistatic("), ("subsystem.quasi", "subsystem._quasi")),
+        replace_text((" quasistatic(", " _quasistatic("), ("subsystem.quasi", "subsystem._quasi")),
         "factories",
         "without a _ in front",
     ),
     Mistake(
         "no methods",
         JAVA,
-        replacing(
+        replace_text(
             ("m_subsystem.sysIdQuasistatic", "m_subsystem.m_routine.quasistatic"),
             ("m_subsystem.sysIdDynamic", "m_subsystem.m_routine.dynamic"),
             (FACTORY.format("Quasistatic", "quasistatic") + "direction);\n  }\n", ""),
@@ -155,53 +155,57 @@ MISTAKES = (
     Mistake(
         "comments that name the test only",
         JAVA,
-        replacing((": a slow ramp, which measures kS and kV", "")),
+        replace_text((": a slow ramp, which measures kS and kV", "")),
         "comments",
         "Which property of the mechanism",
     ),
     Mistake(
         "comments that name the property only",
         PYTHON,
-        replacing(("Dynamic, forward: a step, which measures kA", "For kA")),
+        replace_text(("Dynamic, forward: a step, which measures kA", "For kA")),
         "comments",
         "Which of the tests is this",
     ),
     Mistake(
         "comments that name neither",
         JAVA,
-        replacing(("Dynamic, reverse: kA once more, from the other side", "Test D")),
+        replace_text(("Dynamic, reverse: kA once more, from the other side", "Test D")),
         "comments",
         "Name the test, quasistatic or dynamic",
     ),
     Mistake(
         "kA from the slow ramp",
         PYTHON,
-        replacing(("which measures kS and kV", "which measures kA")),
+        replace_text(("which measures kS and kV", "which measures kA")),
         "comments",
         "That is what the dynamic test measures",
     ),
     Mistake("no comment", JAVA, without("Dynamic, forward"), "comments", "no comment beside"),
     Mistake(
-        "no guard", JAVA, replacing((GUARD, "")), "guard", "Ask for something a driver never does"
+        "no guard",
+        JAVA,
+        replace_text((GUARD, "")),
+        "guard",
+        "Ask for something a driver never does",
     ),
     Mistake(
         "no guard, Python",
         PYTHON,
-        replacing((GUARD_PYTHON, "")),
+        replace_text((GUARD_PYTHON, "")),
         "guard",
         "Ask for something a driver never does",
     ),
     Mistake(
         "a guard on two of four",
         JAVA,
-        replacing((f"x(){GUARD}", "x()"), (f"y(){GUARD}", "y()")),
+        replace_text((f"x(){GUARD}", "x()"), (f"y(){GUARD}", "y()")),
         "guard",
         "2 of 4 bindings are guarded",
     ),
     Mistake(
         "test mode asked while the robot starts",
         PYTHON,
-        replacing(
+        replace_text(
             (GUARD_PYTHON, ""),
             (
                 "        self.configure_bindings()",
@@ -214,21 +218,21 @@ MISTAKES = (
     Mistake(
         "a guard that a match opens",
         JAVA,
-        replacing(("RobotModeTriggers.test()", "RobotModeTriggers.teleop()")),
+        replace_text(("RobotModeTriggers.test()", "RobotModeTriggers.teleop()")),
         "guard",
         "a mode other than test mode",
     ),
     Mistake(
         "the guard inverted",
         JAVA,
-        replacing(("RobotModeTriggers.test()", "RobotModeTriggers.test().negate()")),
+        replace_text(("RobotModeTriggers.test()", "RobotModeTriggers.test().negate()")),
         "guard",
         "Ask for test mode itself",
     ),
     Mistake(
         "the guard inverted, Python",
         PYTHON,
-        replacing(
+        replace_text(
             (
                 "testing = wpilib.DriverStation.isTest\n",
                 "testing = lambda: not wpilib.DriverStation.isTest()\n",

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put, scaled
+from grader.mistake import Mistake, put_value, scale_numbers
 
 ANSWERS = "answers.toml"
 BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
@@ -13,7 +13,7 @@ def puts(**values: str) -> Callable[[str], str]:
 
     def make(text: str) -> str:
         for name, value in values.items():
-            text = put(name, value)(text)
+            text = put_value(name, value)(text)
         return text
 
     return make
@@ -25,7 +25,7 @@ MISTAKES = (
     Mistake(
         "nothing for the ramp",
         ANSWERS,
-        put("drivetrain_ramp", '""'),
+        put_value("drivetrain_ramp", '""'),
         "drivetrain",
         "drivetrain_ramp: nothing yet",
     ),
@@ -47,7 +47,7 @@ MISTAKES = (
     Mistake(
         "a step that burns rubber",
         ANSWERS,
-        put("drivetrain_step", "11"),
+        put_value("drivetrain_step", "11"),
         "drivetrain",
         "They spin, and the encoder counts",
         BIG,
@@ -55,7 +55,7 @@ MISTAKES = (
     Mistake(
         "a step beyond the current limit",
         ANSWERS,
-        put("shooter_step", "9"),
+        put_value("shooter_step", "9"),
         "shooter",
         "at standstill your step draws",
         BIG,
@@ -63,42 +63,44 @@ MISTAKES = (
     Mistake(
         "a step that drowns in noise",
         ANSWERS,
-        put("turret_step", "0.5"),
+        put_value("turret_step", "0.5"),
         "turret",
         "It drowns in noise",
     ),
     Mistake(
         "a step that gravity eats",
         ANSWERS,
-        put("elevator_step", "0.3"),
+        put_value("elevator_step", "0.3"),
         "elevator",
         "does not move it",
     ),
     Mistake(
         "a timeout that ends it too soon",
         ANSWERS,
-        put("shooter_timeout", "2"),
+        put_value("shooter_timeout", "2"),
         "shooter",
         "s until the timeout; at least 3 s",
     ),
     Mistake(
         "a steep ramp to the same mark",
         ANSWERS,
-        scaled(3.0, "elevator_ramp"),
+        scale_numbers(3.0, "elevator_ramp"),
         "elevator",
         "s until your mark; at least 3 s",
     ),
     Mistake(
         "a mark too far away",
         ANSWERS,
-        lambda text: put("elevator_timeout", "10")(scaled(4.0, "elevator_release")(text)),
+        lambda text: put_value("elevator_timeout", "10")(
+            scale_numbers(4.0, "elevator_release")(text)
+        ),
         "elevator",
         "m of run; you have",
     ),
     Mistake(
         "a timeout that saves nobody",
         ANSWERS,
-        put("shooter_timeout", "30"),
+        put_value("shooter_timeout", "30"),
         "shooter",
         "no test may be longer",
     ),
@@ -112,14 +114,14 @@ MISTAKES = (
     Mistake(
         "a step turned around",
         ANSWERS,
-        scaled(-1.0, "turret_step"),
+        scale_numbers(-1.0, "turret_step"),
         "turret",
         "Choose a number above 0",
     ),
     Mistake(
         "a speed for a mark",
         ANSWERS,
-        put("drivetrain_release", '"3 m/s"'),
+        put_value("drivetrain_release", '"3 m/s"'),
         "drivetrain",
         "does not measure",
         "M-UNITS",
@@ -127,7 +129,7 @@ MISTAKES = (
     Mistake(
         "a mark that is none",
         ANSWERS,
-        put("elevator_release", '"at the top"'),
+        put_value("elevator_release", '"at the top"'),
         "elevator",
         "if nobody lets go before it",
     ),
@@ -148,35 +150,35 @@ MISTAKES = (
     Mistake(
         "a decision that is none",
         ANSWERS,
-        put("check_guard", '"perhaps"'),
+        put_value("check_guard", '"perhaps"'),
         "checklist",
         "Choose one of: go, no-go",
     ),
     Mistake(
         "gains before they are looked at",
         ANSWERS,
-        put("steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'),
+        put_value("steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'),
         "steps",
         "place-gains comes too early",
     ),
     Mistake(
         "three steps",
         ANSWERS,
-        put("steps", '["wire-routine", "run-tests", "place-gains"]'),
+        put_value("steps", '["wire-routine", "run-tests", "place-gains"]'),
         "steps",
         "each of the four once",
     ),
     Mistake(
         "where the program lies",
         ANSWERS,
-        put("log_2026", '"/home/lvuser/deploy"'),
+        put_value("log_2026", '"/home/lvuser/deploy"'),
         "log-2026",
         "there your program lies",
     ),
     Mistake(
         "last year's controller",
         ANSWERS,
-        put("log_2027", '"/home/lvuser/logs"'),
+        put_value("log_2027", '"/home/lvuser/logs"'),
         "log-2027",
         "another user than a roboRIO",
     ),
@@ -191,7 +193,7 @@ MISTAKES = (
     Mistake(
         "in the pit",
         ANSWERS,
-        put("schedule", '"first-regional"'),
+        put_value("schedule", '"first-regional"'),
         "schedule",
         "where is room?",
     ),

@@ -6,7 +6,7 @@ They change the first log, which has one fault in a part of one test.
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put
+from grader.mistake import Mistake, put_value
 
 ANSWERS = "answers.toml"
 FIRST = re.compile(
@@ -32,7 +32,7 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
             raise ValueError("the first line of the solution is not what it was")
         parts = found.groupdict()
         parts |= {name: change(parts[name]) for name, change in changes.items()}
-        return put("log01", f'"{line.format(**parts)}"')(text)
+        return put_value("log01", f'"{line.format(**parts)}"')(text)
 
     return make
 
@@ -41,9 +41,14 @@ WHOLE = "{fault}, {kind}-{way}, {begin} to {end}, {action}"
 
 MISTAKES = (
     Mistake(
-        "all sound, as R² is fine", ANSWERS, put("log01", '"clean"'), "log01", "a fine R²", "M-R2"
+        "all sound, as R² is fine",
+        ANSWERS,
+        put_value("log01", '"clean"'),
+        "log01",
+        "a fine R²",
+        "M-R2",
     ),
-    Mistake("nothing", ANSWERS, put("log01", '""'), "log01", "nothing yet"),
+    Mistake("nothing", ANSWERS, put_value("log01", '""'), "log01", "nothing yet"),
     Mistake(
         "what it is taken for",
         ANSWERS,
@@ -79,7 +84,7 @@ MISTAKES = (
     Mistake(
         "a word that is none",
         ANSWERS,
-        put("log01", '"sensor broke, rerun"'),
+        put_value("log01", '"sensor broke, rerun"'),
         "log01",
         "Choose one of: clean, encoder-slip",
     ),

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put, scaled
+from grader.mistake import Mistake, put_value, scale_numbers
 
 ANSWERS = "answers.toml"
 RAMPS = ("quasistatic_forward", "quasistatic_reverse")
@@ -14,7 +14,7 @@ def windows(span: str, *names: str) -> Callable[[str], str]:
 
     def make(text: str) -> str:
         for name in names:
-            text = put(name, f'"{span}"')(text)
+            text = put_value(name, f'"{span}"')(text)
         return text
 
     return make
@@ -35,7 +35,7 @@ MISTAKES = (
     Mistake(
         "nothing is done",
         ANSWERS,
-        both(windows("all", *RAMPS, *STEPS), put("threshold", "0"), put("median", "1")),
+        both(windows("all", *RAMPS, *STEPS), put_value("threshold", "0"), put_value("median", "1")),
         "ka",
         "comes out",
     ),
@@ -45,13 +45,13 @@ MISTAKES = (
     Mistake(
         "a filter for a picture",
         ANSWERS,
-        put("median", "15"),
+        put_value("median", "15"),
         "ka",
         "bends the rise",
         "M-FILTER-FREE",
     ),
-    Mistake("no filter", ANSWERS, put("median", "1"), "ka", "Single readings are far off"),
-    Mistake("no threshold", ANSWERS, put("threshold", "0"), "ks", "before it moves"),
+    Mistake("no filter", ANSWERS, put_value("median", "1"), "ka", "Single readings are far off"),
+    Mistake("no threshold", ANSWERS, put_value("threshold", "0"), "ks", "before it moves"),
     Mistake(
         "the rise of the steps is cut away",
         ANSWERS,
@@ -71,7 +71,7 @@ MISTAKES = (
     Mistake(
         "a threshold that drops the slow half",
         ANSWERS,
-        scaled(4, "threshold"),
+        scale_numbers(4, "threshold"),
         "kept",
         "too little is left",
         "M-TRIM-PRETTY",
@@ -84,11 +84,18 @@ MISTAKES = (
         "You cut away too much",
         "M-TRIM-PRETTY",
     ),
-    Mistake("nothing yet", ANSWERS, put("threshold", '""'), "kept", "threshold: nothing yet"),
+    Mistake("nothing yet", ANSWERS, put_value("threshold", '""'), "kept", "threshold: nothing yet"),
     Mistake(
-        "a threshold in volts", ANSWERS, put("threshold", '"0.2 V"'), "kept", "measure", "M-UNITS"
+        "a threshold in volts",
+        ANSWERS,
+        put_value("threshold", '"0.2 V"'),
+        "kept",
+        "measure",
+        "M-UNITS",
     ),
-    Mistake("half a sample", ANSWERS, put("median", "2.5"), "kept", "whole number of samples"),
+    Mistake(
+        "half a sample", ANSWERS, put_value("median", "2.5"), "kept", "whole number of samples"
+    ),
     Mistake("it ends before it begins", ANSWERS, windows("3 to 1", *RAMPS), "kept", "ends before"),
     Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "not two times"),
 )

@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, exchanged, number, replacing, scaled
+from grader.mistake import Mistake, change_number, exchange_numbers, replace_text, scale_numbers
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
@@ -39,11 +39,11 @@ THE_END = """    if "quasistatic-forward" not in test:
 """
 
 MISTAKES = (
-    Mistake("nothing for kV", ANSWERS, replacing(("kV = ", 'kV = "" # ')), "kv", "nothing yet"),
+    Mistake("nothing for kV", ANSWERS, replace_text(("kV = ", 'kV = "" # ')), "kv", "nothing yet"),
     Mistake(
         "radians for rotations",
         ANSWERS,
-        scaled(1 / (2 * math.pi), "kV", "kA"),
+        scale_numbers(1 / (2 * math.pi), "kV", "kA"),
         "kv",
         "about 6.28 times too small",
         "M-UNITS",
@@ -51,7 +51,7 @@ MISTAKES = (
     Mistake(
         "radians for rotations, and kA knows it too",
         ANSWERS,
-        scaled(2 * math.pi, "kV", "kA"),
+        scale_numbers(2 * math.pi, "kV", "kA"),
         "ka",
         "about 6.28 times too large",
         "M-UNITS",
@@ -59,7 +59,7 @@ MISTAKES = (
     Mistake(
         "velocity in rpm",
         ANSWERS,
-        scaled(1 / 60, "kV", "kA"),
+        scale_numbers(1 / 60, "kV", "kA"),
         "kv",
         "Is your velocity in rpm",
         "M-UNITS",
@@ -67,7 +67,7 @@ MISTAKES = (
     Mistake(
         "kS and kV swapped",
         ANSWERS,
-        exchanged("kS", "kV"),
+        exchange_numbers("kS", "kV"),
         "kv",
         "swapped?",
         "M-ARGORDER",
@@ -75,7 +75,9 @@ MISTAKES = (
     Mistake(
         "kS where the line through the slow ramp crosses zero",
         ANSWERS,
-        number("kS", lambda right: right["kS"] + max(0.05, RAMP * right["kA"] / right["kV"])),
+        change_number(
+            "kS", lambda right: right["kS"] + max(0.05, RAMP * right["kA"] / right["kV"])
+        ),
         "ks",
         "crosses v = 0",
         "M-KS-INTERCEPT",
@@ -83,14 +85,14 @@ MISTAKES = (
     Mistake(
         "velocity turned around",
         ANSWERS,
-        scaled(-1, "kS", "kV", "kA"),
+        scale_numbers(-1, "kS", "kV", "kA"),
         "kv",
         "the sign is not",
     ),
     Mistake(
         "an output between -1 and 1 for the voltage",
         ANSWERS,
-        scaled(1 / 12, "kS", "kV", "kA"),
+        scale_numbers(1 / 12, "kS", "kV", "kA"),
         "ks",
         "in place of volts",
         "M-DUTY",
@@ -98,25 +100,29 @@ MISTAKES = (
     Mistake(
         "a difference of velocities for the acceleration",
         ANSWERS,
-        scaled(1 / PERIOD, "kA"),
+        scale_numbers(1 / PERIOD, "kA"),
         "ka",
         "divide the change of velocity",
     ),
     Mistake(
         "a unit that measures something else",
         ANSWERS,
-        replacing(("kV = ", 'kV = "2 V/m/s" # ')),
+        replace_text(("kV = ", 'kV = "2 V/m/s" # ')),
         "kv",
         "does not measure kV",
         "M-UNITS",
     ),
-    Mistake("a list for a number", ANSWERS, replacing(("kA = ", "kA = [1, 2] # ")), "ka", "a list"),
-    Mistake("not a number", ANSWERS, replacing(("kA = ", "kA = nan # ")), "ka", "nan"),
-    Mistake("yes or no for a number", ANSWERS, replacing(("kS = ", "kS = true # ")), "ks", "true"),
+    Mistake(
+        "a list for a number", ANSWERS, replace_text(("kA = ", "kA = [1, 2] # ")), "ka", "a list"
+    ),
+    Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),
+    Mistake(
+        "yes or no for a number", ANSWERS, replace_text(("kS = ", "kS = true # ")), "ks", "true"
+    ),
     Mistake(
         "R² in percent",
         ANSWERS,
-        scaled(100, "acceleration_r2", "simulated_velocity_r2"),
+        scale_numbers(100, "acceleration_r2", "simulated_velocity_r2"),
         "metrics",
         "not percent",
         "M-R2",
@@ -124,14 +130,14 @@ MISTAKES = (
     Mistake(
         "a number from nowhere",
         ANSWERS,
-        scaled(3.4, "kV"),
+        scale_numbers(3.4, "kV"),
         "kv",
         "miss the voltage in the log",
     ),
     Mistake(
         "the voltage explained by velocity and acceleration",
         FUNCTION,
-        replacing(
+        replace_text(
             ("(v, u, np.sign(v))", "(v, a, np.sign(v))"),
             ("append(a[moving])", "append(u[moving])"),
             ("-gamma / beta, -alpha / beta, 1 / beta", "gamma, alpha, beta"),
@@ -151,7 +157,9 @@ MISTAKES = (
     Mistake(
         "only the forward tests",
         FUNCTION,
-        replacing(("np.unique(test):\n", "np.unique(test):\n        if 'rev' in name: continue\n")),
+        replace_text(
+            ("np.unique(test):\n", "np.unique(test):\n        if 'rev' in name: continue\n")
+        ),
         "function",
         "4 of 5 logs right; drivetrain, every 0.01 s",
         "M-REVERSE-WASTE",
@@ -159,35 +167,35 @@ MISTAKES = (
     Mistake(
         "differences taken for slopes",
         FUNCTION,
-        replacing(("np.gradient(v, time[rows])", "np.gradient(v)")),
+        replace_text(("np.gradient(v, time[rows])", "np.gradient(v)")),
         "function",
         "divide the change of velocity by that",
     ),
     Mistake(
         "samples always 0.02 s apart",
         FUNCTION,
-        replacing(("np.gradient(v, time[rows])", "np.gradient(v, 0.02)")),
+        replace_text(("np.gradient(v, time[rows])", "np.gradient(v, 0.02)")),
         "function",
         "taken to be 0.02 s apart",
     ),
     Mistake(
         "friction turned around",
         FUNCTION,
-        replacing(("ks, kv, ka = -gamma", "ks, kv, ka = gamma")),
+        replace_text(("ks, kv, ka = -gamma", "ks, kv, ka = gamma")),
         "function",
         "the size is right, the sign is not",
     ),
     Mistake(
         "a list for one of the numbers",
         FUNCTION,
-        replacing(('"kA": ka', '"kA": [ka]')),
+        replace_text(('"kA": ka', '"kA": [ka]')),
         "function",
         "kA = a list",
     ),
     Mistake(
         "nothing returned",
         FUNCTION,
-        replacing(("    return {", "    answer = {")),
+        replace_text(("    return {", "    answer = {")),
         "function",
         "fit.py returned None, not numbers by name",
     ),
@@ -213,14 +221,14 @@ ks = kv = ka = Right(0)
     Mistake(
         "the examiner asked for the answer",
         FUNCTION,
-        fitting("from grader.variant import student_rng"),
+        fitting("from grader.variant import make_student_rng"),
         "function",
         "No module named 'grader'",
     ),
     Mistake(
         "the end of everything after four logs",
         FUNCTION,
-        replacing(("    return {", f"{THE_END}    return {{")),
+        replace_text(("    return {", f"{THE_END}    return {{")),
         "function",
         "4 of 5 logs right; drivetrain, every 0.01 s: it ended itself before it had answered",
     ),

@@ -21,7 +21,7 @@ import psutil
 from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make
 
-from grader.variant import class_secret
+from grader.variant import use_class_secret
 from sim.support.work.process_pool import available_cores
 
 CORES = available_cores()
@@ -83,7 +83,7 @@ def by_exercise(handed_in: Path) -> None:
     everybody = sorted(handed_in.iterdir())
     students = everybody[:: -(-len(everybody) // SAMPLE)]
     print(f"\n{'exercise, of ' + str(len(students)) + ' students':36}{'mean s':>8}{'most s':>8}")
-    with class_secret(SECRET):
+    with use_class_secret(SECRET):
         for one in asked(ROOT):
             there = [place for place in students if (place / one.name).is_dir()]
             took = []

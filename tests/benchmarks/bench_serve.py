@@ -18,14 +18,14 @@ from tornado.httpclient import AsyncHTTPClient, HTTPResponse
 from tornado.httpserver import HTTPServer
 from tornado.testing import bind_unused_port
 
-from grader.release import common_package
+from grader.release import make_common_package
 from grader.serve.jupyter_servers import JupyterServers
 from grader.serve.login_page import ServedClass, make_application
 from grader.serve.student_folders import (
     can_separate,
-    login_codes,
+    load_login_codes,
     prepare_separation,
-    student_folder,
+    prepare_student_folder,
 )
 from sim.core.errors import BadRequest
 
@@ -63,11 +63,14 @@ async def measure(folder: Path, count: int, patience: float) -> None:
     except BadRequest as refusal:
         print(refusal)
         separate = False
-    known = login_codes(folder, [f"student{number}" for number in range(count)])
-    shared = common_package(Path.cwd())
+    known = load_login_codes(folder, [f"student{number}" for number in range(count)])
+    shared = make_common_package(Path.cwd())
     rooms = JupyterServers("127.0.0.1", separate=separate)
     house = ServedClass(
-        known, lambda who: student_folder(folder, who, packages=[shared]), rooms, "exercises"
+        known,
+        lambda who: prepare_student_folder(folder, who, packages=[shared]),
+        rooms,
+        "exercises",
     )
     socket, port = bind_unused_port()
     HTTPServer(make_application(house)).add_socket(socket)

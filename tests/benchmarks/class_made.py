@@ -16,8 +16,8 @@ from types import ModuleType
 
 import numpy as np
 
-from grader.exercise import Exercise, exercises
-from grader.variant import class_secret, make_folder_name
+from grader.exercise import Exercise, list_exercises
+from grader.variant import make_folder_name, use_class_secret
 from sim.support.work.process_pool import run_jobs_locally
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -55,7 +55,7 @@ class Made:
 
 def asked(course: Path) -> tuple[Exercise, ...]:
     """The twelve exercises; practice has no number, and is none of them."""
-    return tuple(one for one in exercises(course) if one.name[-1].isdigit())
+    return tuple(one for one in list_exercises(course) if one.name[-1].isdigit())
 
 
 def make(students: int, *, course: Path, out: Path, processes: int) -> Mapping[str, int]:
@@ -89,7 +89,7 @@ def make_some(job: Some) -> Made:
     """Make the answers of some students; a classmate's of exercise 12 for all but the first."""
     kinds = dict.fromkeys(SHARES, 0)
     slow: Texts = {}
-    with class_secret(SECRET):
+    with use_class_secret(SECRET):
         for number in range(job.first, job.first + job.count):
             who, rng = f"student{number:04}", np.random.default_rng(number)
             for one in _there(job.course):
@@ -135,7 +135,7 @@ def _right(one: Exercise, who: str) -> Texts:
 def _one_language(one: Exercise, texts: Texts, rng: np.random.Generator) -> Texts:
     """Of the files of an exercise that may be answered in several, one; and what is beside it."""
     file = str(rng.choice(one.files))
-    return {name: texts[name] for name in (file, *one.beside)}
+    return {name: texts[name] for name in (file, *one.companion_files)}
 
 
 def _spoiled(one: Exercise, texts: Texts, kind: str, rng: np.random.Generator) -> Texts:

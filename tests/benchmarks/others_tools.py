@@ -22,8 +22,8 @@ Scores = Mapping[str, tuple[float, ...]]  # student -> points for each number
 
 CHECKS = '''"""Three numbers of a fixed log."""
 
-from grader.answer import Asked, Band, read_answer_number
-from grader.check import Check, Wrong, check
+from grader.answer import AskedNumber, Band, read_answer_number
+from grader.check import Check, WrongAnswer, check
 from grader.submission import read_answers
 
 FILES = ("answers.toml",)
@@ -37,9 +37,9 @@ def read(path, *, student):
 
 def _of(name):
     def look(answers):
-        asked = Asked(name, KEY[name], "", Band({band}, {band}))
+        asked = AskedNumber(name, KEY[name], "", Band({band}, {band}))
         if not asked.right(read_answer_number(answers.get(name), asked)):
-            raise Wrong("outside", hint="Fit once more.")
+            raise WrongAnswer("outside", hint="Fit once more.")
 
     look.__name__, look.__doc__ = name, f"{{name}} of the log."
     return check(points=1)(look)

@@ -46,7 +46,7 @@ def answer(name: str) -> dict[str, str]:
     """The authored answer to an exercise: file name and text."""
     folder, one = ROOT / "solutions" / name, exercise(name)
     if not (folder / "solve.py").is_file():
-        named = (*one.files, *one.beside)
+        named = (*one.files, *one.companion_files)
         return {file: (folder / file).read_text(encoding="utf-8") for file in named}
     with tempfile.TemporaryDirectory() as place:
         copy = Path(place) / "exercises" / name
@@ -72,9 +72,9 @@ def graded(name: str, file: str, text: str, folder: Path, *, run: bool = False) 
         Refusal: it cannot be read.
     """
     one = exercise(name)
-    first = one.files[0] if file in one.beside else file
+    first = one.files[0] if file in one.companion_files else file
     for part, right in answer(name).items():
-        if part == first or part in one.beside:
+        if part == first or part in one.companion_files:
             (folder / part).write_text(right, encoding="utf-8")
     (folder / file).write_text(text, encoding="utf-8")
     return one.grade(folder / first, student=STUDENT, run=run)
@@ -87,7 +87,7 @@ def judge(mutant: Mutant, folder: Path, *, run: bool = False) -> Verdict:
         grade = graded(mutant.exercise, file, mutant.text, folder, run=run)
     except Refusal as refusal:
         return Verdict(bool(refusal.advice), 0.0, str(refusal))
-    if grade.status == "ungradable" and not grade.reached:
+    if grade.status == "ungradable" and not grade.is_readable:
         return Verdict(killed=bool(grade.reason), score=0.0, said=grade.reason)
     failed = [one for one in grade.checks if one.status is Status.FAILED]
     broken = [one for one in grade.checks if one.status is Status.ERROR]

@@ -11,13 +11,13 @@ from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 
-from grader.classroom.results import Results
-from grader.classroom.roster import Members
+from grader.classroom.results import ClassResults
+from grader.classroom.roster import Roster
 from sim.core.errors import BadRequest
 
 
 @dataclass(frozen=True)
-class Export:
+class ExportFormat:
     """One format.
 
     Args:
@@ -29,21 +29,21 @@ class Export:
 
     name: str
     summary: str
-    write: Callable[[Results, Path], tuple[Path, ...]]
+    write: Callable[[ClassResults, Path], tuple[Path, ...]]
     roster: tuple[str, ...] = ()
 
 
-def exports() -> dict[str, Export]:
+def list_exports() -> dict[str, ExportFormat]:
     """Name -> format, of all there are."""
     found = sorted(one.name for one in iter_modules(__path__))
     modules = {name: import_module(f"{__name__}.{name}") for name in found}
     return {
-        name: Export(name, one.SUMMARY, one.write, getattr(one, "ROSTER", ()))
+        name: ExportFormat(name, one.SUMMARY, one.write, getattr(one, "ROSTER", ()))
         for name, one in modules.items()
     }
 
 
-def choose_exports(wanted: Sequence[str], *, roster: Members | None) -> tuple[Export, ...]:
+def choose_exports(wanted: Sequence[str], *, roster: Roster | None) -> tuple[ExportFormat, ...]:
     """The formats to write: a gradebook, and those that are wanted besides.
 
     Args:
@@ -53,7 +53,7 @@ def choose_exports(wanted: Sequence[str], *, roster: Members | None) -> tuple[Ex
     Raises:
         BadRequest: there is no such format, or the roster lacks what it needs.
     """
-    formats = exports()
+    formats = list_exports()
     unknown = [one for one in wanted if one not in formats]
     if unknown:
         raise BadRequest(

@@ -9,15 +9,15 @@ import io
 from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.cells import escape_formula
-from grader.classroom.results import Results, scores
+from grader.classroom.csv_cells import escape_formula
+from grader.classroom.results import ClassResults, collect_scores
 
 SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
 ROSTER = ("ID", "SIS User ID", "SIS Login ID")  # Canvas finds nobody by the name alone
 IDENTITY = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``canvas.csv``.
 
     Raises:
@@ -33,5 +33,5 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
         row = {name.strip().casefold(): cell for name, cell in cells.items()}
         row.setdefault("student", one.student)
         who = [row.get(name.casefold(), "") for name in IDENTITY]
-        table.writerow([*map(escape_formula, who), f"{sum(scores(one).values()):g}"])
+        table.writerow([*map(escape_formula, who), f"{sum(collect_scores(one).values()):g}"])
     return (write_private_file(folder / "canvas.csv", stream.getvalue()),)

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import feedback
-from grader.classroom.grading import Graded
-from grader.classroom.results import Results
+from grader.classroom.feedback_text import compose_feedback
+from grader.classroom.grading import GradedStudent
+from grader.classroom.results import ClassResults
 from grader.variant import make_folder_name
 
 SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
@@ -20,7 +20,7 @@ LONGEST = 500  # [characters] of an output, says the reporter
 STATUS = {"passed": "pass", "failed": "fail", "missing": "fail", "ungradable": "error"}
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write a folder ``github`` with a file for each student.
 
     Raises:
@@ -32,12 +32,12 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     )
 
 
-def _line(one: Graded) -> str:
+def _line(one: GradedStudent) -> str:
     text = json.dumps(_result(one)).encode("ascii")
     return f"result={base64.b64encode(text).decode('ascii')}\n"
 
 
-def _result(one: Graded) -> dict[str, Any]:
+def _result(one: GradedStudent) -> dict[str, Any]:
     tests = [_test(number, record) for number, record in enumerate(one.records)]
     told = {test["status"] for test in tests}
     return {
@@ -51,7 +51,7 @@ def _result(one: Graded) -> dict[str, Any]:
 
 def _test(number: int, record: dict[str, Any]) -> dict[str, Any]:
     wrong = [check for check in record["checks"] if check["status"] != "passed"]
-    output = "\n".join(f"{check['description']}: {feedback(check)}" for check in wrong)
+    output = "\n".join(f"{check['description']}: {compose_feedback(check)}" for check in wrong)
     return {
         "name": str(record["exercise"]),
         "status": STATUS[str(record["status"])],

@@ -5,13 +5,13 @@ import io
 from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.cells import escape_formula
-from grader.classroom.results import Results, scores, status_of
+from grader.classroom.csv_cells import escape_formula
+from grader.classroom.results import ClassResults, collect_scores, find_status
 
 SUMMARY = "gradebook.csv: a row for each student, for a spreadsheet"
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``gradebook.csv``.
 
     Raises:
@@ -22,8 +22,8 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     most = results.max_scores
     table.writerow(["student", *results.exercises, "total", "of", "not graded"])
     for one in results.students:
-        points = scores(one)
-        unread = [name for name, how in status_of(one).items() if how == "ungradable"]
+        points = collect_scores(one)
+        unread = [name for name, how in find_status(one).items() if how == "ungradable"]
         row = [points.get(name, 0.0) for name in results.exercises]
         totals = (f"{sum(points.values()):g}", f"{sum(most.values()):g}", " ".join(unread))
         table.writerow([escape_formula(one.student), *(f"{value:g}" for value in row), *totals])

@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import feedback
-from grader.classroom.grading import Graded
-from grader.classroom.results import Results
+from grader.classroom.feedback_text import compose_feedback
+from grader.classroom.grading import GradedStudent
+from grader.classroom.results import ClassResults
 from grader.variant import make_folder_name
 
 SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write a folder ``gradescope`` with a ``results.json`` for each student.
 
     Raises:
@@ -31,7 +31,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     )
 
 
-def _result(one: Graded) -> dict[str, Any]:
+def _result(one: GradedStudent) -> dict[str, Any]:
     return {
         "output_format": "text",
         "visibility": "visible",
@@ -43,7 +43,7 @@ def _result(one: Graded) -> dict[str, Any]:
                 "score": check["points"],
                 "max_score": check["max_points"],
                 "status": "passed" if check["status"] == "passed" else "failed",
-                "output": feedback(check),
+                "output": compose_feedback(check),
                 "output_format": "text",
                 "tags": [tag for tag in (check["misconception"],) if tag],
                 "visibility": "visible",

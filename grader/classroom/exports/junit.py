@@ -9,15 +9,15 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import feedback
-from grader.classroom.grading import Graded
-from grader.classroom.results import Results
+from grader.classroom.feedback_text import compose_feedback
+from grader.classroom.grading import GradedStudent
+from grader.classroom.results import ClassResults
 
 SUMMARY = "junit.xml: a suite for each student, as build servers read it"
 NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def write(results: Results, folder: Path) -> tuple[Path, ...]:
+def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     """Write ``junit.xml``.
 
     Raises:
@@ -32,7 +32,7 @@ def write(results: Results, folder: Path) -> tuple[Path, ...]:
     return (write_private_file(folder / "junit.xml", f"{head}{text}\n"),)
 
 
-def _suite(one: Graded) -> ET.Element:
+def _suite(one: GradedStudent) -> ET.Element:
     cases = [_case(record, check) for record in one.records for check in _checks(record)]
     count = {tag: sum(case.find(tag) is not None for case in cases) for tag in _KINDS}
     suite = ET.Element(
@@ -57,7 +57,7 @@ def _case(record: dict[str, Any], check: dict[str, Any]) -> ET.Element:
     points = ET.SubElement(case, "properties")
     for name in ("points", "max_points", "misconception"):
         ET.SubElement(points, "property", name=name, value=_plain(check[name]))
-    said = _plain(feedback(check))
+    said = _plain(compose_feedback(check))
     if check["status"] == "failed":
         ET.SubElement(case, "failure", message=said)
     elif record["status"] == "ungradable" or check["status"] == "error":

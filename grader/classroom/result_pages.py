@@ -6,10 +6,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from grader.classroom.atomic_files import write_private_file
-from grader.classroom.feedback_text import feedback
-from grader.classroom.grading import MISSING, Graded
-from grader.classroom.items import FEWEST, analyze_items, count_misconceptions, summarize_exercises
-from grader.classroom.results import Results, scores, status_of
+from grader.classroom.feedback_text import compose_feedback
+from grader.classroom.grading import MISSING, GradedStudent
+from grader.classroom.item_analysis import (
+    FEWEST,
+    analyze_items,
+    count_misconceptions,
+    summarize_exercises,
+)
+from grader.classroom.results import ClassResults, collect_scores, find_status
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import make_folder_name
 
@@ -22,7 +27,7 @@ MARKS = {"passed": "✓ right:", "failed": "✗ not right yet:", "error": "! our
 SIGNS = {MISSING: "–", "ungradable": "!"}
 
 
-def write_pages(results: Results, folder: Path) -> Path:
+def write_pages(results: ClassResults, folder: Path) -> Path:
     """Write ``index.html``, and ``students/NAME.html`` for each of them.
 
     Returns:
@@ -31,30 +36,30 @@ def write_pages(results: Results, folder: Path) -> Path:
     Raises:
         BadRequest: they cannot be written.
     """
-    templates = _templates()
+    templates = _load_templates()
     for one in results.students:
-        text = templates.get_template("student.html.jinja").render(_of_student(one, results))
-        write_private_file(folder / _page(one), text)
-    text = templates.get_template("class.html.jinja").render(_of_class(results))
+        text = templates.get_template("student.html.jinja").render(_fill_student_page(one, results))
+        write_private_file(folder / _name_page(one), text)
+    text = templates.get_template("class.html.jinja").render(_fill_class_page(results))
     return write_private_file(folder / "index.html", text)
 
 
-def _templates() -> "Environment":
+def _load_templates() -> "Environment":
     from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
 
     found = load_templates(FOLDER)
-    found.filters |= {"percent": _percent, "signed": _signed}
+    found.filters |= {"percent": _format_percent, "signed": _format_signed}
     return found
 
 
-def _page(one: Graded) -> str:
+def _name_page(one: GradedStudent) -> str:
     return f"{PEOPLE}/{make_folder_name(one.student)}.html"
 
 
-def class_summary(results: Results) -> str:
+def summarize_class(results: ClassResults) -> str:
     """The class in two sentences."""
-    there = [one for one in results.students if set(status_of(one).values()) != {MISSING}]
-    shares = [_share(one, results) for one in there]
+    there = [one for one in results.students if set(find_status(one).values()) != {MISSING}]
+    shares = [_compute_share(one, results) for one in there]
     handed = f"{len(there)} of {len(results.students)} students handed something in"
     if not there:
         return f"{handed}."
@@ -63,45 +68,47 @@ def class_summary(results: Results) -> str:
     return f"{handed}; {mean}, and {full or 'nobody'} {'have' if full > 1 else 'has'} full marks."
 
 
-def _share(one: Graded, results: Results) -> float:
+def _compute_share(one: GradedStudent, results: ClassResults) -> float:
     most = sum(results.max_scores.values())
-    return sum(scores(one).values()) / most if most else 0.0
+    return sum(collect_scores(one).values()) / most if most else 0.0
 
 
-def _of_class(results: Results) -> dict[str, Any]:
+def _fill_class_page(results: ClassResults) -> dict[str, Any]:
     from sim.plot import plot_score_heatmap, plot_score_histogram  # noqa: PLC0415 - matplotlib only where it draws
 
     names = [one.student for one in results.students]
-    table = [[_cell_share(record) for record in one.records] for one in results.students]
+    table = [[_compute_cell_share(record) for record in one.records] for one in results.students]
     found = sorted(
         analyze_items(results.students), key=lambda one: (one.share, one.exercise, one.check)
     )
     return {
         "name": results.name,
-        "verdict": class_summary(results),
-        "open": _open(results),
+        "verdict": summarize_class(results),
+        "open": _list_open_cases(results),
         "count": len(results.students),
         "columns": summarize_exercises(results.students),
         "heat": plot_score_heatmap(names, results.exercises, table).html,
-        "spread": plot_score_histogram([_share(one, results) for one in results.students]).html,
+        "spread": plot_score_histogram(
+            [_compute_share(one, results) for one in results.students]
+        ).html,
         "misconceptions": [
-            {"code": code, "count": count, "says": _put_right(code)}
+            {"code": code, "count": count, "says": _explain_misconception(code)}
             for code, count in count_misconceptions(results.students)
         ],
         "fewest": FEWEST,
         "items": found,
         "exercises": [name.removeprefix("exercise") for name in results.exercises],
-        "students": [_row(one, results) for one in results.students],
+        "students": [_make_row(one, results) for one in results.students],
     }
 
 
-def _put_right(code: str) -> str:
+def _explain_misconception(code: str) -> str:
     """What puts a misconception right, and which lesson shows it; empty for a code of no list."""
     known = MISCONCEPTIONS.get(code)
     return f"{known.says} See {known.where}." if known else ""
 
 
-def _open(results: Results) -> list[dict[str, str]]:
+def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
     """What a person has to look at: whatever could not be graded, with the reason; once each."""
     found = []
     for one in results.students:
@@ -116,30 +123,30 @@ def _open(results: Results) -> list[dict[str, str]]:
     return found
 
 
-def _row(one: Graded, results: Results) -> dict[str, Any]:
-    points, how = scores(one), status_of(one)
+def _make_row(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
+    points, how = collect_scores(one), find_status(one)
     cells = [SIGNS.get(how.get(name, MISSING), f"{points.get(name, 0):g}") for name in
              results.exercises]  # fmt: skip
     total = f"{sum(points.values()):g} of {sum(results.max_scores.values()):g}"
-    return {"student": one.student, "page": _page(one), "cells": cells, "total": total}
+    return {"student": one.student, "page": _name_page(one), "cells": cells, "total": total}
 
 
-def _cell_share(record: Mapping[str, Any]) -> float:
+def _compute_cell_share(record: Mapping[str, Any]) -> float:
     graded = record["status"] in {"passed", "failed"}
     return float(record["score"]) / float(record["max_score"]) if graded else math.nan
 
 
-def _of_student(one: Graded, results: Results) -> dict[str, Any]:
-    total, most = sum(scores(one).values()), sum(results.max_scores.values())
+def _fill_student_page(one: GradedStudent, results: ClassResults) -> dict[str, Any]:
+    total, most = sum(collect_scores(one).values()), sum(results.max_scores.values())
     return {
         "student": one.student,
         "name": results.name,
         "verdict": f"{total:g} of {most:g} points.",
-        "records": [_told(record) for record in one.records],
+        "records": [_describe_record(record) for record in one.records],
     }
 
 
-def _told(record: Mapping[str, Any]) -> dict[str, Any]:
+def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
     graded = record["status"] in {"passed", "failed"}
     checks = record["checks"] if graded else []
     return {
@@ -151,16 +158,16 @@ def _told(record: Mapping[str, Any]) -> dict[str, Any]:
                 "mark": MARKS.get(check["status"], "– not looked at:"),
                 "description": check["description"],
                 "points": f"{check['points']:g} of {check['max_points']:g}",
-                "lines": feedback(check).splitlines(),
+                "lines": compose_feedback(check).splitlines(),
             }
             for check in checks
         ],
     }
 
 
-def _percent(value: float) -> str:
+def _format_percent(value: float) -> str:
     return "" if math.isnan(value) else f"{100 * value:.0f}"
 
 
-def _signed(value: float | None) -> str:
+def _format_signed(value: float | None) -> str:
     return "" if value is None else f"{value:+.2f}".replace("-", "−")

@@ -37,16 +37,16 @@ def split_notebook(notebook: Any) -> tuple[LessonPart, ...]:  # noqa: ANN401 - n
     found: list[tuple[str, int, list[str]]] = []
     for cell in notebook.cells:
         if cell.cell_type == "code":
-            found[-1][2].append(_code(cell, widgets))
+            found[-1][2].append(_render_code(cell, widgets))
             continue
-        for level, heading, text in _cut(cell.source):
+        for level, heading, text in _split_cell(cell.source):
             if level:
                 found.append((heading, level, []))
-            found[-1][2].append(_markdown(text))
+            found[-1][2].append(_render_markdown(text))
     return tuple(LessonPart(heading, level, "\n".join(html)) for heading, level, html in found)
 
 
-def _cut(source: str) -> Iterator[tuple[int, str, str]]:
+def _split_cell(source: str) -> Iterator[tuple[int, str, str]]:
     """A markdown cell cut before each heading of rank 1 or 2: rank, heading, text below."""
     rows: list[str] = []
     level, heading, fenced = 0, "", False
@@ -62,7 +62,7 @@ def _cut(source: str) -> Iterator[tuple[int, str, str]]:
     yield level, heading, "\n".join(rows)
 
 
-def _markdown(text: str) -> str:
+def _render_markdown(text: str) -> str:
     from nbconvert.filters.markdown_mistune import (  # noqa: PLC0415 - only who builds pages
         markdown2html_mistune,
     )
@@ -71,8 +71,8 @@ def _markdown(text: str) -> str:
     return re.sub(r'<a class="anchor-link"[^>]*>.*?</a>', "", html)
 
 
-def _code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
-    shown = "".join(_output(one, widgets) for one in cell.get("outputs", []))
+def _render_code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
+    shown = "".join(_render_output(one, widgets) for one in cell.get("outputs", []))
     source = highlight_python(cell.source)
     return f"<details><summary>Code</summary>{source}</details>{shown}"
 
@@ -90,22 +90,22 @@ def highlight_python(source: str) -> str:
     return str(highlight(source, PythonLexer(), HtmlFormatter(cssclass="code")))
 
 
-def _output(output: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
+def _render_output(output: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
     if output.output_type == "stream":
         return f"<pre>{escape(output.text)}</pre>"
     data = output.get("data", {})
     if VIEW in data:
-        return NOTE + _widget(data[VIEW]["model_id"], widgets)
+        return NOTE + _render_widget(data[VIEW]["model_id"], widgets)
     if "text/html" in data:
         return f"<div class='wide'>{data['text/html']}</div>"
     return f"<pre>{escape(data.get('text/plain', ''))}</pre>"
 
 
-def _widget(model: str, widgets: Mapping[str, Any]) -> str:
+def _render_widget(model: str, widgets: Mapping[str, Any]) -> str:
     """A widget as it is first shown: its words, its choices, what it drew."""
     model = model.removeprefix("IPY_MODEL_")
     state = widgets.get(model, {}).get("state", {})
-    inside = "".join(_widget(child, widgets) for child in state.get("children", ()))
+    inside = "".join(_render_widget(child, widgets) for child in state.get("children", ()))
     kind = state.get("_model_name", "")
     if kind == "HTMLModel":
         return f"<div class='wide'>{state.get('value', '')}</div>"

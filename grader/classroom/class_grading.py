@@ -6,12 +6,12 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from grader.classroom.bundle import pack_course
-from grader.classroom.grading import Graded, GradingJob, grade_one, ungraded_student
-from grader.classroom.store import Store, digest_job
+from grader.classroom.grading import GradedStudent, GradingJob, grade_student, make_ungraded_student
+from grader.classroom.store import ResultStore, digest_job
 from grader.classroom.submissions import Submission
 from grader.classroom.workers import grade_in_workers
 from grader.exercise import Exercise
-from grader.fingerprint import fingerprint
+from grader.fingerprint import fingerprint_folders
 from sim.support.work.cluster import run_jobs_on_cluster
 
 
@@ -33,7 +33,7 @@ class GradedClass:
     secret: bytes | None = None
     run: bool = False
 
-    def jobs(self, *, travel: bool) -> tuple[GradingJob, ...]:
+    def make_jobs(self, *, travel: bool) -> tuple[GradingJob, ...]:
         """One for each student whose files could be read.
 
         Args:
@@ -60,11 +60,11 @@ class GradedClass:
 
     def _made_by(self) -> str:
         """What decides the results besides what was handed in."""
-        course = fingerprint(self.course / "exercises")
-        return f"{course} run by {_robotpy()}" if self.run else course
+        course = fingerprint_folders(self.course / "exercises")
+        return f"{course} run by {_find_robotpy_version()}" if self.run else course
 
 
-def _robotpy() -> str:
+def _find_robotpy_version() -> str:
     """What robot code is run with here: without it, code is only read, and earns other results."""
     try:
         return f"RobotPy {version('wpilib')}"
@@ -73,19 +73,21 @@ def _robotpy() -> str:
 
 
 @dataclass(frozen=True)
-class Plan:
+class GradingPlan:
     """What is left to do.
 
     Args:
         kept: results from before that still hold.
-        todo: the rest.
+        jobs: the rest.
     """
 
-    kept: tuple[Graded, ...]
-    todo: tuple[GradingJob, ...]
+    kept: tuple[GradedStudent, ...]
+    jobs: tuple[GradingJob, ...]
 
 
-def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool) -> Plan:
+def plan_grading(
+    asked: GradedClass, store: ResultStore, *, travel: bool, again: bool
+) -> GradingPlan:
     """Look what is known already.
 
     Args:
@@ -95,25 +97,25 @@ def plan_grading(asked: GradedClass, store: Store, *, travel: bool, again: bool)
         again: grade everything again.
     """
     kept, todo = [], []
-    for job in asked.jobs(travel=travel):
+    for job in asked.make_jobs(travel=travel):
         known = None if again else store.get(job.student, job.digest)
         if known is None:
             todo.append(job)
         else:
             kept.append(known)
-    return Plan(tuple(kept), tuple(todo))
+    return GradingPlan(tuple(kept), tuple(todo))
 
 
-def grade_all(
+def grade_class(
     asked: GradedClass,
-    plan: Plan,
-    store: Store,
+    plan: GradingPlan,
+    store: ResultStore,
     *,
     processes: int,
     cluster: str | None,
     say: Callable[[], None],
     stop_if_asked: Callable[[], None] = lambda: None,
-) -> tuple[Graded, ...]:
+) -> tuple[GradedStudent, ...]:
     """Grade what is left, keep it, and give back all results in order of the students' names.
 
     Args:
@@ -131,9 +133,9 @@ def grade_all(
     found = list(plan.kept)
     store.open()
     grading = (
-        run_jobs_on_cluster(grade_one, plan.todo, address=cluster)
+        run_jobs_on_cluster(grade_student, plan.jobs, address=cluster)
         if cluster
-        else grade_in_workers(plan.todo, processes=processes, stop_if_asked=stop_if_asked)
+        else grade_in_workers(plan.jobs, processes=processes, stop_if_asked=stop_if_asked)
     )
     for one in grading:
         store.put(one)
@@ -141,7 +143,9 @@ def grade_all(
         say()
     everything = {one.name for one in asked.exercises}
     unread = (
-        ungraded_student(one.student, asked.exercises, handed_in=everything, reason=one.problem)
+        make_ungraded_student(
+            one.student, asked.exercises, handed_in=everything, reason=one.problem
+        )
         for one in asked.handed_in
         if one.problem
     )

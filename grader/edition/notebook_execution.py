@@ -13,7 +13,7 @@ COPIED = ("lessons", "exercises", "solutions")
 LONGEST_CELL = 120  # [s] after which a cell counts as hung
 
 
-def execute(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
+def execute_notebook(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
     """Run a notebook; what it shows, and the state of its widgets, is in what comes back.
 
     Raises:
@@ -30,7 +30,9 @@ def execute(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
             notebook,
             timeout=LONGEST_CELL,
             kernel_name="python3",
-            resources={"metadata": {"path": str(_copied(course, Path(home)) / path.parent.name)}},
+            resources={
+                "metadata": {"path": str(_copy_course(course, Path(home)) / path.parent.name)}
+            },
         )
         paths = (str(course), os.environ.get("PYTHONPATH", ""))
         environment = {
@@ -51,7 +53,7 @@ def execute(path: Path) -> Any:  # noqa: ANN401 - nbformat has no types
     return notebook
 
 
-def _copied(course: Path, to: Path) -> Path:
+def _copy_course(course: Path, to: Path) -> Path:
     """The course without anybody's own data: a page shows what everybody sees."""
     for name in COPIED:
         if (course / name).is_dir():

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from statistics import fmean, median
 from typing import Any
 
-from grader.classroom.grading import MISSING, Graded
+from grader.classroom.grading import MISSING, GradedStudent
 
 MOST = 3  # wrong answers listed of one question
 FEWEST = 5  # [students] below, how a question tells them apart is chance
 
 
 @dataclass(frozen=True)
-class Item:
+class ItemStatistics:
     """One question, over everybody whose answer could be graded.
 
     Args:
@@ -41,7 +41,7 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Column:
+class ExerciseStatistics:
     """One exercise, over the class.
 
     Args:
@@ -62,48 +62,52 @@ class Column:
     median: float
 
 
-def analyze_items(students: Sequence[Graded]) -> tuple[Item, ...]:
+def analyze_items(students: Sequence[GradedStudent]) -> tuple[ItemStatistics, ...]:
     """Every question, in the order of the course."""
     rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
     for one in students:
-        graded = [record for record in one.records if _counts(record)]
-        total = sum(_number(record, "score") for record in graded)
+        graded = [record for record in one.records if _has_answer(record)]
+        total = sum(_read_number(record, "score") for record in graded)
         for record in graded:
-            for check in _checks(record):
+            for check in _list_checks(record):
                 key = (str(record["exercise"]), str(check["id"]))
                 points = float(check["points"])
                 rows.setdefault(key, []).append((points, total - points, check))
-    return tuple(_item(*key, those) for key, those in rows.items())
+    return tuple(_analyze_item(*key, those) for key, those in rows.items())
 
 
-def summarize_exercises(students: Sequence[Graded]) -> tuple[Column, ...]:
+def summarize_exercises(students: Sequence[GradedStudent]) -> tuple[ExerciseStatistics, ...]:
     """Every exercise, in the order of the course."""
     rows: dict[str, list[Mapping[str, Any]]] = {}
     for one in students:
         for record in one.records:
             rows.setdefault(str(record["exercise"]), []).append(record)
-    return tuple(_column(name, those) for name, those in rows.items())
+    return tuple(_summarize_exercise(name, those) for name, those in rows.items())
 
 
-def count_misconceptions(students: Sequence[Graded]) -> tuple[tuple[str, int], ...]:
+def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, int], ...]:
     """Code -> how many students were told of it, most frequent first."""
-    return _ranked(
+    return _rank_texts(
         code
         for one in students
         for code in {
             str(check["misconception"])
             for record in one.records
-            for check in _checks(record)
+            for check in _list_checks(record)
             if check["misconception"]
         }
     )
 
 
-def _column(name: str, records: Sequence[Mapping[str, Any]]) -> Column:
-    shares = [_number(one, "score") / _number(one, "max_score") for one in records if _counts(one)]
-    return Column(
+def _summarize_exercise(name: str, records: Sequence[Mapping[str, Any]]) -> ExerciseStatistics:
+    shares = [
+        _read_number(one, "score") / _read_number(one, "max_score")
+        for one in records
+        if _has_answer(one)
+    ]
+    return ExerciseStatistics(
         name,
-        max(_number(one, "max_score") for one in records),
+        max(_read_number(one, "max_score") for one in records),
         sum(one["status"] != MISSING for one in records),
         sum(one["status"] == "passed" for one in records),
         sum(one["status"] == "ungradable" for one in records),
@@ -112,26 +116,26 @@ def _column(name: str, records: Sequence[Mapping[str, Any]]) -> Column:
     )
 
 
-def _item(
+def _analyze_item(
     exercise: str, check: str, rows: Sequence[tuple[float, float, Mapping[str, Any]]]
-) -> Item:
+) -> ItemStatistics:
     most = max(float(one["max_points"]) for _, _, one in rows)
     points = [mine for mine, _, _ in rows]
-    seen = _ranked(str(one["seen"]) for _, _, one in rows if one["status"] == "failed")
-    return Item(
+    seen = _rank_texts(str(one["seen"]) for _, _, one in rows if one["status"] == "failed")
+    return ItemStatistics(
         exercise,
         check,
         str(rows[0][2]["description"]),
         len(rows),
         sum(one["status"] == "passed" for _, _, one in rows),
         fmean(points) / most if most else math.nan,
-        _correlation(points, [rest for _, rest, _ in rows]),
-        _ranked(str(one["misconception"]) for _, _, one in rows if one["misconception"]),
+        _correlate(points, [rest for _, rest, _ in rows]),
+        _rank_texts(str(one["misconception"]) for _, _, one in rows if one["misconception"]),
         tuple((text, count) for text, count in seen[:MOST] if count > 1),
     )
 
 
-def _correlation(one: Sequence[float], other: Sequence[float]) -> float | None:
+def _correlate(one: Sequence[float], other: Sequence[float]) -> float | None:
     """Pearson's; None where it cannot be told."""
     if len(one) < FEWEST:
         return None
@@ -143,20 +147,20 @@ def _correlation(one: Sequence[float], other: Sequence[float]) -> float | None:
     return both / size if size > 1e-9 else None  # noqa: PLR2004 - all alike, but for rounding
 
 
-def _counts(record: Mapping[str, Any]) -> bool:
+def _has_answer(record: Mapping[str, Any]) -> bool:
     """Whether there was an answer to learn from."""
     return record["status"] in {"passed", "failed"}
 
 
-def _checks(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
+def _list_checks(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
     found: Sequence[Mapping[str, Any]] = record["checks"]
     return found
 
 
-def _number(record: Mapping[str, Any], name: str) -> float:
+def _read_number(record: Mapping[str, Any], name: str) -> float:
     return float(record[name])
 
 
-def _ranked(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:
+def _rank_texts(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:
     found = Counter(text for text in texts if text)
     return tuple(sorted(found.items(), key=lambda one: (-one[1], one[0])))
