@@ -317,7 +317,7 @@ def _assembled(facts: RoutineFacts) -> None:
         )
     if facts.routine_lost:
         empty = "null" if facts.language == "java" else "None"
-        raise Wrong(
+        raise WrongAnswer(
             f"line {facts.routine_lost} sets the field of the SysIdRoutine to {empty}",
             hint="The routine is lost then, and no test can start. Remove that line.",
         )
