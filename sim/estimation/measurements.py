@@ -26,7 +26,7 @@ GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] h
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
-TREMBLES = 0.005  # [share of the top speed] a velocity that reads more where the position stands
+TREMBLES = 0.3  # [of that speed] a velocity with more noise at rest cannot tell it from a motion
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
 SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 
@@ -73,19 +73,25 @@ class SensorNoise:
     resolution: tuple[float, float]
 
 
-def measure_runs(log: Log, *, friction: float | None) -> tuple[RunMeasurements, ...]:
+def measure_runs(
+    log: Log, *, friction: float | None, rest_by_position: bool = True
+) -> tuple[RunMeasurements, ...]:
     """The measurements of every run that has enough fresh samples.
 
     Args:
         log: any runs.
         friction: [V] about kS of a mechanism with gravity, which may lean on a stop before it
             moves: then a run begins where friction alone would hold it. None keeps all.
+        rest_by_position: whether the position decides what stands where a velocity trembles at
+            rest. A model with effects is judged by how it leaves its rest, and keeps every sample
+            that the velocity alone calls motion.
     """
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
     seen = tuple(_measure_run(run, top=top, friction=friction) for run in runs)
-    noise = estimate_noise(seen) if seen else None
-    if noise is None or _rest_velocity(runs, speed=MOVING * top, noise=noise) <= TREMBLES * top:
+    noise = estimate_noise(seen) if seen and rest_by_position else None
+    speed = MOVING * top
+    if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= TREMBLES * speed:
         return seen
     return tuple(_measure_run(run, top=top, friction=friction, noise=noise) for run in runs)
 
@@ -184,11 +190,15 @@ def _measure_run(
     )  # fmt: skip
 
 
-def _rest_velocity(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> float:
-    """[m/s or rad/s] root mean square of the velocity where the position stands."""
-    rest = [run.velocity[~_find_progress(run, speed=speed, noise=noise)] for run in runs]
-    every = np.concatenate(rest)
-    return float(np.sqrt(np.mean(every**2))) if every.size else 0.0
+def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> float:
+    """[m/s or rad/s] standard deviation of the velocity where the position stands."""
+    thirds = []
+    for run in runs:
+        rest = ~_find_progress(run, speed=speed, noise=noise)
+        four = rest[:-3] & rest[1:-2] & rest[2:-1] & rest[3:]
+        thirds.append(third_differences(run.time, run.velocity)[four])
+    every = np.concatenate(thirds)
+    return ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD) if every.size else 0.0
 
 
 def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:

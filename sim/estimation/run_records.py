@@ -87,8 +87,9 @@ def run_records(
     began = run_start_times(log)
     together = shares_clock(log)
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
+    measured = measure_runs(log, friction=None, rest_by_position=False)
     found = {}
-    for number, run, one in zip(places, runs, measure_runs(log, friction=None), strict=True):
+    for number, run, one in zip(places, runs, measured, strict=True):
         # readings at rest count here: how a mechanism leaves its rest tells effects apart
         seen = replace(_start_at_rest(one, top=top), at_rest=np.zeros_like(one.at_rest))
         memory = session * MOST_RUNS + (0 if together else number)

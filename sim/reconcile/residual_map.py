@@ -25,7 +25,7 @@ def map_residuals(
         floor: [unit/s] noise of the velocity.
     """
     runs = tuple(run for run in log.runs if len(run) >= FEWEST)
-    seen = measure_runs(replace(log, runs=runs), friction=None)
+    seen = measure_runs(replace(log, runs=runs), friction=None, rest_by_position=False)
     counts = compared or [np.ones(len(run), dtype=bool) for run in runs]
     left = [_run_residuals(*one) for one in zip(runs, seen, tracks, counts, strict=True)]
     if not (floor > 0.0 and any(one.compared.any() for one in left)):
