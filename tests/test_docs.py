@@ -18,7 +18,7 @@ MODULES = sorted(
 CONSTANTS = re.compile(r"[A-Z][A-Z_0-9]*")  # explained where they stand
 
 
-def thing(name):
+def resolve_name(name):
     """What a dotted name stands for."""
     if name == "sim.core.errors":
         return import_module(name)
@@ -48,12 +48,12 @@ VERBS = (
 @pytest.mark.parametrize("name", VERBS)
 def test_the_main_verbs_have_an_example(name):
     assert name in LISTED
-    assert ">>>" in thing(name).__doc__
+    assert ">>>" in resolve_name(name).__doc__
 
 
 @pytest.mark.parametrize("name", LISTED)
 def test_what_is_listed_says_what_it_is_and_what_it_takes(name):
-    listed = thing(name)
+    listed = resolve_name(name)
 
     assert listed.__doc__
     if isinstance(listed, type) or not callable(listed):
@@ -70,7 +70,7 @@ def test_what_is_listed_says_what_it_is_and_what_it_takes(name):
     "lesson", sorted((ROOT / "lessons").glob("*.py")), ids=lambda path: path.stem
 )
 def test_what_a_lesson_imports_is_listed(lesson):
-    listed = {id(thing(name)) for name in LISTED}
+    listed = {id(resolve_name(name)) for name in LISTED}
     imported = {
         (node.module, alias.name)
         for node in ast.walk(ast.parse(lesson.read_text(encoding="utf-8")))

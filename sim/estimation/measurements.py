@@ -202,7 +202,7 @@ def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> flo
 
 
 def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
-    """(n,) where the position goes on at that speed or faster, over two samples to each side."""
+    """(n,) where the position changes at that speed or faster, over two samples to each side."""
     index = np.arange(len(run))
     before, after = np.maximum(index - 2, 0), np.minimum(index + 2, len(run) - 1)
     way = np.abs(run.position[after] - run.position[before])

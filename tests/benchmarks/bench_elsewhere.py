@@ -20,7 +20,7 @@ from sim.core.log import Log
 from sim.fit import fit
 
 GAINS = ("kS", "kV", "kA", "kG")
-OFF = 0.1  # [of kA] from which a lag log counts as wrong
+OFF = 0.1  # [share of kA] error from which a fit counts as wrong
 
 
 def fitted(
