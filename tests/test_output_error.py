@@ -281,8 +281,9 @@ def test_gains_of_a_model_that_strays_are_those_that_simulate_best():
     found = fit(simulate(mechanism, GENTLE, rng=rng(1)))
 
     assert found.gains["kV"] == pytest.approx(mechanism.gains["kV"], rel=0.1)
-    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.1)
-    assert found.errors["kA"] > 0.01 * mechanism.gains["kA"]  # what is missing errs for a while
+    assert found.gains["kA"] == pytest.approx(mechanism.gains["kA"], rel=0.25)
+    assert abs(found.gains["kA"] - mechanism.gains["kA"]) < found.errors["kA"]
+    assert "model-strays" in [doubt.code for doubt in found.doubts]
 
 
 @pytest.mark.parametrize(
@@ -463,8 +464,9 @@ def test_any_table_of_numbers_gives_finite_gains_or_a_refusal(volts, speeds, typ
 
 
 @pytest.mark.parametrize("kind", ["drivetrain", "shooter"])
-def test_errors_grow_where_a_limit_cut_the_first_samples_of_a_step(kind):
-    # 120 A in the stator cut a step of 4 V for some milliseconds, and one of 3 V never
+def test_gains_are_right_where_a_limit_cut_the_first_samples_of_a_step(kind):
+    # 120 A in the stator cut a step of 4 V for some milliseconds, and one of 3 V never. With a
+    # voltage that is held until the next sample the gains are 60 errors off.
     mechanism = MECHANISMS[kind]
     exact, cut = (
         fit(simulate(mechanism, Routine(ramp=0.5, step=step), rng=rng(1))) for step in (3.0, 4.0)
@@ -472,5 +474,4 @@ def test_errors_grow_where_a_limit_cut_the_first_samples_of_a_step(kind):
 
     for gain, truth in mechanism.gains.items():
         assert abs(exact.gains[gain] - truth) < 4.0 * exact.errors[gain]
-        assert abs(cut.gains[gain] - truth) < 10.0 * cut.errors[gain]  # 60 before they grew
-        assert cut.errors[gain] > 5.0 * exact.errors[gain]
+        assert abs(cut.gains[gain] - truth) < 4.0 * cut.errors[gain]

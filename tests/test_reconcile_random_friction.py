@@ -39,7 +39,8 @@ def followed(model, time, volts, *, rubs):
     nothing, still = np.full((count * time.size, 2), np.nan), np.zeros(count)
     course = RunBatch(
         edges=np.arange(count + 1.0) * time.size, time=np.tile(time, count),
-        voltage=np.tile(volts, count), measured=nothing, position=still, velocity=still,
+        voltage=np.tile(volts, count),
+        voltage_slide=np.zeros(count * time.size), measured=nothing, position=still, velocity=still,
         low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
     )  # fmt: skip
     return filter_runs(

@@ -51,6 +51,7 @@ def searched(model, volts):
     still = np.zeros(1)
     course = RunBatch(
         edges=np.array([0.0, TIME.size]), time=TIME, voltage=volts,
+        voltage_slide=np.zeros(TIME.size),
         measured=np.full((TIME.size, 2), np.nan), position=still, velocity=still,
         low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
     )  # fmt: skip

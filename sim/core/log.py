@@ -5,6 +5,7 @@ travels along as a name (``Log.units``); conversion happens where a file is read
 number is shown, nowhere between.
 """
 
+import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeAlias
@@ -32,6 +33,9 @@ __all__ = [  # the words come along, for those who work on logs
 Array: TypeAlias = NDArray[np.float64]
 
 LARGEST = 1e9  # [any SI unit] no robot shows a reading this large; squares of it still fit a double
+CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # whose command stands between steps
+LONE_STEP = 2.0  # [1] times the changes beside it, from which a change is a step
+LEAST_STEP = 0.25  # [of the largest voltage] that a step of the command changes
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +93,39 @@ class Run:
     def top_speed(self) -> float:
         """[m/s or rad/s] the speed of the fastest samples, whatever a single one says."""
         return float(np.percentile(np.abs(self.velocity), 98)) if len(self) else 0.0
+
+    @cached_property
+    def voltage_slide(self) -> Array:
+        """(n,) [V] by which the voltage slides evenly from each sample to the next.
+
+        A program sets a voltage once a loop and holds it, so a ramp is a stair. Where the command
+        is constant, a voltage that changes from sample to sample follows the speed: a current
+        limit or a weak battery acts. A large change that is more than twice as large as those
+        before and after it is a step of the command, which is held.
+        """
+        change = np.diff(self.voltage)
+        if self.kind not in CONSTANT_KINDS or not change.any():
+            return _frozen(np.zeros(len(self)))
+        sizes = np.abs(np.concatenate(([0.0], change, [0.0])))
+        steps = sizes[1:-1] > LONE_STEP * np.maximum(sizes[:-2], sizes[2:])
+        steps &= np.abs(change) > LEAST_STEP * np.max(np.abs(self.voltage))
+        return _frozen(np.append(np.where(steps, 0.0, change), 0.0))
+
+    @cached_property
+    def voltage_error(self) -> Array:
+        """(n,) [V] standard deviation of the mean voltage from each sample to the next.
+
+        It is 0 where the voltage is held. A limit that begins or ends to act between two samples
+        bends the voltage there. The chord of a path with one bend misses its mean by at most an
+        eighth of the change of slope. A slide that is over within one sample may have any slope:
+        its mean lies evenly between the two readings.
+        """
+        slides = np.append(0.0, self.voltage_slide)
+        before, here, after = slides[:-2], slides[1:-1], slides[2:]
+        bends = np.max(np.abs([after - before, here - before, after - here]), axis=0, initial=0.0)
+        alone = (before == 0.0) & (after == 0.0)
+        error = np.where(alone, np.abs(here) / math.sqrt(12.0), bends / 8.0)
+        return _frozen(np.append(np.where(here == 0.0, 0.0, error), 0.0))
 
     def _check(self, name: str, values: Array) -> None:
         if values.shape != (self.time.size,):

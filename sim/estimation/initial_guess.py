@@ -126,7 +126,7 @@ def _integral_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A
         return np.asarray(sums[end] - sums[begin])
 
     columns = [
-        total(run.voltage),
+        total(run.voltage + 0.5 * run.voltage_slide),
         total(way),
         run.position[end] - run.position[begin],
         run.velocity[end] - run.velocity[begin],

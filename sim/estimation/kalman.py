@@ -10,8 +10,10 @@ small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
 """
 
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.measurements import SensorNoise
@@ -19,12 +21,93 @@ from sim.physics.engine import NO_CORRECTION
 from sim.physics.model import Model
 
 DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
+MATTERS = 0.01  # [1] of an innovation's variance that an uncertain voltage adds, to be counted
 
 
-def steady_state_gain(
+@dataclass(frozen=True, eq=False)
+class GainSchedule:
+    """What a filter does at each sample of some runs.
+
+    Args:
+        gains: (n, 4) the gain at each sample, row by row.
+        uncertain: (m,) samples at which a voltage known less well still tells.
+        scales: (m, 2, 2) what gives their innovations the usual covariance.
+    """
+
+    gains: Array
+    uncertain: NDArray[np.intp]
+    scales: Array
+
+
+@dataclass(frozen=True, eq=False)
+class KalmanFilter:
+    """A filter in its steady state, and what it needs where a voltage is known less well.
+
+    Args:
+        steady: (2, 2) gain, from innovations to corrections of position and velocity.
+        predicted: (2, 2) covariance of the predicted position and velocity.
+        measured: (2,) variances of a measured position and velocity.
+        step: (2, 2) from one state to the next.
+        push: (2, 2) covariance that process noise adds on the way.
+        response: (2,) change of position and velocity by one volt more over one period.
+    """
+
+    steady: Array
+    predicted: Array
+    measured: Array
+    step: Array
+    push: Array
+    response: Array
+
+    def schedule(self, voltage_error: Array) -> GainSchedule:
+        """Gains and scales of samples before which the voltage has errors (n,) [V].
+
+        What an uncertain voltage did to the state is seen in the next measurements, and corrected
+        there, until the filter is in its steady state again.
+        """
+        places, covs = [], []
+        now, flagged = -1, np.flatnonzero(self._matters(voltage_error)).tolist()
+        for first in flagged:
+            if first < now:
+                continue
+            now, cov = first, self.predicted
+            while now < voltage_error.size:
+                cov = cov + np.outer(self.response, self.response) * voltage_error[now] ** 2
+                if now > first and _is_near(cov, self.predicted):
+                    break
+                places.append(now)
+                covs.append(cov)
+                gain = cov @ np.linalg.inv(cov + np.diag(self.measured))
+                cov = self.step @ (cov - gain @ cov) @ self.step.T + self.push
+                now += 1
+        gains = np.tile(self.steady.ravel(), (voltage_error.size, 1))
+        uncertain = np.array(places, dtype=np.intp)
+        predicted = np.array(covs).reshape(-1, 2, 2)
+        seen = predicted + np.diag(self.measured)
+        gains[uncertain] = (predicted @ np.linalg.inv(seen)).reshape(-1, 4)
+        usual = np.linalg.cholesky(self.predicted + np.diag(self.measured))
+        return GainSchedule(gains, uncertain, usual @ np.linalg.inv(np.linalg.cholesky(seen)))
+
+    def _matters(self, voltage_error: Array) -> NDArray[np.bool_]:
+        """(n,) samples before which the voltage is uncertain enough to matter."""
+        ordinary = np.diag(self.predicted) + self.measured
+        return np.asarray(voltage_error**2 * np.max(self.response**2 / ordinary) > MATTERS)
+
+
+def _is_near(cov: Array, usual: Array) -> bool:
+    return bool(np.all(np.diag(cov) <= (1.0 + MATTERS) * np.diag(usual)))
+
+
+OPEN_LOOP = KalmanFilter(
+    NO_CORRECTION, np.zeros((2, 2)), np.ones(2), np.eye(2), np.zeros((2, 2)), np.zeros(2)
+)
+"""A filter that corrects nothing: its predictions are a simulation."""
+
+
+def steady_state_filter(
     model: Model, *, noise: SensorNoise, process_noise: float, period: float
-) -> Array:
-    """(2, 2) steady-state Kalman gain for position and velocity.
+) -> KalmanFilter:
+    """The Kalman filter of position and velocity in its steady state.
 
     Args:
         model: whose kV/kA is the rate at which velocity forgets.
@@ -32,8 +115,6 @@ def steady_state_gain(
         process_noise: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
         period: [s] between samples.
     """
-    if process_noise <= 0.0:
-        return NO_CORRECTION
     rate, dt = model.gains["kV"] / model.gains["kA"], period
     # velocities in units of their noise and positions in as many: so the numbers are near one
     kept = math.exp(-rate * dt)
@@ -42,8 +123,13 @@ def steady_state_gain(
         [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
     )
     rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
+    reach = (1.0 - kept) / rate
+    response = np.array([dt - reach, 1.0 - kept]) / model.gains["kV"] / noise.velocity
+    if process_noise <= 0.0:
+        return replace(OPEN_LOOP, measured=rough, step=step, response=response)
     spread = _steady_covariance(step, push, rough)
-    return np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))
+    steady = np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))
+    return KalmanFilter(steady, spread, rough, step, push, response)
 
 
 def _steady_covariance(step: Array, push: Array, rough: Array) -> Array:

@@ -18,18 +18,19 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.estimation.kalman import steady_state_gain
+from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, steady_state_filter
 from sim.estimation.measurements import SensorNoise, estimate_noise
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import friction_prior, friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import EXPECTED, NO_CORRECTION, RunBatch, Track, filter_runs
+from sim.physics.engine import EXPECTED, RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
@@ -51,8 +52,9 @@ class Estimate:
         values: name -> value.
         nuisance: the parameters of each run.
         process_noise: [unit²/s³] spectral density of the random acceleration.
-        kalman_gain: (2, 2) from innovations to corrections of position and velocity.
-        innovations: (n, 2) innovations, 0 where nothing is compared.
+        kalman_filter: from innovations to corrections of position and velocity.
+        innovations: (n, 2) innovations, 0 where nothing is compared, scaled where a voltage is
+            uncertain.
         innovation_cov: (2, 2) covariance of these.
         cost: -2 log L, up to a constant.
     """
@@ -61,7 +63,7 @@ class Estimate:
     values: Mapping[str, float]
     nuisance: RunNuisance
     process_noise: float
-    kalman_gain: Array
+    kalman_filter: KalmanFilter
     innovations: Array
     innovation_cov: Array
     cost: float
@@ -125,6 +127,7 @@ class PredictionErrorProblem:
             self.run_edges.astype(np.float64),
             np.concatenate([one.time for one in seen], dtype=np.float64),
             np.concatenate([one.voltage for one in seen], dtype=np.float64),
+            np.concatenate([one.voltage_slide for one in seen], dtype=np.float64),
             np.ascontiguousarray(self.measured, dtype=np.float64),
             np.array([one.position for one in seen], dtype=np.float64),
             np.array([one.velocity for one in seen], dtype=np.float64),
@@ -138,6 +141,12 @@ class PredictionErrorProblem:
     def measured(self) -> Array:
         """(n, 2) positions and velocities of all runs."""
         return np.concatenate([record.measurements.measured for record in self.records])
+
+    @cached_property
+    def voltage_error(self) -> Array:
+        """(n,) [V] standard deviation of the mean voltage since the sample before."""
+        errors = [record.measurements.voltage_error for record in self.records]
+        return np.concatenate([np.concatenate(([0.0], one[:-1])) for one in errors])
 
     @cached_property
     def informative(self) -> NDArray[np.bool_]:
@@ -203,43 +212,74 @@ class PredictionErrorProblem:
     # -- simulate --------------------------------------------------------------------------------
 
     def simulate(
-        self, model: Model, nuisance: RunNuisance, kalman_gain: Array = NO_CORRECTION
+        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter = OPEN_LOOP
     ) -> Track:
         """All runs, one after another.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            kalman_gain: (2, 2) Kalman gain; by default nothing is corrected.
+            kalman_filter: what corrects the state; by default nothing.
         """
-        return Track.from_array(self._filter_runs(model, nuisance, kalman_gain, self.batch))
+        return Track.from_array(self._filter_runs(model, nuisance, kalman_filter, self.batch))
 
     def predict_errors(
-        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, clocks: Array | None = None
+        self,
+        model: Model,
+        nuisance: RunNuisance,
+        kalman_filter: KalmanFilter,
+        clocks: Array | None = None,
     ) -> Array:
         """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
 
         Args:
             model: what moves.
             nuisance: how each run begins.
-            kalman_gain: (2, 2) Kalman gain.
+            kalman_filter: what corrects the state.
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
         errors = (
-            self.measured - self._filter_runs(model, nuisance, kalman_gain, batch)[:, EXPECTED:]
+            self.measured - self._filter_runs(model, nuisance, kalman_filter, batch)[:, EXPECTED:]
         )
         np.copyto(errors, 0.0, where=self.ignored_readings)
+        if (schedule := self._schedule(kalman_filter)) is not None:
+            rows = schedule.uncertain
+            errors[rows] = (schedule.scales @ errors[rows, :, None])[..., 0]
+            np.copyto(errors, 0.0, where=self.ignored_readings)
         return np.asarray(errors)
 
     def _filter_runs(
-        self, model: Model, nuisance: RunNuisance, kalman_gain: Array, batch: RunBatch
+        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch
     ) -> Array:
+        schedule = self._schedule(kalman_filter)
+        gain = kalman_filter.steady if schedule is None else schedule.gains
         return filter_runs(
-            model, batch, kalman_gain=kalman_gain,
+            model, batch, kalman_gain=gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
             friction_offset=nuisance.friction_offset,
         )  # fmt: skip
+
+    def _log_scale(self, kalman_filter: KalmanFilter) -> float:
+        """[of -2 log L] what the larger variance of some innovations costs."""
+        if (schedule := self._schedule(kalman_filter)) is None:
+            return 0.0
+        scales = schedule.scales[self.informative[schedule.uncertain]]
+        return float(-2.0 * np.sum(np.log(np.linalg.det(scales))))
+
+    def _schedule(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
+        """What the filter does at each sample; None where it is the same at all of them."""
+        if not self.voltage_error.any():
+            return None
+        found = self._schedules.get(kalman_filter)
+        if found is None:
+            found = self._schedules[kalman_filter] = kalman_filter.schedule(self.voltage_error)
+        return found
+
+    @cached_property
+    def _schedules(self) -> WeakKeyDictionary[KalmanFilter, GainSchedule]:
+        """Those that were needed; all derivatives at one estimate share one."""
+        return WeakKeyDictionary()
 
     def evaluate(
         self,
@@ -256,7 +296,7 @@ class PredictionErrorProblem:
             values,
             nuisance,
             process_noise,
-            NO_CORRECTION,
+            OPEN_LOOP,
             np.empty((0, 2)),
             np.eye(2),
             math.inf,
@@ -267,17 +307,20 @@ class PredictionErrorProblem:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
-            trust = steady_state_gain(
+            kalman_filter = steady_state_filter(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
-            innovations = self.predict_errors(model, nuisance, trust)
+            innovations = self.predict_errors(model, nuisance, kalman_filter)
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + friction_prior(values, nuisance)
             cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
+            cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
-        return Estimate(structure, values, nuisance, process_noise, trust, innovations, cov, cost)
+        return Estimate(
+            structure, values, nuisance, process_noise, kalman_filter, innovations, cov, cost
+        )
 
     # -- compare ---------------------------------------------------------------------------------
 
@@ -337,7 +380,7 @@ class PredictionErrorProblem:
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
             results = iter(
                 self._simulate_in_parallel(
-                    [*tried, (structure.model(point.values), moved)], point.kalman_gain
+                    [*tried, (structure.model(point.values), moved)], point.kalman_filter
                 )
             )
             columns = []
@@ -357,7 +400,7 @@ class PredictionErrorProblem:
         by = np.full(len(self.records), friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
-            [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_gain
+            [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
         )
         return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
 
@@ -375,12 +418,12 @@ class PredictionErrorProblem:
         ) else below, above if may_rise else value
 
     def _simulate_in_parallel(
-        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_gain: Array
+        self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
     ) -> list[Array]:
         """The innovations of several simulations; compiled code runs beside other."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
-            return self.predict_errors(*each, kalman_gain)
+            return self.predict_errors(*each, kalman_filter)
 
         return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
 

@@ -38,6 +38,8 @@ class RunMeasurements:
     Args:
         time: (n,) [s].
         voltage: (n,) [V].
+        voltage_slide: (n,) [V] by which it slides evenly to the next sample; 0 is held.
+        voltage_error: (n,) [V] standard deviation of its mean until the next sample.
         measured: (n, 2) position and velocity, nan where they are not fresh.
         moving: (n,) where it moves.
         informative: (n,) where it moves, or is about to: what is compared. That must not depend on
@@ -50,6 +52,8 @@ class RunMeasurements:
 
     time: Array
     voltage: Array
+    voltage_slide: Array
+    voltage_error: Array
     measured: Array
     moving: NDArray[np.bool_]
     informative: NDArray[np.bool_]
@@ -110,9 +114,13 @@ def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
     lasts = np.diff(seen.time, append=seen.time[-1])
     first = np.flatnonzero(kept)
     share = np.add.reduceat(lasts, first)
-    volts = np.add.reduceat(seen.voltage * lasts, first) / np.where(share > 0.0, share, 1.0)
+    span = np.where(share > 0.0, share, 1.0)
+    slide = np.add.reduceat(seen.voltage_slide, first)
+    mean = seen.voltage + 0.5 * seen.voltage_slide
+    volts = np.add.reduceat(mean * lasts, first) / span - 0.5 * slide
+    error = np.sqrt(np.add.reduceat((seen.voltage_error * lasts) ** 2, first)) / span
     return RunMeasurements(
-        seen.time[kept], np.where(share > 0.0, volts, seen.voltage[kept]),
+        seen.time[kept], np.where(share > 0.0, volts, seen.voltage[kept]), slide, error,
         np.ascontiguousarray(seen.measured[kept]), seen.moving[kept], seen.informative[kept],
         seen.at_rest[kept], seen.position, seen.velocity,
     )  # fmt: skip
@@ -121,26 +129,32 @@ def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
 def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
     """Noise of fresh samples while the mechanism moves."""
     thirds: list[list[Array]] = [[], []]
-    steps = [math.inf, math.inf]
+    fresh: list[list[Array]] = [[], []]
     for run in seen:
         for column in (0, 1):
             there = run.moving & ~np.isnan(run.measured[:, column])
-            fresh = run.measured[there, column]
-            if fresh.size > 3:  # noqa: PLR2004 - as above
-                thirds[column].append(third_differences(run.time[there], fresh))
-                change = np.abs(np.diff(fresh))
-                change = change[change > 0.0]
-                if change.size:
-                    steps[column] = min(steps[column], float(change.min()))
+            values = run.measured[there, column]
+            if values.size > 3:  # noqa: PLR2004 - as above
+                thirds[column].append(third_differences(run.time[there], values))
+                fresh[column].append(values)
     sizes = []
-    for third, step in zip(thirds, steps, strict=True):
+    for third, values in zip(thirds, fresh, strict=True):
         every = np.concatenate(third) if third else np.zeros(1)
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
-        least = step / math.sqrt(12.0) if math.isfinite(step) else 1e-9  # what rounding leaves
+        least = _smallest_step(values) / math.sqrt(12.0)  # what rounding leaves
         sizes.append(max(spread, least, 1e-12))
     columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
     grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
     return SensorNoise(sizes[0], sizes[1], (grain[0], grain[1]))
+
+
+def _smallest_step(values: Sequence[Array]) -> float:
+    """[unit] between two different readings, of all runs: what a sensor counts in."""
+    if not values:
+        return 0.0
+    steps = np.diff(np.sort(np.concatenate(values)))
+    steps = steps[steps > DIGITS * float(np.sum(steps))]
+    return float(steps.min()) if steps.size else 0.0
 
 
 def third_differences(time: Array, values: Array) -> Array:
@@ -184,7 +198,8 @@ def _measure_run(
     start = float(run.velocity[first])
     start = start if abs(start) > least else 0.0
     return RunMeasurements(
-        run.time[cut], run.voltage[cut], np.ascontiguousarray(measured[cut]), moving[cut],
+        run.time[cut], run.voltage[cut], run.voltage_slide[cut], run.voltage_error[cut],
+        np.ascontiguousarray(measured[cut]), moving[cut],
         _find_informative(run, moving)[cut], _find_rest_readings(run, moving)[cut],
         float(run.position[first]), start,
     )  # fmt: skip

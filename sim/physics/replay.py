@@ -32,7 +32,14 @@ def replay_log(model: Model, log: Log, *, step: float | None = None) -> tuple[Tr
         state.clock = clock
         state.body[:] = State.cold_at(float(run.position[0]), float(run.velocity[0])).body
         tracks.append(
-            simulate_run(model, time=run.time, voltage=run.voltage, state=state, step=step)
+            simulate_run(
+                model,
+                time=run.time,
+                voltage=run.voltage,
+                slide=run.voltage_slide,
+                state=state,
+                step=step,
+            )
         )
     return tuple(tracks)
 

@@ -185,7 +185,8 @@ def _rows(run: Run, number: int, clock: float) -> Array:
         run.time[2 * reach :] - run.time[: -2 * reach]
     )
     # the voltage that made this difference is the mean over its span, not the one in its middle
-    paid = np.concatenate(([0.0], np.cumsum(run.voltage[:-1] * np.diff(run.time))))
+    mean = run.voltage + 0.5 * run.voltage_slide
+    paid = np.concatenate(([0.0], np.cumsum(mean[:-1] * np.diff(run.time))))
     voltage = (paid[2 * reach :] - paid[: -2 * reach]) / (
         run.time[2 * reach :] - run.time[: -2 * reach]
     )

@@ -45,7 +45,7 @@ def estimate_backlash_phase(
     costs = [_costs_by_run(problem, point, point.innovations, before)]
     for each in others:
         ahead = problem.predict_errors(
-            model, point.nuisance.with_backlash_phase(each), point.kalman_gain
+            model, point.nuisance.with_backlash_phase(each), point.kalman_filter
         )
         costs.append(_costs_by_run(problem, point, ahead, each))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)

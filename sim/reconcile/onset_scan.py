@@ -263,7 +263,7 @@ class _Scan:
         rate, dt = self.point.values["kV"] / self.ka, self.problem.period
         kept = math.exp(-rate * dt)
         step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]]) @ (
-            np.eye(2) - self.point.kalman_gain
+            np.eye(2) - self.point.kalman_filter.steady
         )
         off, heard = np.array([0.0, 1.0]), []
         for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
@@ -283,7 +283,7 @@ class _Scan:
         model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
             model += Part(self.effect.name, given)
-            ahead = some.predict_errors(model, nuisance, self.point.kalman_gain, clocks)
+            ahead = some.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
             return [
                 self._sum_rows(run, (ahead[slice(*rows)] - self._run_innovations[run]) / size)
                 for run, rows in zip(runs, pairwise(some.run_edges.tolist()), strict=True)
@@ -312,5 +312,5 @@ class _Scan:
         """A run -> (n, 2) innovations without it."""
         alone, nuisance = self._isolate_runs(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
-        ahead = alone.predict_errors(model, nuisance, self.point.kalman_gain)
+        ahead = alone.predict_errors(model, nuisance, self.point.kalman_filter)
         return [ahead[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]

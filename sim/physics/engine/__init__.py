@@ -142,6 +142,7 @@ def simulate_run(
     plain: bool = False,
     measured: Array = UNSEEN,
     trust: Array = NO_CORRECTION,
+    slide: Array | None = None,
 ) -> Track:
     """Move a model along a voltage.
 
@@ -156,6 +157,7 @@ def simulate_run(
         measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
             is none; none goes its way.
         trust: (2, 2) by how much: from both deviations to the corrections of both.
+        slide: (n,) [V] by which the voltage slides evenly to the next; None holds it.
 
     Examples:
         >>> time = np.linspace(0.0, 5.0, 251)
@@ -172,11 +174,12 @@ def simulate_run(
         longest = np.array([step, math.inf, step])
     kernel = _plain_engine() if plain else _compiled_engine()
     kernel.move(
-        np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage), state.body[None],
+        np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage),
+        np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1),
         model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
-        np.array([state.clock]), longest, simple, _as_contiguous(measured), _as_contiguous(trust),
-        out,
+        np.array([state.clock]), longest, simple, _as_contiguous(measured),
+        np.tile(np.ravel(_as_contiguous(trust)), (len(measured), 1)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
@@ -204,7 +207,8 @@ def filter_runs(
     Args:
         model: what moves.
         batch: the runs.
-        kalman_gain: (2, 2) by how much measurements correct; ``NO_CORRECTION`` leaves it alone.
+        kalman_gain: (2, 2) by how much measurements correct, or (n, 4) the same for each sample;
+            ``NO_CORRECTION`` leaves it alone.
         position_offset: (runs,) [m or rad] by which each begins, and has its stops, beside where it
             says.
         backlash_phase: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a
@@ -223,12 +227,15 @@ def filter_runs(
     bodies = np.column_stack([begin, batch.velocity, load, batch.velocity, np.zeros(begin.size)])
     aside = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
+    corrects = bool(kalman_gain.any())
+    rows = len(batch.measured) if corrects else 0
+    gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
     _compiled_engine().move(
-        batch.edges, batch.time, batch.voltage, bodies, batch.low + aside, batch.high + aside,
-        _as_contiguous(friction_offset), batch.sessions, model_constants(model), NO_WIRES, on,
-        parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
-        batch.measured if kalman_gain.any() else UNSEEN, _as_contiguous(kalman_gain), out,
-    )  # fmt: skip
+        batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
+        batch.high + aside, _as_contiguous(friction_offset), batch.sessions,
+        model_constants(model), NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS),
+        batch.clocks, longest, simple, batch.measured if corrects else UNSEEN,
+    _as_contiguous(gains), out )  # fmt: skip
     return out
 
 

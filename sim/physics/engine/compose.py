@@ -41,6 +41,7 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "edges": "(count + 1,)",
     "time": "(n,)",
     "asked": "(n,)",
+    "slides": "(n,)",
     "bodies": "(count, 5)",
     "low": "(count,)",
     "high": "(count,)",
@@ -50,7 +51,7 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "ways": f"({WAYS},)",
     "steps": "(3,)",
     "measured": "(rows, 2)",
-    "trust": "(2, 2)",
+    "trust": "(rows, 4)",
     "out": "(n, 8)",
 }
 RUNNING = {

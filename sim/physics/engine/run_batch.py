@@ -13,6 +13,7 @@ class RunBatch:
         edges: (runs + 1,) where each begins among all samples, as the engine reads it: in doubles.
         time: (n,) [s], increasing within a run.
         voltage: (n,) [V].
+        voltage_slide: (n,) [V] by which it slides evenly to the next sample; 0 is held.
         measured: (n, 2) position and velocity, nan where there is none.
         position: (runs,) [m or rad] at which each begins.
         velocity: (runs,) [m/s or rad/s] with which.
@@ -25,6 +26,7 @@ class RunBatch:
     edges: Array
     time: Array
     voltage: Array
+    voltage_slide: Array
     measured: Array
     position: Array
     velocity: Array

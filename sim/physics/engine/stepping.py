@@ -31,6 +31,7 @@ it; the position that was expected and the velocity that the sensor would see ar
 
 
 NONE = 1e-9  # [s] a step that is none
+SLIDING = 4.0  # steps of a sample in which the voltage slides: its mean leaves a sixteenth of error
 LONGEST, ALONG, LEAST = range(3)  # places in ``steps``: [s], [unit] of way, [s]
 
 
@@ -76,12 +77,16 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
-    """Move the whole mechanism by a share of how far a measurement is from what was expected."""
+    """Move the whole mechanism by a share of how far a measurement is from what was expected.
+
+    ``trust`` (4,) is the share of ``ahead``, then of ``faster``, for the position, then the same
+    for the velocity.
+    """
     way, speed = 0.0, 0.0
     if not math.isnan(ahead):
-        way, speed = trust[0, 0] * ahead, trust[1, 0] * ahead
+        way, speed = trust[0] * ahead, trust[2] * ahead
     if not math.isnan(faster):
-        way, speed = way + trust[0, 1] * faster, speed + trust[1, 1] * faster
+        way, speed = way + trust[1] * faster, speed + trust[3] * faster
     state[X] += way
     state[Y] += way
     state[V] += speed
@@ -105,19 +110,27 @@ def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -
     return float(max(math.ceil(span / longest - 1e-9), 1))
 
 
+def voltage_slope(time: Array, slides: Array, command: int) -> float:
+    """[V/s] of a command; 0 where it is held."""
+    if command < 0 or command + 1 >= time.size or slides[command] == 0.0:
+        return 0.0
+    return float(slides[command] / (time[command + 1] - time[command]))
+
+
 def step_run(
-    time: Array, asked: Array, state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
-    memory: Array, ways: Array, began: float, steps: Array, plain: bool, measured: Array,
-    trust: Array, out: Array,
+    time: Array, asked: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
+    p: Numbers, memory: Array, ways: Array, began: float, steps: Array, plain: bool,
+    measured: Array, trust: Array, out: Array,
 ) -> None:  # fmt: skip
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
 
-    A command holds from its sample until the next, later by what the effects delay it; before the
-    first has come, what rests is held where it rests, by a stop or a brake. ``measured`` (n, 2) are
-    positions and velocities that correct the motion as it goes, nan where there is none, by the
-    gains ``trust`` (2, 2); without rows it goes its way. A step lasts as long as ``steps`` lets it:
-    [s], [unit] of way, and [s] that even that does not shorten. ``ways`` is room for the tables of
-    ``joined.py``: of one model only, and empty at first.
+    A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
+    by what the effects delay it; before the first has come, what rests is held where it rests, by a
+    stop or a brake. ``measured`` (n, 2) are positions and velocities that correct the motion as it
+    goes, nan where there is none, by the gains ``trust`` (n, 4); without rows it goes its way. A
+    step lasts as long as ``steps`` lets it: [s], [unit] of way, and [s] that even that does not
+    shorten. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
+    at first.
     """
     lag = command_delay(on, p)
     n = time.size
@@ -133,7 +146,7 @@ def step_run(
         out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
             ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
-            correct_state(state, ahead, faster, trust)
+            correct_state(state, ahead, faster, trust[k])
             out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
             out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
@@ -145,21 +158,26 @@ def step_run(
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:
                 volts = asked[command] if command >= 0 else 0.0
+                slope = voltage_slope(time, slides, command)
+                if slope != 0.0:
+                    volts += slope * (now - time[command] - lag)
                 count = count_steps(after - now, steps, state[V], volts, c)
+                count = max(count, SLIDING) if slope != 0.0 else count
                 dt = (after - now) / count
                 for i in range(int(count)):
+                    mean = volts + (i + 0.5) * slope * dt
                     clock = began + now + (i + 0.5) * dt - time[0]
-                    ka = advance_step(state, c, w, on, p, memory, ways, volts, clock, dt, plain, ka)
+                    ka = advance_step(state, c, w, on, p, memory, ways, mean, clock, dt, plain, ka)
             now = after
             while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
                 command += 1
 
 
 def step_runs(
-    edges: Array, time: Array, asked: Array, bodies: Array, low: Array, high: Array, rubs: Array,
-    sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
-    began: Array, steps: Array, plain: bool, measured: Array, trust: Array, out: Array,
-) -> None:  # fmt: skip
+    edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
+    high: Array, rubs: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
+    memory: Array, ways: Array, began: Array, steps: Array, plain: bool, measured: Array,
+trust: Array, out: Array ) -> None:  # fmt: skip
     """Move through runs that lie one behind the other, ``run`` by ``run``.
 
     A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
@@ -173,9 +191,11 @@ def step_runs(
             for i in range(memory.size):
                 memory[i] = 0.0
         lead = measured[first:last] if measured.shape[0] > 0 else measured
+        gains = trust[first:last] if measured.shape[0] > 0 else trust
         step_run(
-            time[first:last], asked[first:last], bodies[k], bound_travel(c, low[k], high[k],
-            rubs[k]), w, on, p, memory, ways, began[k], steps, plain, lead, trust, out[first:last],
+            time[first:last], asked[first:last], slides[first:last], bodies[k],
+            bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k], steps,
+            plain, lead, gains, out[first:last],
         )  # fmt: skip
 
 

@@ -95,7 +95,7 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
         delayed = delayed + DELAY
     late = CLOCK_PART * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
-    more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_gain)
+    more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_filter)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(more - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.run_edges.tolist()):
