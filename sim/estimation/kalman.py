@@ -11,6 +11,7 @@ small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
 
 import math
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ from sim.physics.model import Model
 
 DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
 MATTERS = 0.01  # [1] of an innovation's variance that an uncertain voltage adds, to be counted
+
+_Four: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,21 +68,7 @@ class KalmanFilter:
         What an uncertain voltage did to the state is seen in the next measurements, and corrected
         there, until the filter is in its steady state again.
         """
-        places, covs = [], []
-        now, flagged = -1, np.flatnonzero(self._matters(voltage_error)).tolist()
-        for first in flagged:
-            if first < now:
-                continue
-            now, cov = first, self.predicted
-            while now < voltage_error.size:
-                cov = cov + np.outer(self.response, self.response) * voltage_error[now] ** 2
-                if now > first and _is_near(cov, self.predicted):
-                    break
-                places.append(now)
-                covs.append(cov)
-                gain = cov @ np.linalg.inv(cov + np.diag(self.measured))
-                cov = self.step @ (cov - gain @ cov) @ self.step.T + self.push
-                now += 1
+        places, covs = self._follow_covariance(voltage_error)
         gains = np.tile(self.steady.ravel(), (voltage_error.size, 1))
         uncertain = np.array(places, dtype=np.intp)
         predicted = np.array(covs).reshape(-1, 2, 2)
@@ -88,14 +77,36 @@ class KalmanFilter:
         usual = np.linalg.cholesky(self.predicted + np.diag(self.measured))
         return GainSchedule(gains, uncertain, usual @ np.linalg.inv(np.linalg.cholesky(seen)))
 
+    def _follow_covariance(self, voltage_error: Array) -> tuple[list[int], list[_Four]]:
+        """Samples at which the predicted covariance is not the steady one, and what it is."""
+        usual, push, step = map(_as_four, (self.predicted, self.push, self.step))
+        (across, along), back = self.response.tolist(), _transpose(step)
+        response = (across * across, across * along, across * along, along * along)
+        noise_x, noise_v = self.measured.tolist()
+        variances = np.square(voltage_error).tolist()
+        places: list[int] = []
+        covs: list[_Four] = []
+        for first in np.flatnonzero(self._matters(voltage_error)).tolist():
+            if places and first <= places[-1]:
+                continue
+            now, cov = first, usual
+            while now < len(variances):
+                cov = _add(cov, _times(response, variances[now]))
+                if now > first and _is_near(cov, usual):
+                    break
+                places.append(now)
+                covs.append(cov)
+                seen = _add(cov, (noise_x, 0.0, 0.0, noise_v))
+                gain = _multiply(cov, _inverse(seen))
+                rest = _add(cov, _times(_multiply(gain, cov), -1.0))
+                cov = _add(_multiply(_multiply(step, rest), back), push)
+                now += 1
+        return places, covs
+
     def _matters(self, voltage_error: Array) -> NDArray[np.bool_]:
         """(n,) samples before which the voltage is uncertain enough to matter."""
         ordinary = np.diag(self.predicted) + self.measured
         return np.asarray(voltage_error**2 * np.max(self.response**2 / ordinary) > MATTERS)
-
-
-def _is_near(cov: Array, usual: Array) -> bool:
-    return bool(np.all(np.diag(cov) <= (1.0 + MATTERS) * np.diag(usual)))
 
 
 OPEN_LOOP = KalmanFilter(
@@ -156,8 +167,7 @@ def _steady_covariance(step: Array, push: Array, rough: Array) -> Array:
     return np.array(x).reshape(2, 2)
 
 
-# Two by two in plain numbers: of so little, NumPy makes ten times as much work.
-_Four = tuple[float, float, float, float]
+# Two by two in plain numbers (``_Four``): of so little, NumPy makes ten times as much work.
 
 
 def _as_four(matrix: Array) -> _Four:
@@ -170,6 +180,20 @@ def _multiply(a: _Four, b: _Four) -> _Four:
         a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3],
         a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3],
     )  # fmt: skip
+
+
+def _times(a: _Four, by: float) -> _Four:
+    return a[0] * by, a[1] * by, a[2] * by, a[3] * by
+
+
+def _inverse(a: _Four) -> _Four:
+    size = a[0] * a[3] - a[1] * a[2]
+    return a[3] / size, -a[1] / size, -a[2] / size, a[0] / size
+
+
+def _is_near(cov: _Four, usual: _Four) -> bool:
+    most = 1.0 + MATTERS
+    return cov[0] <= most * usual[0] and cov[3] <= most * usual[3]
 
 
 def _add(a: _Four, b: _Four) -> _Four:

@@ -13,7 +13,7 @@ from sim.estimation.optimize import append_prior_rows
 from sim.physics.effect import ONSET
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import separating_test
-from sim.reconcile.cross_validation import missed_motion
+from sim.reconcile.cross_validation import Gap, missed_motion
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.model_selection import is_ordinary_size, is_significant, is_unrivalled
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -25,6 +25,7 @@ from sim.reconcile.thresholds import (
     KNOCK,
     LOST,
     MAJOR,
+    NARROWER,
     STRAYS,
     TOLD_FIRST,
 )
@@ -69,10 +70,13 @@ def make_findings(
     effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]
     alone = all(one.size != "major" for one in effects)
     effects = [
-        one for one in effects if one.size == "major" or not alone or _is_worth_a_name(one, done)
+        one
+        for one in effects
+        if one.size == "major"
+        or (_is_worth_a_name(one, done) if alone else _narrows_gap(one, done))
     ]
     effects = [one for one in effects if not is_contradicted(one.effect, problem, last, left)]
-    effects.sort(key=lambda one: -one.score)
+    effects.sort(key=lambda one: _gap_share(one, done))
     return tuple(sorted((*faults, *effects), key=_sort_key))
 
 
@@ -118,6 +122,31 @@ def _is_worth_a_name(one: Finding, done: Sequence[SelectionRound]) -> bool:
     places = (n for n in range(1, len(done)) if done[n].candidate.effect == one.effect)
     lone = any(is_unrivalled(one.effect, done[n - 1].tried) for n in places)
     return is_significant(one.effect, last.values, one.score, lone=lone)
+
+
+def _narrows_gap(one: Finding, done: Sequence[SelectionRound]) -> bool:
+    """Whether a minor effect visibly narrows the gap of other runs, in velocity or position."""
+    added = next(other for other in done[1:] if other.candidate.effect == one.effect)
+    with_, bare = gaps_with_and_without(added, done[-1])
+    product = with_.velocity * with_.position
+    return product <= NARROWER**2 * bare.velocity * bare.position
+
+
+def _gap_share(one: Finding, done: Sequence[SelectionRound]) -> float:
+    """[1] of the velocity's gap that an effect leaves: the least is the most important."""
+    added = next(other for other in done[1:] if other.candidate.effect == one.effect)
+    with_, bare = gaps_with_and_without(added, done[-1])
+    return with_.velocity / bare.velocity if bare.velocity > 0.0 else math.inf
+
+
+def gaps_with_and_without(added: SelectionRound, end: SelectionRound) -> tuple[Gap, Gap]:
+    """The gap of the last model, and of the same without one effect, refitted.
+
+    Where the last model has one effect only, that is what its round brought.
+    """
+    if added.gap_without is None:
+        return added.gap, added.gap_before
+    return end.gap, added.gap_without
 
 
 def _share_left(one: SelectionRound) -> float:
@@ -194,7 +223,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     name = now.candidate.effect
     effect = EFFECTS[name]
     last = end.candidate.estimate
-    with_, bare = (now.gap, before.gap) if now.gap_without is None else (end.gap, now.gap_without)
+    with_, bare = gaps_with_and_without(now, end)
     major = with_.velocity <= least * bare.velocity
     score = (
         before.candidate.score - now.candidate.score

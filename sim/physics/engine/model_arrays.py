@@ -25,7 +25,7 @@ __all__ = [
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
-SEARCHED = 0.01  # [s] the same while a search looks for an effect
+SEARCHED = 0.005  # [s] the same while a search looks for an effect
 LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
 SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
 EXACT: Array = np.array([math.inf, math.inf, 0.0])  # steps of a model with an exact solution
