@@ -102,6 +102,22 @@ def test_drag_ends_at_the_speed_at_which_the_volts_are_spent():
     assert track.velocity[-1] == pytest.approx(-2.0 + math.sqrt(11.6), rel=1e-6)
 
 
+def test_a_voltage_that_slides_moves_as_many_small_steps_of_it_do():
+    fine = np.linspace(0.0, 0.2, 2001)
+    coarse = fine[::200]
+    volts = 3.0 + 10.0 * coarse
+
+    track = simulate_run(
+        PLAIN, time=coarse, voltage=volts, slide=np.append(np.diff(volts), 0.0), state=State()
+    )
+
+    middle = 3.0 + 10.0 * (fine + 0.5 * (fine[1] - fine[0]))
+    exact = simulate_run(PLAIN, time=fine, voltage=middle, state=State())
+    held = simulate_run(PLAIN, time=coarse, voltage=volts, state=State())
+    missed = np.max(np.abs(track.position - exact.position[::200]))
+    assert missed < 0.005 * np.max(np.abs(held.position - exact.position[::200]))
+
+
 def test_a_delay_shifts_the_motion_and_nothing_else():
     late = simulate_run(
         PLAIN + Part("delay", {"lag": 0.06}), time=TIME, voltage=steady(3.0), state=State()

@@ -182,9 +182,9 @@ def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
     assert everybody & set(re.findall(r"[a-z-]+", said)) == set()
 
 
-@pytest.mark.parametrize("student", ["student 104", "student 190", "student 260"])
+@pytest.mark.parametrize("student", ["student 104", "student 190"])
 def test_what_a_log_does_not_determine_is_drawn_again(student):
-    """These three of 300 had a log whose right effects predict other runs badly."""
+    """These two of 300 had a log whose right effects predict other runs badly."""
     drawn = sys.modules[OWN.module.draw.__module__]
     first = drawn._one(drawn.make_student_rng(student, "exercise12"))
 

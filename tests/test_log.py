@@ -138,3 +138,39 @@ def test_units_are_worth_what_they_are(name, si):
 def test_an_unknown_unit_lists_the_known():
     with pytest.raises(BadRequest, match="Choose one of: meters, feet, inches, radians"):
         find_unit("furlongs")
+
+
+# -- a voltage that slides between samples -------------------------------------------------------
+
+
+def stepped(voltage, test="dynamic-forward"):
+    count = len(voltage)
+    return Run(test, np.arange(count) * 0.02, voltage, [0.0] * count, [0.0] * count)
+
+
+def test_a_voltage_that_is_held_does_not_slide():
+    assert not stepped([0.0, 5.0, 5.0, 5.0]).voltage_slide.any()
+    assert not stepped([0.0, 5.0, 5.0, 5.0]).voltage_error.any()
+
+
+def test_under_a_limit_the_voltage_slides_after_the_step():
+    run = stepped([0.0, 3.9, 4.4, 4.8, 5.0, 5.0])
+
+    assert run.voltage_slide == pytest.approx([0.0, 0.5, 0.4, 0.2, 0.0, 0.0])
+    assert run.voltage_error[1:4] == pytest.approx([0.5 / 8, 0.3 / 8, 0.4 / 8])
+
+
+def test_a_slide_within_one_sample_may_end_anywhere_between():
+    run = stepped([-6.8, -7.0, -7.0])
+
+    assert run.voltage_slide == pytest.approx([-0.2, 0.0, 0.0])
+    assert run.voltage_error[0] == pytest.approx(0.2 / 12**0.5)
+
+
+@pytest.mark.parametrize("test", ["quasistatic-forward", "triangle-forward", "chirp-reverse"])
+def test_a_command_that_changes_every_loop_is_a_stair(test):
+    assert not stepped([0.0, 0.5, 1.0, 1.5], test).voltage_slide.any()
+
+
+def test_steps_to_and_fro_are_held():
+    assert not stepped([2.0, 2.0, -4.0, -4.0, 0.5], "multistep-forward").voltage_slide.any()

@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.estimation.measurements import THIRD, estimate_noise, measure_runs, third_differences
 
@@ -55,3 +58,16 @@ def test_a_sample_that_comes_late_is_no_noise(time):
 
     assert found.position == pytest.approx(NOISE, rel=0.15)
     assert found.velocity == pytest.approx(0.01, rel=0.15)
+
+
+@pytest.mark.parametrize("name", sorted(MECHANISMS))
+def test_the_noise_of_a_position_is_that_of_its_sensor(name):
+    # the smallest change from one sample to the next says how slow it was, not how coarse it is
+    mechanism = MECHANISMS[name]
+    log = simulate(mechanism, Routine(step=3.5), rng=np.random.default_rng(1))
+
+    noise = estimate_noise(measure_runs(log, friction=None))
+
+    rounding = mechanism.sensor.resolution / 12**0.5
+    assert 0.8 * rounding < noise.position < 1.5 * rounding
+    assert noise.velocity == pytest.approx(mechanism.sensor.velocity_noise, rel=0.15)

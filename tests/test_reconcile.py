@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 from reconcile_made import bench, logs, session, solved, told
 
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.cli.reconcile import inspect_damage
 from sim.core.units import find_unit
 from sim.inspect.contaminate import contaminate
 from sim.physics.effects import EFFECTS
+from sim.reconcile import reconcile
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.story_text import list_remarks, write_headline
 from sim.reconcile.thresholds import NOT_WIDER
@@ -47,6 +51,27 @@ def test_a_hidden_effect_is_the_one_that_is_named(name):
 
     assert named(story) == [HIDDEN[name][1]]
     assert story.verdict == "explained"
+    assert not story.remainder
+
+
+@pytest.mark.parametrize(
+    ("name", "steps"),
+    [("drivetrain", (3.5, 5.0, 2.0)), ("shooter", (3.5, 6.0, 5.0)), ("elevator", (4.5, 7.0, 5.0))],
+)
+def test_a_healthy_robot_whose_current_limit_acts_lacks_nothing(name, steps):
+    mechanism = MECHANISMS[name]
+    log, validation, held_out = (
+        simulate(mechanism, Routine(step=step), rng=np.random.default_rng(seed))
+        for seed, step in enumerate(steps)
+    )
+
+    story = reconcile(
+        log, validation=validation, held_out=held_out, type=mechanism.type,
+        travel=mechanism.travel if mechanism.stops else None,
+    )  # fmt: skip
+
+    assert story.verdict == "nothing-missing"
+    assert not story.findings
     assert not story.remainder
 
 

@@ -146,6 +146,15 @@ def added(problem, *steps, values):
     return done
 
 
+def made(problem, done, *, left):
+    """The findings, where the shown log is missed as the other runs are."""
+    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
+    without = {
+        one.candidate.effect: (one.gap_without or one.gap_before).velocity for one in done[1:]
+    }
+    return make_findings(problem, done, [], chapters, without=without, left=left, per=METERS)
+
+
 @pytest.mark.parametrize(
     ("steps", "sizes"),
     [
@@ -163,11 +172,25 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 ):
     values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
     done = added(problem, *steps, values=values)
-    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
+    found = made(problem, done, left=ResidualSummary())
 
     assert {one.effect: one.size for one in found} == sizes
+
+
+@pytest.mark.parametrize(("shown", "size"), [(1.9, "major"), (1.0, "minor"), (0.9, None)])
+def test_no_effect_is_named_with_which_the_shown_log_is_missed_by_more(problem, shown, size):
+    values = {**GAINS, "drag.drag": 0.03}
+    done = added(problem, ("drag", 1.0, 2.0), values=values)
+    end = done[-1].gap.velocity
+    chapters = [SimpleNamespace(gap=2.0 * end), SimpleNamespace(gap=end)]
+
+    found = make_findings(
+        problem, done, [], chapters, without={"drag": shown * end}, left=ResidualSummary(),
+        per=METERS,
+    )  # fmt: skip
+
+    assert [one.size for one in found] == [size] * (size is not None)
 
 
 @pytest.mark.parametrize(
@@ -186,8 +209,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
     alike = added(problem, ("drag", 1.1, 1.05), ("spring", 1.0, 1.1), values=values)
 
     def sizes(done):
-        chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
-        found = make_findings(problem, done, [], chapters, left=rest, per=METERS)
+        found = made(problem, done, left=rest)
         return [one.size for one in found]
 
     assert sizes(alone) == [size]
@@ -206,9 +228,8 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
 )
 def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, name, size, named):
     done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
-    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
+    found = made(problem, done, left=ResidualSummary())
     told = list_remarks(problem, done, found, ResidualSummary())
 
     assert [one.effect for one in found] == [effect] * named
@@ -224,9 +245,8 @@ def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, 
     done = added(problem, ("spring", beside, 2.0), ("drag", 0.95 * beside, beside), values=values)
     done[1:] = [replace(done[1], removal_cost=70.0), replace(done[2], removal_cost=score)]
     done[1:] = [replace(one, gap_without=one.gap_before) for one in done[1:]]
-    chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
 
-    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
+    found = made(problem, done, left=ResidualSummary())
 
     assert ("drag" in [one.effect for one in found]) is named
     assert any(one.size == "major" for one in found) is (beside < 1.5)
@@ -270,9 +290,8 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
         TriedCandidate(name, each, 1.0, admitted=False, why="") for name, each in scores.items()
     )
     done = [replace(base, tried=tried), replace(one, removal_cost=score)]
-    chapters = [SimpleNamespace(gap=each.gap.velocity) for each in done]
 
-    found = make_findings(problem, done, [], chapters, left=ResidualSummary(), per=METERS)
+    found = made(problem, done, left=ResidualSummary())
 
     assert [each.effect for each in found] == ["battery-sag"] * named
 

@@ -116,7 +116,9 @@ def _make_story(
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
-    findings = make_findings(problem, done, faults, chapters, left=left, per=per)
+    findings = make_findings(
+        problem, done, faults, chapters, without=shown.gaps_without(done), left=left, per=per
+    )
     verdict, remainder, remains = reach_verdict(findings, done, problem, left=left, per=per)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,

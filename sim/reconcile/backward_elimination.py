@@ -119,7 +119,8 @@ def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[Se
     for one in done[1:]:
         reduced = refit_without(data.problem, last, one.candidate.effect)
         gap = validation_gap(data.problem, reduced.estimate, data.folds)
-        told.append(replace(one, removal_cost=reduced.score - last.score, gap_without=gap))
+        cost = reduced.score - last.score
+        told.append(replace(one, removal_cost=cost, without=reduced, gap_without=gap))
     return told
 
 

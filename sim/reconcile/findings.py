@@ -26,6 +26,7 @@ from sim.reconcile.thresholds import (
     LOST,
     MAJOR,
     NARROWER,
+    NOT_WIDER,
     STRAYS,
     TOLD_FIRST,
 )
@@ -44,19 +45,20 @@ BELIED = (
 def make_findings(
     problem: PredictionErrorProblem, done: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
-    left: ResidualSummary, per: Unit,
+    without: Mapping[str, float], left: ResidualSummary, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """Findings: faults first, then effects, major ones first.
 
     What any robot has a little of stays in the model and is no finding, however much of a small gap
-    it takes. A fault that is cut out for safety's sake, but may be physics, comes after the major
-    effects.
+    it takes; nor is an effect with which the shown log is missed by more. A fault that is cut out
+    for safety's sake, but may be physics, comes after the major effects.
 
     Args:
         problem: the measurements.
         done: the base and the rounds.
         damages: of the record.
         chapters: of the shown log, one for each round.
+        without: effect -> [owner's unit/s] gap of the last model without it on the shown log.
         left: what the last model leaves.
         per: the owner's unit.
     """
@@ -64,7 +66,9 @@ def make_findings(
     last = done[-1].candidate.estimate
     end = done[-1].gap.velocity / problem.noise.velocity
     far = end > STRAYS or left.has_structure
-    effects = _classify_size(problem, done, chapters, far=far, per=per)
+    gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
+    effects = _classify_size(problem, done, gaps, far=far, per=per)
+    effects = [one for one in effects if not one.gap_after > NOT_WIDER * one.gap_before]
     if not missed_motion(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
     effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]
@@ -83,12 +87,12 @@ def make_findings(
 def _classify_size(
     problem: PredictionErrorProblem,
     done: Sequence[SelectionRound],
-    chapters: Sequence[Chapter],
+    gaps: Mapping[str, tuple[float, float]],
     *,
     far: bool,
     per: Unit,
 ) -> list[Finding]:
-    """What each round added, major or minor.
+    """What each round added, major or minor: what is major visibly narrows the shown gap.
 
     Of effects that stand in for one another none is missed alone: if together they closed the gap,
     the one that closed most of it is major.
@@ -101,8 +105,7 @@ def _classify_size(
             done[n],
             done[-1],
             errors,
-            chapters[n - 1].gap,
-            chapters[n].gap,
+            *gaps[done[n].candidate.effect],
             per=per,
             least=least,
         )
@@ -224,7 +227,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     effect = EFFECTS[name]
     last = end.candidate.estimate
     with_, bare = gaps_with_and_without(now, end)
-    major = with_.velocity <= least * bare.velocity
+    major = with_.velocity <= least * bare.velocity and gap_after <= NARROWER * gap_before
     score = (
         before.candidate.score - now.candidate.score
         if math.isnan(now.removal_cost)

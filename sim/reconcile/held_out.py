@@ -119,14 +119,25 @@ class HeldOutLog:
         """Each model's gap and simulated runs."""
         return tuple(map(self._chapter, done))
 
+    def gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
+        """[owner's unit/s] effect -> the gap of the last model without it."""
+        return {
+            one.candidate.effect: self._gap(
+                one.without.estimate if one.without else reported_estimate(before)
+            )
+            for before, one in pairwise(done)
+        }
+
+    def _gap(self, point: Estimate, nuisance: RunNuisance | None = None) -> float:
+        nuisance = self._initial_nuisance(point) if nuisance is None else nuisance
+        errors = open_loop_errors(self.problem, point, nuisance)
+        return rms_gap(errors).velocity / find_unit(self.log.units).si
+
     def _chapter(self, one: SelectionRound) -> Chapter:
         point = reported_estimate(one)
         model = point.structure.model(point.values)
         nuisance = self._initial_nuisance(point)
-        gap = (
-            rms_gap(open_loop_errors(self.problem, point, nuisance)).velocity
-            / find_unit(self.log.units).si
-        )
+        gap = self._gap(point, nuisance)
         track = self.problem.simulate(model, nuisance).sensor_readings
         runs = tuple(track[first:last] for first, last in pairwise(self.problem.run_edges.tolist()))
         return Chapter(one.candidate.effect, model, one.tried, gap, runs)

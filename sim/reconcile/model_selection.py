@@ -105,12 +105,30 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
 def list_rivals(
     best: WeighedCandidate, weighed: Sequence[WeighedCandidate]
 ) -> list[WeighedCandidate]:
-    """Effects that explain about as much as the chosen one."""
+    """Effects that explain about as much as the chosen one.
+
+    An effect that contains the chosen one as its simpler form explains as much without being needed
+    itself: it is no rival, unless it explains more.
+    """
+    chosen = best.candidate.effect
     return [
         one
         for one in weighed
-        if one is not best and one.report.admitted and best.report.score - one.report.score <= CLOSE
+        if one is not best
+        and one.report.admitted
+        and best.report.score - one.report.score <= CLOSE
+        and not (
+            one.report.score <= best.report.score and contains_effect(one.candidate.effect, chosen)
+        )
     ]
+
+
+def contains_effect(effect: str, other: str) -> bool:
+    """Whether an effect has another one as its simpler form, or as that of its simpler form."""
+    simpler = EFFECTS[effect].simpler
+    while simpler and simpler != other:
+        simpler = EFFECTS[simpler].simpler
+    return bool(simpler)
 
 
 def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:

@@ -39,7 +39,8 @@ class SelectionRound:
         seeds: parameters of the candidates that were likelier than nothing, of all rounds so far.
         removal_cost: [of -2 log L] what the last model would lose without this effect; nan if not
             asked.
-        gap_without: the gap of the last model without this effect; None if not asked.
+        without: the last model, refitted without this effect; None if not asked.
+        gap_without: the gap of that; None if not asked.
         candidates: the candidates of the next round, with their models.
     """
 
@@ -52,6 +53,7 @@ class SelectionRound:
     reported_candidate: Candidate | None = None
     seeds: Seeds = field(default_factory=dict)
     removal_cost: float = math.nan
+    without: Candidate | None = None
     gap_without: Gap | None = None
     candidates: tuple[WeighedCandidate, ...] = ()
 

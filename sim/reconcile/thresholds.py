@@ -144,6 +144,10 @@ MOSTLY = 0.5
 """[1] of the base model's gap: where the last model strays and leaves more than that of it, what
 was named is not what is missing, and the verdict is that nothing explains it."""
 
+FAR_OFF, FAR_OFF_SPEED = 3.0, 0.03
+"""[noises of a velocity], [of the top speed] of the gap that the last model leaves: beyond both,
+a person sees the curves apart, and the log is not explained, whatever was named."""
+
 NEAR = 0.25
 """[1] of the best score of its round, from which an effect may begin another path where the first
 one strays: what resembles two effects at once is far likelier than each of them alone."""

@@ -1,17 +1,17 @@
 """The verdict: explained, ambiguous, unexplained or nothing missing."""
 
 from collections.abc import Sequence
+from itertools import permutations
 
 from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.physics.effects import EFFECTS
 from sim.reconcile.cross_validation import missed_motion
-from sim.reconcile.model_selection import list_blocked
+from sim.reconcile.model_selection import contains_effect, list_blocked
 from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidual
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
-from sim.reconcile.thresholds import LOST, MOSTLY, STRAYS
+from sim.reconcile.thresholds import FAR_OFF, FAR_OFF_SPEED, LOST, MOSTLY, STRAYS
 
 
 def reach_verdict(
@@ -44,7 +44,10 @@ def reach_verdict(
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
     mostly = effects and strays > max(STRAYS, MOSTLY * before)
-    if mostly or (remains and not majors):
+    far_off = (
+        strays > FAR_OFF and strays * problem.noise.velocity > FAR_OFF_SPEED * problem.top_speed
+    )
+    if mostly or far_off or (remains and not majors):
         return UNEXPLAINED, True, remains
     if not majors:
         return NOTHING_MISSING, bool(remains), remains
@@ -104,12 +107,9 @@ def _find_nested_pair(findings: Sequence[Finding]) -> str:
     with a bump, a band or a grip that no effect is, and on one where two others were missed.
     """
     named = {one.effect for one in findings if one.kind == "effect"}
-    for one in sorted(named):
-        simpler = EFFECTS[one].simpler
-        while simpler:
-            if simpler in named:
-                return f"{one} beside {simpler}"
-            simpler = EFFECTS[simpler].simpler
+    for one, other in permutations(sorted(named), 2):
+        if contains_effect(one, other):
+            return f"{one} beside {other}"
     return ""
 
 
