@@ -112,7 +112,7 @@ def _classify_size(
         for n in range(1, len(done))
     ]
     closed = done[-1].gap.velocity <= least * done[0].gap_before.velocity
-    if closed and not far and all(one.size != "major" for one in found):
+    if len(found) > 1 and closed and not far and all(one.size != "major" for one in found):
         most = min(range(len(found)), key=lambda n: _share_left(done[n + 1]), default=None)
         if most is not None:
             found[most] = replace(found[most], size="major")
