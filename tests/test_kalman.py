@@ -24,11 +24,14 @@ def by_riccati(process_noise, voltage_error, *, before=3000):
     kept = math.exp(-rate * PERIOD)
     step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
     push = process_noise * np.array([[PERIOD**3 / 3, PERIOD**2 / 2], [PERIOD**2 / 2, PERIOD]])
-    volt = np.array([PERIOD - (1.0 - kept) / rate, 1.0 - kept]) / MODEL.gains["kV"]
+    half = math.exp(-rate * PERIOD / 2)
+    late = np.array([PERIOD / 2 - (1.0 - half) / rate, 1.0 - half]) / MODEL.gains["kV"]
+    early = np.array([[1.0, (1.0 - half) / rate], [0.0, half]]) @ late
+    volt = 2.0 * (np.outer(early, early) + np.outer(late, late))  # of two halves, each off alone
     rough = np.diag([NOISE.position**2, NOISE.velocity**2])
     cov, gains = np.zeros((2, 2)), []
     for error in (*np.zeros(before), *voltage_error):
-        cov = step @ cov @ step.T + push + np.outer(volt, volt) * error**2
+        cov = step @ cov @ step.T + push + volt * error**2
         gain = cov @ np.linalg.inv(cov + rough)
         cov = cov - gain @ cov
         gains.append(gain.ravel())
@@ -63,7 +66,7 @@ def test_innovations_of_uncertain_samples_are_scaled_to_the_usual_covariance():
     schedule = one.schedule(error)
 
     usual = one.predicted + np.diag(one.measured)
-    seen = usual + np.outer(one.response, one.response) * 0.2**2
+    seen = usual + one.disturbed * 0.2**2
     scale = schedule.scales[schedule.uncertain.tolist().index(4)]
     assert scale @ seen @ scale.T == pytest.approx(usual, rel=1e-9)
 

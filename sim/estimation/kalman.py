@@ -52,7 +52,8 @@ class KalmanFilter:
         measured: (2,) variances of a measured position and velocity.
         step: (2, 2) from one state to the next.
         push: (2, 2) covariance that process noise adds on the way.
-        response: (2,) change of position and velocity by one volt more over one period.
+        disturbed: (2, 2) covariance of position and velocity after one period whose mean voltage
+            has a variance of one volt squared.
     """
 
     steady: Array
@@ -60,7 +61,7 @@ class KalmanFilter:
     measured: Array
     step: Array
     push: Array
-    response: Array
+    disturbed: Array
 
     def schedule(self, voltage_error: Array) -> GainSchedule:
         """Gains and scales of samples before which the voltage has errors (n,) [V].
@@ -79,9 +80,10 @@ class KalmanFilter:
 
     def _follow_covariance(self, voltage_error: Array) -> tuple[list[int], list[_Four]]:
         """Samples at which the predicted covariance is not the steady one, and what it is."""
-        usual, push, step = map(_as_four, (self.predicted, self.push, self.step))
-        (across, along), back = self.response.tolist(), _transpose(step)
-        response = (across * across, across * along, across * along, along * along)
+        usual, push, step, disturbed = map(
+            _as_four, (self.predicted, self.push, self.step, self.disturbed)
+        )
+        back = _transpose(step)
         noise_x, noise_v = self.measured.tolist()
         variances = np.square(voltage_error).tolist()
         places: list[int] = []
@@ -91,7 +93,7 @@ class KalmanFilter:
                 continue
             now, cov = first, usual
             while now < len(variances):
-                cov = _add(cov, _times(response, variances[now]))
+                cov = _add(cov, _times(disturbed, variances[now]))
                 if now > first and _is_near(cov, usual):
                     break
                 places.append(now)
@@ -106,11 +108,11 @@ class KalmanFilter:
     def _matters(self, voltage_error: Array) -> NDArray[np.bool_]:
         """(n,) samples before which the voltage is uncertain enough to matter."""
         ordinary = np.diag(self.predicted) + self.measured
-        return np.asarray(voltage_error**2 * np.max(self.response**2 / ordinary) > MATTERS)
+        return np.asarray(voltage_error**2 * np.max(np.diag(self.disturbed) / ordinary) > MATTERS)
 
 
 OPEN_LOOP = KalmanFilter(
-    NO_CORRECTION, np.zeros((2, 2)), np.ones(2), np.eye(2), np.zeros((2, 2)), np.zeros(2)
+    NO_CORRECTION, np.zeros((2, 2)), np.ones(2), np.eye(2), np.zeros((2, 2)), np.zeros((2, 2))
 )
 """A filter that corrects nothing: its predictions are a simulation."""
 
@@ -134,13 +136,25 @@ def steady_state_filter(
         [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
     )
     rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
-    reach = (1.0 - kept) / rate
-    response = np.array([dt - reach, 1.0 - kept]) / model.gains["kV"] / noise.velocity
+    disturbed = _voltage_covariance(rate, dt) / (model.gains["kV"] * noise.velocity) ** 2
     if process_noise <= 0.0:
-        return replace(OPEN_LOOP, measured=rough, step=step, response=response)
+        return replace(OPEN_LOOP, measured=rough, step=step, disturbed=disturbed)
     spread = _steady_covariance(step, push, rough)
     steady = np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))
-    return KalmanFilter(steady, spread, rough, step, push, response)
+    return KalmanFilter(steady, spread, rough, step, push, disturbed)
+
+
+def _voltage_covariance(rate: float, period: float) -> Array:
+    """(2, 2) covariance of what an uncertain voltage does in a period, times kV².
+
+    Nobody knows when within the period the voltage was off, so its first and its second half are
+    off independently. Together their mean has a variance of one volt squared.
+    """
+    half = 0.5 * period
+    kept = math.exp(-rate * half)
+    late = np.array([half - (1.0 - kept) / rate, 1.0 - kept])
+    early = np.array([late[0] + late[1] * (1.0 - kept) / rate, late[1] * kept])
+    return np.asarray(2.0 * (np.outer(early, early) + np.outer(late, late)))
 
 
 def _steady_covariance(step: Array, push: Array, rough: Array) -> Array:

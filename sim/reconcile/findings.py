@@ -26,7 +26,7 @@ from sim.reconcile.thresholds import (
     LOST,
     MAJOR,
     NARROWER,
-    NOT_WIDER,
+    SHOWN_WIDER,
     STRAYS,
     TOLD_FIRST,
 )
@@ -68,7 +68,7 @@ def make_findings(
     far = end > STRAYS or left.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
     effects = _classify_size(problem, done, gaps, far=far, per=per)
-    effects = [one for one in effects if not one.gap_after > NOT_WIDER * one.gap_before]
+    effects = [one for one in effects if not one.gap_after > SHOWN_WIDER * one.gap_before]
     if not missed_motion(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
     effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]

@@ -58,6 +58,10 @@ explains least begins between them, that was something else."""
 NOT_WIDER = 1.005
 """[1] the same of a gap that must not grow: half a percent is what another start changes."""
 
+SHOWN_WIDER = 1.05
+"""[1] of the shown log's gap without an effect, beyond which it is not named: friction that
+differs from run to run changes that gap by some percent."""
+
 MAJOR = 0.87
 """[1] of the gap before: an effect that shrinks the validation's velocity gap by more is major.
 Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)
