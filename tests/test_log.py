@@ -160,11 +160,16 @@ def test_under_a_limit_the_voltage_slides_after_the_step():
     assert run.voltage_error[1:4] == pytest.approx([0.5 / 8, 0.3 / 8, 0.4 / 8])
 
 
-def test_a_slide_within_one_sample_may_end_anywhere_between():
-    run = stepped([-6.8, -7.0, -7.0])
+@pytest.mark.parametrize("first", [-6.8, -4.0])
+def test_a_slide_within_one_sample_may_end_anywhere_between(first):
+    run = stepped([first, -7.0, -7.0])
 
-    assert run.voltage_slide == pytest.approx([-0.2, 0.0, 0.0])
-    assert run.voltage_error[0] == pytest.approx(0.2 / 12**0.5)
+    assert run.voltage_slide == pytest.approx([-7.0 - first, 0.0, 0.0])
+    assert run.voltage_error[0] == pytest.approx((7.0 + first) / 12**0.5)
+
+
+def test_the_end_of_a_step_is_a_step():
+    assert not stepped([5.0, 5.0, 0.0, 0.0], "coast-forward").voltage_slide.any()
 
 
 @pytest.mark.parametrize("test", ["quasistatic-forward", "triangle-forward", "chirp-reverse"])

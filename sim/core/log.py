@@ -101,14 +101,18 @@ class Run:
         A program sets a voltage once a loop and holds it, so a ramp is a stair. Where the command
         is constant, a voltage that changes from sample to sample follows the speed: a current
         limit or a weak battery acts. A large change that is more than twice as large as those
-        before and after it is a step of the command, which is held.
+        before and after it is a step of the command, which is held. Dynamic and coast tests know
+        two commands only, the step and nothing, so from one voltage to another it slides.
         """
         change = np.diff(self.voltage)
         if self.kind not in CONSTANT_KINDS or not change.any():
             return _frozen(np.zeros(len(self)))
         sizes = np.abs(np.concatenate(([0.0], change, [0.0])))
         steps = sizes[1:-1] > LONE_STEP * np.maximum(sizes[:-2], sizes[2:])
-        steps &= np.abs(change) > LEAST_STEP * np.max(np.abs(self.voltage))
+        least = LEAST_STEP * float(np.max(np.abs(self.voltage)))
+        steps &= np.abs(change) > least
+        if self.kind != "multistep":
+            steps &= np.minimum(np.abs(self.voltage[:-1]), np.abs(self.voltage[1:])) < least
         return _frozen(np.append(np.where(steps, 0.0, change), 0.0))
 
     @cached_property

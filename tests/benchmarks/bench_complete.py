@@ -4,7 +4,8 @@
 
 Nothing is hidden in any of them. Mechanisms of the bench are drawn anew, on a good, a tired and an
 old battery, with steps that no limit touches and with steps that one cuts; each is reconciled from
-three logs. A name that is not "nothing" is wrong.
+three logs. "Nothing is missing" is right, and so is the name of the limit that acts. A log in which
+the battery browned out is no healthy robot's, and is left out.
 """
 
 import sys
@@ -44,6 +45,8 @@ def solved(number: int) -> tuple[str, str, str, str, tuple[str, ...], str, float
         simulate(mechanism, Routine(ramp=0.7, step=step + more, timeout=8.0), rng=rng)
         for step in STEPS[steps]
     ]
+    if any(log.doubts for log in logs):
+        return kind, battery, steps, "brownout", (), "", 0.0
     began = time.process_time()
     try:
         story = reconcile(
@@ -66,14 +69,18 @@ def main() -> None:
         for kind, battery, steps, verdict, names, remains, took in pool.map(
             solved, range(first, first + count)
         ):
+            if verdict == "brownout":
+                continue
             right = verdict == "nothing-missing" and not any("major" in name for name in names)
+            right |= verdict == "explained" and set(names) == {"current-limit (major)"}
             found["right" if right else "wrong"] += 1
             found["named"] += bool(names)
             seconds.append(took)
             if names or not right:
                 print(kind, battery, steps, verdict, *names, remains, f"{took:.1f} s", flush=True)
-    share = found["right"] / count
-    print(f"{count} healthy robots: {share:.3f} right, {found['named']} with a name")
+    healthy = found["right"] + found["wrong"]
+    share = found["right"] / healthy
+    print(f"{healthy} healthy robots: {share:.3f} right, {found['named']} with a name")
     print(f"{np.median(seconds):.1f} s of a core in the middle, {max(seconds):.1f} s at most")
 
 
