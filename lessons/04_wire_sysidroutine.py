@@ -227,7 +227,8 @@ for mass in (60.0, 30.0):
 #
 # - **Applied** voltage is what reached the motor. A TalonFX reports it as `getMotorVoltage()`. For
 #   a simple PWM controller it is `get()` times the battery voltage. It is *not* the number that the
-#   routine asked for.
+#   routine asked for. In a brownout the applied voltage drops to 0 and comes back, again and again.
+#   The asked-for voltage goes on as if nothing had happened (lesson 6).
 # - **Units.** A drivetrain or an elevator moves along a line: meters and meters per second, after
 #   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
 #   the *output*, after the gear ratio.

@@ -362,7 +362,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # - **1 room.** You see it on the floor, and the log is spoiled, too: against the wall there is
 #   voltage without speed. (Here it is in one ramp only. That is enough.)
 # - **2 battery.** You may see the robot crawl, and the Driver Station shows the brownout. `inspect`
-#   even says that the step is mislabeled: it does not look like a step any more.
+#   finds it, because the applied voltage is cut to 0 again and again.
 # - **3 encoder.** On the floor, *everything is normal*. All gains come out negative. This is the
 #   check that nobody sees being skipped.
 # - **4 log.** A perfect afternoon, and nothing to show for it.

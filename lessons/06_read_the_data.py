@@ -51,6 +51,7 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import select_samples
 from sim.inspect.faults import FAULTS
+from sim.physics.battery import Battery
 from sim.plot import (
     Picture,
     Table,
@@ -168,7 +169,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # |---|---|---|
 # | **the source lesson's four** | | |
 # | encoder slip | the encoder loses its grip on the shaft for a while | fix it, run again |
-# | brownout | the battery sinks, the motors are cut, the log shows a voltage | charge, run again |
+# | brownout | the battery sinks, and the motors are cut for a moment | charge, run again |
 # | hard stop | it hits its end, the voltage goes on | trim, or run again |
 # | timing gaps | the robot program stalls, samples are missing | find the stall, run again |
 # | **five from the field** | | |
@@ -211,10 +212,12 @@ all_cases = make_cases(rng=np.random.default_rng(0))
 by_name = {case.name: case for case in all_cases}
 late_sensor = replace(ROBOT, sensor=replace(ROBOT.sensor, filter=0.224))
 limited = replace(ROBOT, stator=40.0)
+weak = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
 gallery = {
     "sound": sound,
     "encoder slip": spoiled("encoder-slip", test=RAMP, at=3.0),
     "brownout": spoiled("brownout", test=RAMP, at=3.0),
+    "brownout, applied voltage": simulate(weak, ROUTINE, rng=np.random.default_rng(6)),
     "hard stop": spoiled("hard-stop", test=RAMP, at=4.5),
     "timing gaps": spoiled("loop-overrun", test=STEP, at=0.04),
     "asked-for voltage": spoiled("command-logged"),
@@ -294,7 +297,10 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # - **Encoder slip.** The velocity falls by a share of itself from one sample to the next, and comes
 #   back as suddenly. Voltage over velocity gets a second branch.
 # - **Brownout.** The velocity falls along a *curve*, as without a motor, and climbs back along one.
-#   The voltage in the log goes on as if nothing had happened.
+#   If the log holds the **asked-for** voltage, the voltage goes on as if nothing had happened.
+#   If it holds the **applied** voltage (lesson 4), the voltage is chopped: it drops to 0 and comes
+#   back, again and again. The **bus voltage**, if it is in the log, shows both: it falls below the
+#   threshold.
 # - **Hard stop.** From speed to zero within a few samples. The position stays, the voltage goes on.
 # - **Timing gaps.** Only *time steps* shows them well.
 # - **Asked-for voltage.** The step in the log is perfect, the rise starts in a straight line.
@@ -305,6 +311,15 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # - **Wheel slip.** A surge, a lull, then a slower climb: the wheels were ahead of the robot.
 # - **Repeated samples.** Stairs: the same reading two or three times, then a jump. Some logs write
 #   a value only when it *changes*; that looks alike.
+#
+# > **Lesson says:** "Voltage data suddenly drops mid-test, then recovers."
+# >
+# > **Source says:** in a brownout the robot controller disables its outputs until the battery
+# > recovers. So the *applied* voltage drops and recovers. The asked-for voltage does not drop,
+# > because nobody tells the routine.
+# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# >
+# > **Try it:** look at both brownouts above in the plot *over time*.
 #
 # ### How bad are timing gaps?
 #
@@ -756,7 +771,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# If the motors were cut (a brownout): yes, with a charged battery. If the voltage only sagged, and
+# If the motors were cut (a brownout): yes, with a charged battery. You see it by the velocity that
+# falls along a curve, or by an applied voltage that drops to 0 and comes back. Either way, the bus
+# voltage shows it. If the voltage only sagged, and
 # the log holds the voltage that arrived: no, the row is true. If it holds the voltage that was
 # asked for: yes, and change the log.
 # </details>

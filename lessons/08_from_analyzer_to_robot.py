@@ -638,7 +638,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # The fine print:
 #
-# - **Drivetrain:** kS and kV do most of the work. kA also tells the moment of inertia (below).
+# - **Drivetrain:** kS and kV do most of the work. kA also tells the mass, and a second kA measured
+#   while turning on the spot tells the moment of inertia (below).
 # - **Arm:** first without the game piece, then with it (section 6). A light arm with a short way
 #   may do well with computed gains.
 # - **Elevator:** with its load. kA and kG change with the mass, kV does not.
@@ -669,9 +670,13 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # > that is late on the slopes is beside its path in every curve.
 #
 # - **PathPlanner's moment of inertia** can be computed from two kA's: one measured while turning on
-#   the spot, one while driving straight. The same page has the formula:
+#   the spot, one while driving straight. One kA tells mass, the other tells inertia:
 #
-#   > I = mass · (trackwidth / 2) · kA_angular / kA_linear
+#   > I = mass · r · kA_angular / kA_linear
+#
+#   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
+#   **tank** that is half the trackwidth, r = trackwidth/2, as the same page has it. The modules of
+#   a **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
 #
 # - **Choreo** computes time-optimal paths that respect what you tell it about your robot. The same
 #   holds: a path is only as good as the drive code that follows it.
@@ -682,16 +687,18 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   ([AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
 #
 # Why does the formula work? Straight ahead, the wheels push mass; on the spot, they push inertia,
-# with half of the trackwidth as a lever. The motors are the same, so the ratio of the kA's is the
-# ratio of the loads. On the bench:
+# with the lever r. The motors are the same, so the ratio of the kA's is the ratio of the loads. On
+# the bench, with the modules of a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
-linear = drivetrain.gains["kA"]
-# turning: the wheels feel a mass of I / (track/2)², and meters at the wheel are radians · track/2
-turning = replace(drivetrain, load=INERTIA / (TRACK / 2) ** 2).gains["kA"] * TRACK / 2
-computed = drivetrain.load * TRACK / 2 * turning / linear
-print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I = {computed:.2f} kg·m²")
+linear, lever = drivetrain.gains["kA"], TRACK / np.sqrt(2)
+# turning: the wheels feel a mass of I / lever², and meters at the wheel are radians · lever
+turning = replace(drivetrain, load=INERTIA / lever**2).gains["kA"] * lever
+print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad")
+for name, r in (("half the trackwidth", TRACK / 2), ("trackwidth/√2", lever)):
+    print(f"with {name}: I = {drivetrain.load * r * turning / linear:.2f} kg·m²")
+print(f"The truth is {INERTIA:.2f} kg·m².")
 
 # %% [markdown]
 # ### When

@@ -120,6 +120,13 @@ def test_a_claim_of_the_source_lesson_stands_beside_the_fact(claim):
     assert claim.get("boxes") or claim.get("prose")
 
 
+@pytest.mark.parametrize("fact", TABLE["fact"], ids=lambda fact: fact["says"])
+def test_a_fact_is_taught_where_the_table_says(fact):
+    assert fact["taught"]
+    for place in fact["taught"]:
+        assert_taught(*place)
+
+
 @each_lesson
 def test_a_box_says_what_the_lesson_says_then_the_source_with_a_link_then_what_to_try(lesson):
     assert boxes(lesson)
