@@ -25,7 +25,7 @@
 # - look at a wrong gain and name the line of code that made it.
 #
 # Code is shown in Java and in Python (RobotPy), for WPILib 2026. Read the one your team uses. From
-# 2027 on, the package names differ; the ideas do not.
+# 2027 on, the names of packages and of some methods differ (section 3); the ideas do not.
 
 # %% [markdown]
 # ## 1 Why: everything later believes the log
@@ -421,6 +421,12 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # // Dynamic reverse, the step backward: kA again, and the robot is back where it was.
 # testMode.and(m_sysIdController.y()).whileTrue(m_drive.sysIdDynamic(Direction.kReverse));
 # ```
+#
+# **In WPILib 2027** (not released yet; names as on its development branch) these lines do not
+# compile. Test mode is called *utility mode* there. The guard is `RobotModeTriggers.utility()`, or
+# `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. A motor's
+# duty cycle is set with `setThrottle` instead of `set`; `setVoltage` keeps its name.
+# ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
 #
 # > **Lesson says:** a SysId test runs "bypassing soft limits, current limits, and any command-level
 # > safety logic you've written".

@@ -450,7 +450,8 @@ Table(
 # ### Guard
 #
 # Enable the robot with the guard *off*, that is: the tests are locked. (If your guard is Test mode,
-# enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4 has three kinds of guard.)
+# called *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4
+# has three kinds of guard.)
 # And one person does nothing but wait to press *Disable*. In the 2026 Driver Station the **Enter**
 # key disables, and the **space bar** is the emergency stop: it works even if another window is in
 # front, and the roboRIO has to be rebooted afterwards.

@@ -72,6 +72,17 @@ STYLES = {
         java(four("m_driver.{key}().and(m_driver.start())!!")),
         Guard.CHORD,
     ),
+    "utility mode, as 2027 calls it": (
+        java(four("m_driver.{key}().and(RobotModeTriggers.utility())!!")),
+        Guard.TEST_MODE,
+    ),
+    "utility mode of RobotState": (
+        java(
+            "Trigger utility = new Trigger(RobotState::isUtilityEnabled);\n"
+            + four("utility.and(m_driver.{key}())!!")
+        ),
+        Guard.TEST_MODE,
+    ),
     "the lesson's names": (
         java(
             four(
