@@ -526,7 +526,7 @@ Table(
 #
 # **Where to choose it.** In SysId's Data Selector, a menu holds the analysis type. It starts on
 # *Elevator*, whatever you load
-# ([SysId's source: DataSelector](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/view)).
+# ([SysId's source: DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
 # Look at it every time. In this course: `sysid fit log.wpilog --type elevator`.
 #
 # **Why does an arm's log need the position?** Velocity and voltage are enough for the other types.

@@ -247,7 +247,7 @@ Table(
 # > **Source says:** the ramp makes the voltage of the acceleration *negligible*. SysId itself does
 # > not read an intercept: it fits all runs at once, with a kA term for the ramps, too.
 # > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
-# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
 # > **Try it:** how slow must the flywheel's ramp be for an error below 0.03 V? Solve τ·ramp = 0.03.
 
@@ -621,7 +621,7 @@ Table(
 # > second half is not SysId's problem: it trims the step by itself. It *is* one of fits that do not
 # > trim (lesson 7).
 # > ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
-# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** compare the rows "0.2 s" and "7 s" of the table.
 

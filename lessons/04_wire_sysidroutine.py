@@ -196,10 +196,12 @@ for mass in (60.0, 30.0):
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
 #
 # Python differs in one point: there, `None` is *not* "the default" but an error. Leave the argument
-# out instead.
+# out instead. If you hand the state to a logger of your own, `SysIdRoutineLog.stateEnumToString`
+# makes the word of it that the analyzer looks for; `str(state)` does not.
 #
 # (`Mechanism`'s log callback may be `null` too, but only if another logger records the motors for
-# you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In this course you write it.)
+# you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
+# first loop of the test: write `lambda log: None`. In this course you write the callback.)
 
 # %% [markdown]
 # ### Mechanism, first callback: drive

@@ -433,8 +433,11 @@ Table(
 # asks for a *voltage*, and its motor controllers make up for the sag. (Lesson 4's share of the
 # battery does not.) A brownout spoils both columns, and the asked-for one far more. So: charge it
 # anyway, begin with a small step, and log the applied voltage. The source lesson's rule is 12 V or
-# more at rest. A battery fresh from the charger shows more than that. (The threshold of a
-# Systemcore is the default in WPILib 2027, which is not released yet.)
+# more at rest. But a lead-acid battery at 12.0 V is about half flat; WPILib's docs call 11.7 to
+# 12.5 V on an idle robot "depleted", and advise against a battery of more than 20 mΩ. So ask for
+# **12.5 V or more at rest**, and for 20 mΩ or less on a battery tester.
+# ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# (The threshold of a Systemcore is the default in WPILib 2027, which is not released yet.)
 #
 # ### Encoder
 #
@@ -705,7 +708,7 @@ Table(
 #
 # - [ ] **Room.** The way is clear in both directions, for the way you *computed*. Tape is on the
 #   floor.
-# - [ ] **Battery.** Charged, 12 V or more at rest.
+# - [ ] **Battery.** Charged: 12.5 V or more at rest, 20 mΩ or less.
 # - [ ] **Encoder.** Pushed forward, the position rises smoothly. Plus volts, plus velocity.
 # - [ ] **Log.** You have fetched a log from this robot before, and know its folder. One mechanism
 #   per log.

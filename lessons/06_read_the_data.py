@@ -329,7 +329,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Source says:** right in kind: SysId divides each difference of velocities by the *mean* time
 # > step of the test. But 20 ms is the normal step, so half of all steps are a bit longer. Count the
 # > steps that are longer than 1.5 times the usual one.
-# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** the next cell makes ten logs each with few and many, short and long gaps.
 
@@ -387,7 +387,7 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 # > them sets the end of a ramp. Samples at a stop vanish through the threshold, **if** the standing
 # > encoder is quiet.
 # > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
-# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** below is a log with a stop, a trembling standstill, and three wild readings. Which
 # > of the knobs repairs what?

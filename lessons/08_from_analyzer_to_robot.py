@@ -251,6 +251,9 @@ Table(
 # ([WPILib Java docs: SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html))
 # (Some pages of WPILib's docs still show the old call. The class's own documentation decides.) An
 # acceleration handed over as a velocity is one more wrong slot.
+#
+# kS gets the sign of the *current* velocity. From rest that velocity is zero, so there is no kS in
+# the first loop. The profile below asks for kS at once.
 
 # %% [markdown]
 # ## 4 A profile follower, and wrong units
@@ -485,7 +488,7 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical miss [
 # A correction that comes late corrects what is no longer wrong. With a late measurement a large kP
 # makes things worse, until it swings. Motor controllers differ: in SysId's presets a Phoenix 6
 # velocity is 1 ms late, that of a NEO's own encoder 112 ms.
-# ([SysId's source: FeedbackControllerPreset.hpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/include/wpi/sysid/analysis/FeedbackControllerPreset.hpp))
+# ([SysId's source: FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
 #
 # > **Lesson says:** "SysId suggests kP = 0.62 — start here, tune on carpet with fresh battery."
 # >

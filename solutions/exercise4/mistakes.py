@@ -162,6 +162,13 @@ MISTAKES = (
         "null in place of the log callback",
     ),
     Mistake(
+        "None for the log callback",
+        PYTHON,
+        replace_text(("self.drive, self.record, self", "self.drive, None, self")),
+        "log",
+        "stops with a TypeError in the first loop",
+    ),
+    Mistake(
         "the voltage that was asked for in the log",
         JAVA,
         replace_text(
