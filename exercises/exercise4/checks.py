@@ -238,8 +238,8 @@ def _log(facts: RoutineFacts, demanded: int) -> None:
     if facts.log_is_null and facts.language == "python":
         raise WrongAnswer(
             "None in place of the log callback: RobotPy stops with a TypeError in the first loop",
-            hint="Where a vendor's logger records the motors, write `lambda log: None`. Here, write "
-            "a callback that fills the log.",
+            hint="Where a vendor's logger records the motors, write `lambda log: None`. Here, "
+            "write a callback that fills the log.",
         )
     if facts.log_is_null:
         raise WrongAnswer(
