@@ -49,7 +49,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.units import gains_per
 from sim.fit import fit
-from sim.physics.motors import MOTORS
+from sim.physics.motors import MOTORS, find_motor
 from sim.plot import (
     Picture,
     Table,
@@ -58,6 +58,7 @@ from sim.plot import (
     plot_tracking_error,
     show_interactive,
 )
+from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import CLASSES, ORDER, write_robot_code
 from sim.teaching.prediction import Prediction
 
@@ -254,6 +255,36 @@ Table(
 #
 # kS gets the sign of the *current* velocity. From rest that velocity is zero, so there is no kS in
 # the first loop. The profile below asks for kS at once.
+#
+# ### Gains inside the motor controller
+#
+# A motor controller can add the feedforward itself, a thousand times a second. It counts in units
+# of its own, and it does not say so when yours differ:
+#
+# | where | kV is volts per | set beside it |
+# |---|---|---|
+# | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
+# | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
+# | YAGSL, drive motors | m/s of the wheel | `replaceSwerveModuleFeedforward` |
+#
+# `sysid fit` writes each of them and converts the units. A log in meters needs the radius as well:
+#
+# ```
+# sysid fit my_log.wpilog --paste phoenix6 --radius 0.0508
+# ```
+
+# %%
+print(write_controller_code(found, target="phoenix6", name="shooter"))
+foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
+share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
+print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
+
+# %% [markdown]
+# So the gains are volts per rotation of the *mechanism*, if the ratio is set. And use **FOC as in
+# the tests.** `setVoltage` and `VoltageOut` turn it on if you do not say otherwise and have a
+# Phoenix Pro license. Gains that were measured with it are wrong without it.
+# ([CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
+# [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 
 # %% [markdown]
 # ## 4 A profile follower, and wrong units
