@@ -714,6 +714,9 @@ Table(
 #   per log.
 # - [ ] **Guard.** With the guard off, no button moves anything. One person only waits to disable.
 #
+# Write two more things beside the log. **Brake or coast.** Set the mode that you drive with; it
+# decides how far the robot rolls after a test. And the current limit that was set.
+#
 # ## 9 Knowledge check
 #
 # First one to click; you are told at once. (No buttons on your screen? Type

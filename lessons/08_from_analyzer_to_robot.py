@@ -770,7 +770,16 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #    sysid fit my_log.wpilog --paste python --season 2027
 #    ```
 #
-# 4. Compute one voltage by hand before you enable. Then: small targets, robot on the floor, a hand
+# 4. Record the four tests three times, each into its own log, and fit all three:
+#
+#    ```
+#    sysid fit monday_1.wpilog monday_2.wpilog monday_3.wpilog
+#    ```
+#
+#    It fits each alone, compares, and averages. Look at the spread beside the error bars. If it is
+#    larger, something changes between the recordings: the battery, the heat of the motors, a
+#    bearing.
+# 5. Compute one voltage by hand before you enable. Then: small targets, robot on the floor, a hand
 #    on Disable. First with kP = 0, and look whether it *nearly* follows. Then kP.
 #
 # For an arm the code comes per radian, with the offset that makes your sensor's reading the angle
