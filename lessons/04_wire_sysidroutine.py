@@ -323,6 +323,12 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # ```
 #
 # (The right motor's inversion is set in its TalonFX configuration, so that plus is forward.)
+#
+# **Commands v3** comes with WPILib 2027, for Java. There the class `extends Mechanism`, and the
+# parts of the same routine have other names: `Config.useDataLog` takes ramp, step and timeout, and
+# `SysIdRoutine.SysIdMechanism` takes the two callbacks and `this`. `null` is no default there: for
+# WPILib's own numbers write `Config.defaults()`. Exercises 4 and 5 take either.
+# ([SysIdRoutine of Commands v3, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/10171e2f048a8b86ffa82d52b65d09287c342268/commandsv3/src/main/java/org/wpilib/command3/sysid/SysIdRoutine.java))
 
 # %% [markdown]
 # ### All of it, in Python

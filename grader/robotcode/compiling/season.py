@@ -107,12 +107,14 @@ INHERITED = frozenset(  # what a subsystem, a command or a robot brings along
         *("setDefaultCommand", "getDefaultCommand", "removeDefaultCommand", "getCurrentCommand"),
         *("periodic", "simulationPeriodic", "addPeriodic", "getPeriod", "toString", "hashCode"),
         *("equals", "getClass", "addRequirements", "isReal", "isSimulation", "super"),
+        *("runRepeatedly", "idleFor", "idleUntil", "getRunningCommands"),  # of Commands v3
     }
 )
 PLAIN = frozenset(  # classes from which no field of interest is inherited
     {
         "Subsystem",
         "SubsystemBase",
+        "Mechanism",
         "TimedRobot",
         "Object",
         "object",
