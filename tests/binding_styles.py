@@ -236,6 +236,14 @@ PYTHON_STYLES = {
     "and_": (four("self.driver.{key}().and_(DriverStation.isTest)!"), Guard.TEST_MODE),
     "&": (four("(self.driver.{key}() & self.driver.start())!"), Guard.CHORD),
     "2027": (four("self.driver.{key}().and_(self.driver.start())!!"), Guard.CHORD),
+    "utility mode in snake case": (
+        four("self.driver.{key}().and_(DriverStation.is_utility_enabled)!!"),
+        Guard.TEST_MODE,
+    ),
+    "utility mode as a trigger of 2027": (
+        four("self.driver.{key}().and_(RobotModeTriggers.utility())!!"),
+        Guard.TEST_MODE,
+    ),
     "a loop": (
         (
             f"for button, test in (\n{PAIRS}\n):\n"

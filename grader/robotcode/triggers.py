@@ -322,7 +322,7 @@ class Triggers:
             functions = functions_of(seen.at(call), self._names)
             if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
                 return self._call(seen.at(call), call, depth)
-        word = last_name(node)
+        word = java_spelling(last_name(node))
         owner = last_name(node.owner) if isinstance(node, Member) else ""
         mode = owner in MODES_OF or word.lower().startswith("is")
         if mode and TEST_MODE.fullmatch(word):
