@@ -402,6 +402,11 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #         # Dynamic reverse, the step backward: kA again, and the robot is back where it was.
 #         test_mode.and_(pad.y()).whileTrue(self.drive.sysid_dynamic(reverse))
 # ```
+#
+# **Spot the defect.** WPILib's docs show `routine = SysIdRoutine(…, Mechanism(self.voltageDrive,
+# …, self))` and do not say where it stands. In the body of a class there is no `self`, and Python
+# stops with a `NameError`. It belongs into `__init__`, as `self.routine = …` above.
+# ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/latest/docs/software/advanced-controls/system-identification/creating-routine.html))
 
 # %% [markdown]
 # ### Four commands, bound and guarded
