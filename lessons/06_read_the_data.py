@@ -366,6 +366,25 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 # %% [markdown]
 # kV does not care. kA does, and by luck: it depends on whether a gap falls into the few samples of
 # the rise. A single log cannot tell you how lucky you were.
+#
+# ### How bad are repeated samples?
+#
+# A motor controller sends its readings in *status frames*, 50 to 250 times a second. A program that
+# logs faster writes each reading several times. The next cell logs every 5 ms.
+
+# %%
+rows = []
+for rate in (50, 100, 250):
+    framed = replace(ROBOT, sensor=replace(ROBOT.sensor, frame=1 / rate))
+    log = simulate(framed, ROUTINE, rng=np.random.default_rng(3), period=0.005)
+    ours, recipe = (fit(log, method=how).gains for how in ("output-error", "sysid"))
+    rows.append((f"{rate} Hz", recipe["kA"] / TRUTH["kA"], ours["kA"] / TRUTH["kA"]))
+Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
+
+# %% [markdown]
+# SysId takes the acceleration from neighboring rows, and between two repeated rows it is zero. So
+# log as fast as the frames come, or set faster frames for the test. (`sysid fit` finds the repeated
+# readings and leaves them out.)
 
 # %% [markdown]
 # ## 4 Doing it: trim what is not physics
