@@ -752,6 +752,10 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # Measure again when: mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
 # mended (kS). Keep the old log; the comparison finds what broke.
+#
+# Gains also drift within a match. Copper that is 50 °C warmer has 20 % more resistance, so the same
+# push takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes no
+# gain of a loop in volts, but it ends sooner: 10 V is all there is. kP makes up for small drifts.
 
 # %% [markdown]
 # ## 9 Your own robot
