@@ -15,6 +15,7 @@ from grader.robotcode import read
 from grader.robotcode.binding_facts import Guard
 from grader.robotcode.bindings import bindings_of
 from grader.robotcode.facts import Certainty
+from grader.robotcode.vocabulary import CONFIG_DEFAULTS
 
 ROOT = Path(__file__).resolve().parents[1]
 EXERCISE4 = Exercise("exercise4", ROOT / "exercises" / "exercise4")
@@ -306,3 +307,15 @@ def test_its_commands_are_bound_and_guarded_like_those_of_v2(tmp_path):
 
     assert all(one.guards == (Guard.TEST_MODE,) for one in facts.bindings)
     assert {name: one.seen for name, one in found.items() if one.status != "passed"} == {}
+
+
+def test_a_changed_default_of_a_season_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setitem(CONFIG_DEFAULTS, 2027, (1.0, 4.0, 10.0))
+    newer = program(config="SysIdRoutine.Config.defaults()")
+    steps = {}
+    for name, text in (("newer", newer), ("older", newer.replace("org.wpilib.", "edu.wpi.first."))):
+        path = tmp_path / f"{name}.java"
+        path.write_text(text, "utf-8")
+        steps[name] = read(path).step.value
+
+    assert steps == {"newer": 4.0, "older": 7.0}
