@@ -83,6 +83,12 @@ class ConfigSetting:
                 hint="In Java null means WPILib's default. RobotPy stops with a TypeError when the "
                 f"test begins. This exercise asks for {self._asked(facts)}.",
             )
+        if got.text == "null" and got.known is Certainty.UNKNOWN:
+            raise WrongAnswer(
+                f"null for the {self.name}",
+                hint="Commands v3 takes no null there: the program stops as it starts. This "
+                f"exercise asks for {self._asked(facts)}.",
+            )
         if got.known is Certainty.UNKNOWN:
             hint = "Write it as a number, or as a named constant in this folder."
             raise WrongAnswer(explain_doubt(f"the {self.name}", got.text), hint=hint)

@@ -695,8 +695,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# It tells how hard the robot is to speed up. With a second kA, measured while turning, the formula
-# in PathPlanner's docs gives the robot's moment of inertia. And a kA that jumps from one week to
+# It tells how hard the robot is to speed up: its mass. With a second kA, measured while turning, a
+# formula gives the robot's moment of inertia (lesson 8). And a kA that jumps from one week to
 # the next says that something was added.
 # </details>
 

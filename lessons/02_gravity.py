@@ -150,6 +150,15 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the
 # carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and
 # speeds up the inertia m + m₁/4. So kG/kA lies between g and 2·g: 11.8 m/s² where both have the
 # same mass.
+#
+# A **counterweight** on the other end of the rope adds inertia and takes away weight. Then kG/kA is
+# below g. The bench has both:
+
+# %%
+for name in ("cascade-elevator", "counterweight-elevator"):
+    other = MECHANISMS[name]
+    ratio = other.gains["kG"] / other.gains["kA"]
+    print(f"{other.summary}: kG/kA = {ratio:.1f} m/s²")
 
 # %% [markdown]
 # ## 3 Doing it: hold it still
@@ -517,7 +526,7 @@ Table(
 #
 # **Where to choose it.** In SysId's Data Selector, a menu holds the analysis type. It starts on
 # *Elevator*, whatever you load
-# ([SysId's source: DataSelector](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/view)).
+# ([SysId's source: DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
 # Look at it every time. In this course: `sysid fit log.wpilog --type elevator`.
 #
 # **Why does an arm's log need the position?** Velocity and voltage are enough for the other types.
@@ -719,7 +728,8 @@ print(f"{let_go(wrong, height=0.3):.2f} m/s.")
 # - [ ] You used **both** edges, or a log with both directions. Not one edge.
 # - [ ] The analysis type is the mechanism's: Elevator, Arm or Simple.
 # - [ ] An arm's angle is 0 when it is **level**, and in radians where the code wants radians.
-# - [ ] Elevator: kG/kA is near 9.81 m/s²; above it (up to 19.6) only with a cascade.
+# - [ ] Elevator: kG/kA is near 9.81 m/s²; above it (up to 19.6) only with a cascade, well below it
+#   only with a counterweight or a spring.
 # - [ ] In the code kG stands second, and the carriage holds still at zero speed.
 #
 # ## 9 Knowledge check

@@ -25,7 +25,7 @@
 # - look at a wrong gain and name the line of code that made it.
 #
 # Code is shown in Java and in Python (RobotPy), for WPILib 2026. Read the one your team uses. From
-# 2027 on, the package names differ; the ideas do not.
+# 2027 on, the names of packages and of some methods differ (section 3); the ideas do not.
 
 # %% [markdown]
 # ## 1 Why: everything later believes the log
@@ -196,10 +196,12 @@ for mass in (60.0, 30.0):
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
 #
 # Python differs in one point: there, `None` is *not* "the default" but an error. Leave the argument
-# out instead.
+# out instead. If you hand the state to a logger of your own, `SysIdRoutineLog.stateEnumToString`
+# makes the word of it that the analyzer looks for; `str(state)` does not.
 #
 # (`Mechanism`'s log callback may be `null` too, but only if another logger records the motors for
-# you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In this course you write it.)
+# you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
+# first loop of the test: write `lambda log: None`. In this course you write the callback.)
 
 # %% [markdown]
 # ### Mechanism, first callback: drive
@@ -227,7 +229,8 @@ for mass in (60.0, 30.0):
 #
 # - **Applied** voltage is what reached the motor. A TalonFX reports it as `getMotorVoltage()`. For
 #   a simple PWM controller it is `get()` times the battery voltage. It is *not* the number that the
-#   routine asked for.
+#   routine asked for. In a brownout the applied voltage drops to 0 and comes back, again and again.
+#   The asked-for voltage goes on as if nothing had happened (lesson 6).
 # - **Units.** A drivetrain or an elevator moves along a line: meters and meters per second, after
 #   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
 #   the *output*, after the gear ratio.
@@ -320,6 +323,12 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # ```
 #
 # (The right motor's inversion is set in its TalonFX configuration, so that plus is forward.)
+#
+# **Commands v3** comes with WPILib 2027, for Java. There the class `extends Mechanism`, and the
+# parts of the same routine have other names: `Config.useDataLog` takes ramp, step and timeout, and
+# `SysIdRoutine.SysIdMechanism` takes the two callbacks and `this`. `null` is no default there: for
+# WPILib's own numbers write `Config.defaults()`. Exercises 4 and 5 take either.
+# ([SysIdRoutine of Commands v3, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/10171e2f048a8b86ffa82d52b65d09287c342268/commandsv3/src/main/java/org/wpilib/command3/sysid/SysIdRoutine.java))
 
 # %% [markdown]
 # ### All of it, in Python
@@ -393,6 +402,11 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #         # Dynamic reverse, the step backward: kA again, and the robot is back where it was.
 #         test_mode.and_(pad.y()).whileTrue(self.drive.sysid_dynamic(reverse))
 # ```
+#
+# **Spot the defect.** WPILib's docs show `routine = SysIdRoutine(…, Mechanism(self.voltageDrive,
+# …, self))` and do not say where it stands. In the body of a class there is no `self`, and Python
+# stops with a `NameError`. It belongs into `__init__`, as `self.routine = …` above.
+# ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/latest/docs/software/advanced-controls/system-identification/creating-routine.html))
 
 # %% [markdown]
 # ### Four commands, bound and guarded
@@ -420,6 +434,12 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # // Dynamic reverse, the step backward: kA again, and the robot is back where it was.
 # testMode.and(m_sysIdController.y()).whileTrue(m_drive.sysIdDynamic(Direction.kReverse));
 # ```
+#
+# **In WPILib 2027** (not released yet; names as on its development branch) these lines do not
+# compile. Test mode is called *utility mode* there. The guard is `RobotModeTriggers.utility()`, or
+# `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. A motor's
+# duty cycle is set with `setThrottle` instead of `set`; `setVoltage` keeps its name.
+# ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
 #
 # > **Lesson says:** a SysId test runs "bypassing soft limits, current limits, and any command-level
 # > safety logic you've written".

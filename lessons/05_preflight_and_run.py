@@ -362,7 +362,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # - **1 room.** You see it on the floor, and the log is spoiled, too: against the wall there is
 #   voltage without speed. (Here it is in one ramp only. That is enough.)
 # - **2 battery.** You may see the robot crawl, and the Driver Station shows the brownout. `inspect`
-#   even says that the step is mislabeled: it does not look like a step any more.
+#   finds it, because the applied voltage is cut to 0 again and again.
 # - **3 encoder.** On the floor, *everything is normal*. All gains come out negative. This is the
 #   check that nobody sees being skipped.
 # - **4 log.** A perfect afternoon, and nothing to show for it.
@@ -433,8 +433,11 @@ Table(
 # asks for a *voltage*, and its motor controllers make up for the sag. (Lesson 4's share of the
 # battery does not.) A brownout spoils both columns, and the asked-for one far more. So: charge it
 # anyway, begin with a small step, and log the applied voltage. The source lesson's rule is 12 V or
-# more at rest. A battery fresh from the charger shows more than that. (The threshold of a
-# Systemcore is the default in WPILib 2027, which is not released yet.)
+# more at rest. But a lead-acid battery at 12.0 V is about half flat; WPILib's docs call 11.7 to
+# 12.5 V on an idle robot "depleted", and advise against a battery of more than 20 mΩ. So ask for
+# **12.5 V or more at rest**, and for 20 mΩ or less on a battery tester.
+# ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# (The threshold of a Systemcore is the default in WPILib 2027, which is not released yet.)
 #
 # ### Encoder
 #
@@ -450,7 +453,8 @@ Table(
 # ### Guard
 #
 # Enable the robot with the guard *off*, that is: the tests are locked. (If your guard is Test mode,
-# enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4 has three kinds of guard.)
+# called *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4
+# has three kinds of guard.)
 # And one person does nothing but wait to press *Disable*. In the 2026 Driver Station the **Enter**
 # key disables, and the **space bar** is the emergency stop: it works even if another window is in
 # front, and the roboRIO has to be rebooted afterwards.
@@ -704,11 +708,14 @@ Table(
 #
 # - [ ] **Room.** The way is clear in both directions, for the way you *computed*. Tape is on the
 #   floor.
-# - [ ] **Battery.** Charged, 12 V or more at rest.
+# - [ ] **Battery.** Charged: 12.5 V or more at rest, 20 mΩ or less.
 # - [ ] **Encoder.** Pushed forward, the position rises smoothly. Plus volts, plus velocity.
 # - [ ] **Log.** You have fetched a log from this robot before, and know its folder. One mechanism
 #   per log.
 # - [ ] **Guard.** With the guard off, no button moves anything. One person only waits to disable.
+#
+# Write two more things beside the log. **Brake or coast.** Set the mode that you drive with; it
+# decides how far the robot rolls after a test. And the current limit that was set.
 #
 # ## 9 Knowledge check
 #

@@ -51,6 +51,7 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import select_samples
 from sim.inspect.faults import FAULTS
+from sim.physics.battery import Battery
 from sim.plot import (
     Picture,
     Table,
@@ -168,7 +169,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # |---|---|---|
 # | **the source lesson's four** | | |
 # | encoder slip | the encoder loses its grip on the shaft for a while | fix it, run again |
-# | brownout | the battery sinks, the motors are cut, the log shows a voltage | charge, run again |
+# | brownout | the battery sinks, and the motors are cut for a moment | charge, run again |
 # | hard stop | it hits its end, the voltage goes on | trim, or run again |
 # | timing gaps | the robot program stalls, samples are missing | find the stall, run again |
 # | **five from the field** | | |
@@ -211,10 +212,12 @@ all_cases = make_cases(rng=np.random.default_rng(0))
 by_name = {case.name: case for case in all_cases}
 late_sensor = replace(ROBOT, sensor=replace(ROBOT.sensor, filter=0.224))
 limited = replace(ROBOT, stator=40.0)
+weak = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
 gallery = {
     "sound": sound,
     "encoder slip": spoiled("encoder-slip", test=RAMP, at=3.0),
     "brownout": spoiled("brownout", test=RAMP, at=3.0),
+    "brownout, applied voltage": simulate(weak, ROUTINE, rng=np.random.default_rng(6)),
     "hard stop": spoiled("hard-stop", test=RAMP, at=4.5),
     "timing gaps": spoiled("loop-overrun", test=STEP, at=0.04),
     "asked-for voltage": spoiled("command-logged"),
@@ -294,7 +297,10 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # - **Encoder slip.** The velocity falls by a share of itself from one sample to the next, and comes
 #   back as suddenly. Voltage over velocity gets a second branch.
 # - **Brownout.** The velocity falls along a *curve*, as without a motor, and climbs back along one.
-#   The voltage in the log goes on as if nothing had happened.
+#   If the log holds the **asked-for** voltage, the voltage goes on as if nothing had happened.
+#   If it holds the **applied** voltage (lesson 4), the voltage is chopped: it drops to 0 and comes
+#   back, again and again. The **bus voltage**, if it is in the log, shows both: it falls below the
+#   threshold.
 # - **Hard stop.** From speed to zero within a few samples. The position stays, the voltage goes on.
 # - **Timing gaps.** Only *time steps* shows them well.
 # - **Asked-for voltage.** The step in the log is perfect, the rise starts in a straight line.
@@ -306,6 +312,15 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # - **Repeated samples.** Stairs: the same reading two or three times, then a jump. Some logs write
 #   a value only when it *changes*; that looks alike.
 #
+# > **Lesson says:** "Voltage data suddenly drops mid-test, then recovers."
+# >
+# > **Source says:** in a brownout the robot controller disables its outputs until the battery
+# > recovers. So the *applied* voltage drops and recovers. The asked-for voltage does not drop,
+# > because nobody tells the routine.
+# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# >
+# > **Try it:** look at both brownouts above in the plot *over time*.
+#
 # ### How bad are timing gaps?
 #
 # > **Lesson says:** "Timestamps in the log show gaps larger than 20 ms. The regression assumes
@@ -314,7 +329,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Source says:** right in kind: SysId divides each difference of velocities by the *mean* time
 # > step of the test. But 20 ms is the normal step, so half of all steps are a bit longer. Count the
 # > steps that are longer than 1.5 times the usual one.
-# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** the next cell makes ten logs each with few and many, short and long gaps.
 
@@ -351,6 +366,25 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 # %% [markdown]
 # kV does not care. kA does, and by luck: it depends on whether a gap falls into the few samples of
 # the rise. A single log cannot tell you how lucky you were.
+#
+# ### How bad are repeated samples?
+#
+# A motor controller sends its readings in *status frames*, 50 to 250 times a second. A program that
+# logs faster writes each reading several times. The next cell logs every 5 ms.
+
+# %%
+rows = []
+for rate in (50, 100, 250):
+    framed = replace(ROBOT, sensor=replace(ROBOT.sensor, frame=1 / rate))
+    log = simulate(framed, ROUTINE, rng=np.random.default_rng(3), period=0.005)
+    ours, recipe = (fit(log, method=how).gains for how in ("output-error", "sysid"))
+    rows.append((f"{rate} Hz", recipe["kA"] / TRUTH["kA"], ours["kA"] / TRUTH["kA"]))
+Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
+
+# %% [markdown]
+# SysId takes the acceleration from neighboring rows, and between two repeated rows it is zero. So
+# log as fast as the frames come, or set faster frames for the test. (`sysid fit` finds the repeated
+# readings and leaves them out.)
 
 # %% [markdown]
 # ## 4 Doing it: trim what is not physics
@@ -372,7 +406,7 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 # > them sets the end of a ramp. Samples at a stop vanish through the threshold, **if** the standing
 # > encoder is quiet.
 # > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
-# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** below is a log with a stop, a trembling standstill, and three wild readings. Which
 # > of the knobs repairs what?
@@ -756,7 +790,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# If the motors were cut (a brownout): yes, with a charged battery. If the voltage only sagged, and
+# If the motors were cut (a brownout): yes, with a charged battery. You see it by the velocity that
+# falls along a curve, or by an applied voltage that drops to 0 and comes back. Either way, the bus
+# voltage shows it. If the voltage only sagged, and
 # the log holds the voltage that arrived: no, the row is true. If it holds the voltage that was
 # asked for: yes, and change the log.
 # </details>

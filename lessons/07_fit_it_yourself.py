@@ -181,7 +181,7 @@ Table(
 # > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
 # > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
 # > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
-# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
 # > **Try it:** the slope in the picture above is good. How far off is the intercept at 2 V/s?
 #
@@ -340,7 +340,7 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 # (That is for the analysis type *Simple*. With gravity, SysId gives the table more columns: ones
 # for *Elevator*, cos θ and sin θ of the arm's angle θ for *Arm*. kG comes out of their numbers, and
 # for an arm the sensor's offset, too.
-# [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 
 
 # %%
@@ -403,7 +403,7 @@ plot_curves(
 # 4. **Trim the dynamic tests** (*Test Duration*): only from the peak of acceleration to 90 % of the
 #    top speed, unless you set the box.
 #
-# ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 #
 # Here they are. Each is a line or two, and each can be switched.
 
@@ -488,7 +488,7 @@ print(
 # > **Source says:** SysId cuts the dynamic test at 90 % of the top speed by itself (*Test
 # > Duration*). The danger of a long test is to the hardware. It *is* a danger to home-made fits
 # > that do not trim.
-# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** `trim=False` in the next section.
 
@@ -658,7 +658,7 @@ print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means l
 # %% [markdown]
 # *Adjusted* means: a little is taken off for each unknown, because every further column fits some
 # of the noise by luck. With hundreds of rows it hardly matters.
-# ([SysId's source: OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/analysis/OLS.cpp))
+# ([SysId's source: OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
 #
 # > **Lesson says:** "R² value is above 0.9 in the analyzer."
 # >
@@ -668,7 +668,7 @@ print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means l
 # > ([Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 # > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
 # > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to.
-# > ([SysId's source: AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
+# > ([SysId's source: AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
 # > (The docs page calls the acceleration the *independent* variable. In the code it is the one that
 # > is explained, on the left.)
 # >
@@ -874,8 +874,8 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
 # %% [markdown]
 # Same gains, same method, very different kP's. Start with one of them, and tune on the robot.
-# ([SysId's source: Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/cpp/view/Analyzer.cpp)
-# for the quarter, [FeedbackControllerPreset.hpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/include/wpi/sysid/analysis/FeedbackControllerPreset.hpp)
+# ([SysId's source: Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp)
+# for the quarter, [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h)
 # for the delays)
 #
 # And remember where kA enters here: a kA that is wrong by a factor of two gives a wrong kP, without

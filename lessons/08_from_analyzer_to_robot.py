@@ -49,7 +49,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.units import gains_per
 from sim.fit import fit
-from sim.physics.motors import MOTORS
+from sim.physics.motors import MOTORS, find_motor
 from sim.plot import (
     Picture,
     Table,
@@ -58,6 +58,7 @@ from sim.plot import (
     plot_tracking_error,
     show_interactive,
 )
+from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import CLASSES, ORDER, write_robot_code
 from sim.teaching.prediction import Prediction
 
@@ -251,6 +252,39 @@ Table(
 # ([WPILib Java docs: SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html))
 # (Some pages of WPILib's docs still show the old call. The class's own documentation decides.) An
 # acceleration handed over as a velocity is one more wrong slot.
+#
+# kS gets the sign of the *current* velocity. From rest that velocity is zero, so there is no kS in
+# the first loop. The profile below asks for kS at once.
+#
+# ### Gains inside the motor controller
+#
+# A motor controller can add the feedforward itself, a thousand times a second. It counts in units
+# of its own, and it does not say so when yours differ:
+#
+# | where | kV is volts per | set beside it |
+# |---|---|---|
+# | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
+# | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
+# | YAGSL, drive motors | m/s of the wheel | `replaceSwerveModuleFeedforward` |
+#
+# `sysid fit` writes each of them and converts the units. A log in meters needs the radius as well:
+#
+# ```
+# sysid fit my_log.wpilog --paste phoenix6 --radius 0.0508
+# ```
+
+# %%
+print(write_controller_code(found, target="phoenix6", name="shooter"))
+foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
+share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
+print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
+
+# %% [markdown]
+# So the gains are volts per rotation of the *mechanism*, if the ratio is set. And use **FOC as in
+# the tests.** `setVoltage` and `VoltageOut` turn it on if you do not say otherwise and have a
+# Phoenix Pro license. Gains that were measured with it are wrong without it.
+# ([CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
+# [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 
 # %% [markdown]
 # ## 4 A profile follower, and wrong units
@@ -485,7 +519,7 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical miss [
 # A correction that comes late corrects what is no longer wrong. With a late measurement a large kP
 # makes things worse, until it swings. Motor controllers differ: in SysId's presets a Phoenix 6
 # velocity is 1 ms late, that of a NEO's own encoder 112 ms.
-# ([SysId's source: FeedbackControllerPreset.hpp](https://github.com/wpilibsuite/allwpilib/blob/main/tools/sysid/src/main/native/include/wpi/sysid/analysis/FeedbackControllerPreset.hpp))
+# ([SysId's source: FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
 #
 # > **Lesson says:** "SysId suggests kP = 0.62 — start here, tune on carpet with fresh battery."
 # >
@@ -638,7 +672,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # The fine print:
 #
-# - **Drivetrain:** kS and kV do most of the work. kA also tells the moment of inertia (below).
+# - **Drivetrain:** kS and kV do most of the work. kA also tells the mass, and a second kA measured
+#   while turning on the spot tells the moment of inertia (below).
 # - **Arm:** first without the game piece, then with it (section 6). A light arm with a short way
 #   may do well with computed gains.
 # - **Elevator:** with its load. kA and kG change with the mass, kV does not.
@@ -669,9 +704,13 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # > that is late on the slopes is beside its path in every curve.
 #
 # - **PathPlanner's moment of inertia** can be computed from two kA's: one measured while turning on
-#   the spot, one while driving straight. The same page has the formula:
+#   the spot, one while driving straight. One kA tells mass, the other tells inertia:
 #
-#   > I = mass · (trackwidth / 2) · kA_angular / kA_linear
+#   > I = mass · r · kA_angular / kA_linear
+#
+#   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
+#   **tank** that is half the trackwidth, r = trackwidth/2, as the same page has it. The modules of
+#   a **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
 #
 # - **Choreo** computes time-optimal paths that respect what you tell it about your robot. The same
 #   holds: a path is only as good as the drive code that follows it.
@@ -682,16 +721,18 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   ([AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
 #
 # Why does the formula work? Straight ahead, the wheels push mass; on the spot, they push inertia,
-# with half of the trackwidth as a lever. The motors are the same, so the ratio of the kA's is the
-# ratio of the loads. On the bench:
+# with the lever r. The motors are the same, so the ratio of the kA's is the ratio of the loads. On
+# the bench, with the modules of a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
-linear = drivetrain.gains["kA"]
-# turning: the wheels feel a mass of I / (track/2)², and meters at the wheel are radians · track/2
-turning = replace(drivetrain, load=INERTIA / (TRACK / 2) ** 2).gains["kA"] * TRACK / 2
-computed = drivetrain.load * TRACK / 2 * turning / linear
-print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I = {computed:.2f} kg·m²")
+linear, lever = drivetrain.gains["kA"], TRACK / np.sqrt(2)
+# turning: the wheels feel a mass of I / lever², and meters at the wheel are radians · lever
+turning = replace(drivetrain, load=INERTIA / lever**2).gains["kA"] * lever
+print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad")
+for name, r in (("half the trackwidth", TRACK / 2), ("trackwidth/√2", lever)):
+    print(f"with {name}: I = {drivetrain.load * r * turning / linear:.2f} kg·m²")
+print(f"The truth is {INERTIA:.2f} kg·m².")
 
 # %% [markdown]
 # ### When
@@ -711,6 +752,10 @@ print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I =
 #
 # Measure again when: mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
 # mended (kS). Keep the old log; the comparison finds what broke.
+#
+# Gains also drift within a match. Copper that is 50 °C warmer has 20 % more resistance, so the same
+# push takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes no
+# gain of a loop in volts, but it ends sooner: 10 V is all there is. kP makes up for small drifts.
 
 # %% [markdown]
 # ## 9 Your own robot
@@ -729,7 +774,16 @@ print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad: I =
 #    sysid fit my_log.wpilog --paste python --season 2027
 #    ```
 #
-# 4. Compute one voltage by hand before you enable. Then: small targets, robot on the floor, a hand
+# 4. Record the four tests three times, each into its own log, and fit all three:
+#
+#    ```
+#    sysid fit monday_1.wpilog monday_2.wpilog monday_3.wpilog
+#    ```
+#
+#    It fits each alone, compares, and averages. Look at the spread beside the error bars. If it is
+#    larger, something changes between the recordings: the battery, the heat of the motors, a
+#    bearing.
+# 5. Compute one voltage by hand before you enable. Then: small targets, robot on the floor, a hand
 #    on Disable. First with kP = 0, and look whether it *nearly* follows. Then kP.
 #
 # For an arm the code comes per radian, with the offset that makes your sensor's reading the angle

@@ -582,6 +582,8 @@ plot_curves(
 # data.
 #
 # The hard log's curve has a sharp minimum at the true value. Not a better method: **another test.**
+# (On your robot you know the limit, because you set it. Choose the limit first, then measure:
+# lesson 3. With another limit, the hard step is another test.)
 #
 # The same holds for many pairs of look-alikes. The bench's catalogue says for each which test tells
 # it apart:

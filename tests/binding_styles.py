@@ -72,6 +72,17 @@ STYLES = {
         java(four("m_driver.{key}().and(m_driver.start())!!")),
         Guard.CHORD,
     ),
+    "utility mode, as 2027 calls it": (
+        java(four("m_driver.{key}().and(RobotModeTriggers.utility())!!")),
+        Guard.TEST_MODE,
+    ),
+    "utility mode of RobotState": (
+        java(
+            "Trigger utility = new Trigger(RobotState::isUtilityEnabled);\n"
+            + four("utility.and(m_driver.{key}())!!")
+        ),
+        Guard.TEST_MODE,
+    ),
     "the lesson's names": (
         java(
             four(
@@ -225,6 +236,14 @@ PYTHON_STYLES = {
     "and_": (four("self.driver.{key}().and_(DriverStation.isTest)!"), Guard.TEST_MODE),
     "&": (four("(self.driver.{key}() & self.driver.start())!"), Guard.CHORD),
     "2027": (four("self.driver.{key}().and_(self.driver.start())!!"), Guard.CHORD),
+    "utility mode in snake case": (
+        four("self.driver.{key}().and_(DriverStation.is_utility_enabled)!!"),
+        Guard.TEST_MODE,
+    ),
+    "utility mode as a trigger of 2027": (
+        four("self.driver.{key}().and_(RobotModeTriggers.utility())!!"),
+        Guard.TEST_MODE,
+    ),
     "a loop": (
         (
             f"for button, test in (\n{PAIRS}\n):\n"

@@ -269,6 +269,8 @@ INVERTED = [
     "() -> !DriverStation.isTest()",
     "new Trigger(() -> !DriverStation.isTestEnabled())",
     "() -> DriverStation.isTest() == false",
+    "RobotModeTriggers.utility().negate()",
+    "() -> !RobotState.isUtilityEnabled()",
     "() -> DriverStation.isTest() != true",
     "() -> DriverStation.isTest() ? false : true",
     "new Trigger(DriverStation::isTest).negate()",
@@ -482,3 +484,54 @@ def test_decorators_are_read_in_robotpy_as_well(tmp_path, decorated, right):
     found = judged(tmp_path, python(bound), name=PYTHON)["held"]
 
     assert (found.status == "passed") is right
+
+
+IN_2027 = (  # where the classes of the solution are in WPILib 2027
+    ("edu.wpi.first.wpilibj2.command", "org.wpilib.command2"),
+    ("edu.wpi.first.wpilibj.sysid", "org.wpilib.sysid"),
+    ("edu.wpi.first.units", "org.wpilib.units"),
+    ("kForward", "FORWARD"),
+    ("kReverse", "REVERSE"),
+)
+
+
+def answer_of(season, *changes):
+    text = re.sub(r"^ *// -{3}.*\n", "", (SOLUTIONS / JAVA).read_text("utf-8"), flags=re.MULTILINE)
+    for old, new in (*(IN_2027 if season == 2027 else ()), *changes):
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+def test_utility_mode_guards_a_program_of_2027(tmp_path):
+    found = judged(
+        tmp_path, answer_of(2027, ("RobotModeTriggers.test", "RobotModeTriggers.utility"))
+    )
+
+    assert [one.status for one in found.values()] == ["passed"] * len(found)
+    assert found["guard"].hint == ""
+
+
+def test_test_mode_in_a_program_of_2027_is_right_but_called_by_its_old_name(tmp_path):
+    found = judged(tmp_path, answer_of(2027))
+
+    assert found["guard"].status == "passed"
+    assert "RobotModeTriggers.utility()" in found["guard"].hint
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("RobotModeTriggers.test()", "RobotModeTriggers.utility()"),
+        ("RobotModeTriggers.test()", "new Trigger(RobotState::isUtilityEnabled)"),
+        ("m_motor.set(", "m_motor.setThrottle("),
+    ],
+)
+def test_a_name_of_2027_in_a_program_of_2026_does_not_compile(old, new, tmp_path):
+    one = "import com.ctre.phoenix6.hardware.TalonFX;\n"
+    imported = (one, one + "import edu.wpi.first.wpilibj.RobotState;\n")
+
+    found = judged(tmp_path, answer_of(2026, imported, (old, new)))["held"]
+
+    assert found.status == "failed"
+    assert "a name of WPILib 2027" in found.seen

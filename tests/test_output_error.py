@@ -52,13 +52,14 @@ def test_gains_are_within_a_few_of_their_errors_which_are_small(kind, period):
 
     for gain, truth in mechanism.gains.items():
         assert abs(found.gains[gain] - truth) < 4.5 * found.errors[gain] + 2e-5 * truth, gain
-        assert found.errors[gain] < 0.02 * truth, gain
+        # a floor of 20 mV cannot be told from weight: a counterweight leaves little weight
+        assert found.errors[gain] < max(0.02 * truth, 0.025 if gain == "kG" else 0.0), gain
     assert [doubt.code for doubt in found.doubts if doubt.grave] == []
 
 
 def test_stated_intervals_hold_the_truth_and_are_no_wider_than_a_robot_asks():
-    # 48 logs of ideal mechanisms. The intervals allow for small effects and for variation between
-    # runs, of which these have none, so nearly all hold the truth; and still they are narrow.
+    # Eight logs of each ideal mechanism. The intervals allow for small effects and for variation
+    # between runs, of which these have none, so nearly all hold the truth, and they are narrow.
     inside, wide = [], {"kS": [], "kV": [], "kA": [], "kG": []}
     for seed in range(8):
         for kind in MECHANISMS:

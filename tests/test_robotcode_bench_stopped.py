@@ -17,7 +17,7 @@ from grader.robotcode.bench.log_facts import read_facts
         pytest.param(
             [("self.right_encoder.getRate()", "self.right_encoder.getSpeed()")],
             RunOutcome.CRASHED,
-            "mine.py, line 50: AttributeError: 'wpilib._wpilib.Encoder' object has no",
+            "mine.py, line 51: AttributeError: 'wpilib._wpilib.Encoder' object has no",
             "log",
             id="a crash",
         ),

@@ -57,7 +57,7 @@ def test_a_mechanism_says_what_it_is(name):
 
 
 def test_an_unknown_mechanism_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: arm, drivetrain, elevator"):
+    with pytest.raises(BadRequest, match="Choose one of: arm, cascade-elevator, counterweight"):
         find_mechanism("trebuchet")
 
 

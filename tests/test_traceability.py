@@ -120,6 +120,21 @@ def test_a_claim_of_the_source_lesson_stands_beside_the_fact(claim):
     assert claim.get("boxes") or claim.get("prose")
 
 
+@pytest.mark.parametrize("fact", TABLE["fact"], ids=lambda fact: fact["says"])
+def test_a_fact_is_taught_where_the_table_says(fact):
+    assert fact["taught"]
+    for place in fact["taught"]:
+        assert_taught(*place)
+
+
+def test_links_to_source_code_are_pinned():
+    moving = re.compile(r"github\.com/\S+?/(?:blob|tree)/(?:main|master)/")
+    for folder in ("lessons", "exercises", "sim"):
+        for path in (ROOT / folder).rglob("*"):
+            if path.suffix in {".py", ".md", ".toml"}:
+                assert not moving.search(path.read_text("utf-8")), path
+
+
 @each_lesson
 def test_a_box_says_what_the_lesson_says_then_the_source_with_a_link_then_what_to_try(lesson):
     assert boxes(lesson)

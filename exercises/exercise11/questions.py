@@ -73,7 +73,8 @@ EVERYDAY = (
         "Beside the feedforward, what is a drivetrain's kA good for?",
         (
             Option(
-                "It tells the robot's moment of inertia, which a path planner wants to know.",
+                "It tells the robot's mass and, measured while turning, its moment of inertia, "
+                "which a path planner wants to know.",
                 share=1.0,
             ),
             Option(

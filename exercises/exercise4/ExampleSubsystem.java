@@ -17,7 +17,7 @@ public class ExampleSubsystem extends SubsystemBase {
   private static final double METERS_PER_ROTATION = 0.0472; // of the motor: wheel and gears
 
   private final TalonFX m_left = new TalonFX(1);
-  private final TalonFX m_right = new TalonFX(2);
+  private final TalonFX m_right = new TalonFX(2); // inverted in its settings: plus is forward
 
   // TODO: 1. The field of type SysIdRoutine. Its Config says 0.5 V/s, 3.5 V and 10 s; its
   //       Mechanism knows the two methods below, drive and record, and this subsystem.

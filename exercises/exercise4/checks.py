@@ -20,6 +20,7 @@ from grader.robotcode import bench
 from grader.robotcode.bench import RunFacts, RunOutcome, findings
 from grader.robotcode.bench.findings import RunFault, find_stop
 from grader.robotcode.facts import RoutineFacts
+from grader.robotcode.vocabulary import CONFIG_DEFAULTS, SEASON
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import (
@@ -40,11 +41,16 @@ from .settled import Code, asks, noted, settle
 
 FILES = ("ExampleSubsystem.java", "example_subsystem.py")
 
+WPILIB = CONFIG_DEFAULTS[SEASON]  # ramp, step, timeout where nothing is given
 RAMP = ConfigSetting(
-    "ramp", 0.5, "V/s", "volts-per-second", 1.0, "Volts.of(0.5).per(Second)", "rampRate=0.5"
+    "ramp", 0.5, "V/s", "volts-per-second", WPILIB[0], "Volts.of(0.5).per(Second)", "rampRate=0.5"
 )
-STEP = ConfigSetting("step voltage", 3.5, "V", "volts", 7.0, "Volts.of(3.5)", "stepVoltage=3.5")
-TIMEOUT = ConfigSetting("timeout", 10.0, "s", "seconds", 10.0, "Seconds.of(10)", "timeout=10.0")
+STEP = ConfigSetting(
+    "step voltage", 3.5, "V", "volts", WPILIB[1], "Volts.of(3.5)", "stepVoltage=3.5"
+)
+TIMEOUT = ConfigSetting(
+    "timeout", 10.0, "s", "seconds", WPILIB[2], "Seconds.of(10)", "timeout=10.0"
+)
 TASK = "ExampleSubsystem"  # the class of the exercise's own drivetrain, one motor on each side
 SIDES = 2
 METERS = {"METERS_PER_ROTATION": 0.0472, "METERS_PER_PULSE": 0.000156}  # as the files give them
@@ -154,7 +160,7 @@ def _about_step(value: float) -> tuple[str, str]:
     if value == LESSON_STEP:
         return "3 V is the lesson's own example, and no mistake in itself.", ""
     if value >= STEP.default:
-        return "7 V, WPILib's default, is almost always too much.", "M-BIG-STEP"
+        return f"{STEP.default:g} V, WPILib's default, is almost always too much.", "M-BIG-STEP"
     return "", ""
 
 
@@ -235,6 +241,12 @@ def _held(ran: RunFacts) -> bool:
 
 
 def _log(facts: RoutineFacts, demanded: int) -> None:
+    if facts.log_is_null and facts.language == "python":
+        raise WrongAnswer(
+            "None in place of the log callback: RobotPy stops with a TypeError in the first loop",
+            hint="Where a vendor's logger records the motors, write `lambda log: None`. Here, "
+            "write a callback that fills the log.",
+        )
     if facts.log_is_null:
         raise WrongAnswer(
             "null in place of the log callback: then WPILib records nothing",

@@ -10,6 +10,8 @@ WAYS = (
     "switch on the dashboard, or a controller that is not plugged in then."
 )
 NOT_IN_ROBOTPY = "RobotModeTriggers"  # as of 2026
+UTILITY = 2027  # the season from which test mode is called utility mode
+OLD_MODE = "test mode"  # ... and how a trigger's text tells its older name
 HOLDS = frozenset({Guard.TEST_MODE, Guard.CHORD, Guard.TOGGLE})
 
 
@@ -63,6 +65,11 @@ def _note(facts: BindingFacts) -> str | None:
     """What to say about guards that are right."""
     if facts.language == "python" and any(NOT_IN_ROBOTPY in one.trigger for one in facts.bindings):
         return f"RobotPy of 2026 has no {NOT_IN_ROBOTPY}; DriverStation.isTest asks the same."
+    if facts.season >= UTILITY and any(OLD_MODE in one.trigger for one in facts.bindings):
+        return (
+            "WPILib 2027 calls test mode utility mode: RobotModeTriggers.utility(). Early alphas "
+            "still have test(); the development branch does not."
+        )
     if any(not HOLDS.intersection(one.guards) for one in facts.bindings):
         return "Unplug that controller before a match: only then nobody touches it."
     return None

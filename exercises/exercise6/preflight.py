@@ -13,7 +13,7 @@ STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
 LISTED = tuple(sorted(STEPS))
 WHY = {  # item of the checklist -> what a wrong decision overlooks
     "travel": "what does the ramp need, forward and back, and what do the wheels push against?",
-    "battery": "a battery below 12 V at rest sags under a step, and a charged one does not.",
+    "battery": "a battery below 12.5 V at rest sags under a step, and a charged one does not.",
     "encoder": "positive volts have to give a rising position, without jumps.",
     "log": "what use is a test whose record nobody finds, and what speaks against one that is?",
     "guard": "can a test be started by a thumb that means something else?",

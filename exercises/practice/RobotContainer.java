@@ -22,7 +22,7 @@ public class RobotContainer {
   private final CommandXboxController m_driverController = new CommandXboxController(0);
 
   public RobotContainer() {
-    m_subsystem.setDefaultCommand(m_subsystem.turn(m_driverController::getLeftY));
+    m_subsystem.setDefaultCommand(m_subsystem.turn(() -> -m_driverController.getLeftY()));
     configureBindings();
   }
 

@@ -16,8 +16,9 @@ class ExampleSubsystem(Subsystem):
         super().__init__()
         self.left = PWMSparkMax(0)
         self.right = PWMSparkMax(1)
+        self.right.setInverted(True)  # plus is forward on both sides
         self.left_encoder = Encoder(0, 1)
-        self.right_encoder = Encoder(2, 3)
+        self.right_encoder = Encoder(2, 3, reverseDirection=True)
         self.left_encoder.setDistancePerPulse(METERS_PER_PULSE)
         self.right_encoder.setDistancePerPulse(METERS_PER_PULSE)
         # TODO: 2. Make self.routine, a SysIdRoutine. Its Config says 0.5 V/s, 3.5 V and

@@ -149,6 +149,7 @@ class BindingFacts:
         unread: bindings whose command cannot be told by reading.
         problems: syntax errors; when there are any, the rest is empty.
         compile_errors: what keeps the file from being compiled, as far as text can tell.
+        season: the season that its imports tell, in Java; 0 if they tell none.
     """
 
     language: str
@@ -160,3 +161,4 @@ class BindingFacts:
     unread: tuple[ParseProblem, ...] = ()
     problems: tuple[ParseProblem, ...] = ()
     compile_errors: tuple[ParseProblem, ...] = ()
+    season: int = 0

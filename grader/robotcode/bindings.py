@@ -28,6 +28,7 @@ from grader.robotcode.closure import (
 from grader.robotcode.commands import Commands, Runs
 from grader.robotcode.comments import comments, comments_near
 from grader.robotcode.compiling import compile_errors
+from grader.robotcode.compiling.season import import_season
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.controllers import controllers
@@ -45,9 +46,10 @@ DEEPEST = 120  # pieces of code one inside the other
 LEAVES = re.compile(r"if\s*\(?\s*true\s*\)?\s*[:{]?\s*return", re.IGNORECASE)
 MOST_CALLS = 5  # methods followed, one inside the other
 MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
-ASKED = re.compile(r"test mode( of RobotModeTriggers)?")  # the key of a part that asks for it
+MODE = r"(test|utility) mode( of RobotModeTriggers)?"  # the key of a part that asks for it
+ASKED = re.compile(MODE)
 OPPOSED = re.compile(  # ... and of one that does not hold in test mode
-    r"not\(test mode( of RobotModeTriggers)?\)|(is)?(teleop|autonomous)(enabled)?", re.IGNORECASE
+    rf"not\({MODE}\)|(is)?(teleop|autonomous)(enabled)?", re.IGNORECASE
 )
 _GUARDS = {
     Asks.TEST_MODE: Guard.TEST_MODE,
@@ -132,6 +134,7 @@ class _Reader:
             uncalled=tuple(uncalled),
             unread=tuple(dict.fromkeys(self._unread)),
             compile_errors=compile_errors(self._names),
+            season=import_season(main.imports),
         )
 
     def _several(

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from grader.robotcode.abstract_value import MotorLog, Value
 from grader.robotcode.compiling import compile_errors
+from grader.robotcode.compiling.season import import_season
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.drive_callback import DriveTrace
 from grader.robotcode.facts import (
@@ -39,12 +40,17 @@ from grader.robotcode.readings import (
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
+    COMMANDS_V3,
     CONFIG,
+    CONFIG_FACTORIES,
     DEFAULTS,
     MECHANISM,
+    MECHANISMS,
+    NAMED_DEFAULTS,
     ROUTINE,
     STOPS,
     SUBSYSTEMS,
+    config_defaults,
     java_spelling,
 )
 
@@ -136,10 +142,25 @@ def _kind(node: Node, scope: Scope, names: SymbolTable) -> str:
     """The class of an argument; empty if it cannot be told."""
     value, where = resolve(node, scope, names)
     if isinstance(value, Call):
-        return constructed_class(value, where, names)
+        return _part_made(value, where, names)
     if isinstance(value, Null | Text | Number | Function | Self):
         return "other"
-    return simple_type_name(type_of(node, scope, names))
+    return _part_name(simple_type_name(type_of(node, scope, names)))
+
+
+def _part_made(call: Call, scope: Scope, names: SymbolTable) -> str:
+    """The part of a routine that a call makes: ``Config``, ``Mechanism``; else its class."""
+    target = call.target
+    if last_name(target) in CONFIG_FACTORIES:
+        owner = target.owner if isinstance(target, Member) else None
+        imported = next((i.path for i in scope.module.imports if i.name == last_name(target)), "")
+        made_by = last_name(owner) if owner else imported.rpartition(".")[0].rpartition(".")[2]
+        return "Config" if made_by == "Config" else ""
+    return _part_name(constructed_class(call, scope, names))
+
+
+def _part_name(made: str) -> str:
+    return "Mechanism" if made in MECHANISMS else made
 
 
 def _arguments(call: Call, words: tuple[str, ...]) -> dict[int, Node]:
@@ -160,14 +181,14 @@ def _with_config(
     if config is None:
         return facts
     call, scope = resolve(*config, names)
-    if not isinstance(call, Call) or constructed_class(call, scope, names) != "Config":
+    if not isinstance(call, Call) or _part_made(call, scope, names) != "Config":
         untold = ConfigQuantity(
             Certainty.UNKNOWN, text=config[0].place.text, line=_line(config[0], names)
         )
         return replace(facts, ramp=untold, step=untold, timeout=untold)
-    given = _arguments(call, CONFIG)
+    given, season = _arguments(call, CONFIG), import_season(names.main.imports)
     found = dict.fromkeys(DEFAULTS, ConfigQuantity(Certainty.UNKNOWN))
-    for at, (name, default) in enumerate(DEFAULTS.items()):
+    for at, (name, default) in enumerate(config_defaults(season).items()):
         if at in given:
             found[name] = _quantity(given[at], scope, default, names, measures)
         elif not _may_hide(call, CONFIG):
@@ -202,13 +223,23 @@ def _quantity(
     place, line = node.place, _line(node, names)
     resolved, where = resolve(node, scope, names)
     if isinstance(resolved, Null):  # only Java takes null for "your own"; Python stumbles over it
-        known = Certainty.DEFAULT if where.module.language == "java" else Certainty.UNKNOWN
+        taken = where.module.language == "java" and not _commands_v3(names)
+        known = Certainty.DEFAULT if taken else Certainty.UNKNOWN
         stated = default if known is Certainty.DEFAULT else ConfigQuantity(known)
         return replace(stated, text=place.text, line=line)
+    constant = NAMED_DEFAULTS.get(last_name(resolved))
+    if constant:
+        named = config_defaults(import_season(names.main.imports))[constant]
+        return replace(named, text=place.text, line=line)
     measure = measures.of(node, scope)
     if measure is None or measure.unit:
         return ConfigQuantity(Certainty.UNKNOWN, text=place.text, line=line)
     return ConfigQuantity(Certainty.STATED, measure.value, measure.dimension, place.text, line)
+
+
+def _commands_v3(names: SymbolTable) -> bool:
+    """Whether a program uses Commands v3, whose Config refuses null."""
+    return any(one.path.startswith(COMMANDS_V3) for one in names.main.imports)
 
 
 def _with_mechanism(
@@ -217,7 +248,7 @@ def _with_mechanism(
     if mechanism is None:
         return facts
     call, scope = resolve(*mechanism, names)
-    if not isinstance(call, Call) or constructed_class(call, scope, names) != "Mechanism":
+    if not isinstance(call, Call) or _part_made(call, scope, names) != "Mechanism":
         said = f"`{mechanism[0].place.text}` is made in code that is not in these files"
         return replace(facts, unread=(ParseProblem(said, _line(mechanism[0], names)),))
     given = _arguments(call, MECHANISM)

@@ -47,7 +47,9 @@ from grader.robotcode.vocabulary import java_spelling
 DEEPEST = 12  # triggers made of triggers
 LONGEST_DEBOUNCE = 0.5  # [s] longer, and whoever holds the button waits in vain
 COMPARING = {"==": True, "is": True, "!=": False, "is not": False, "^": False}
-NOT_TEST = re.compile(r"not\(test mode.*\)")  # the key of a part that asks for any other mode
+NOT_TEST = re.compile(
+    r"not\((test|utility) mode.*\)"
+)  # the key of a part that asks for any other mode
 MATCH = re.compile(r"(is)?fmsattached", re.IGNORECASE)  # true in a match only
 
 
@@ -320,12 +322,13 @@ class Triggers:
             functions = functions_of(seen.at(call), self._names)
             if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
                 return self._call(seen.at(call), call, depth)
-        word = last_name(node)
+        word = java_spelling(last_name(node))
         owner = last_name(node.owner) if isinstance(node, Member) else ""
         mode = owner in MODES_OF or word.lower().startswith("is")
         if mode and TEST_MODE.fullmatch(word):
             by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""
-            return (TriggerPart(Asks.TEST_MODE, f"test mode{by}"),)
+            kind = "utility" if "utility" in word.lower() else "test"
+            return (TriggerPart(Asks.TEST_MODE, f"{kind} mode{by}"),)
         if mode and OTHER_MODE.fullmatch(word):
             return (TriggerPart(Asks.OTHER_MODE, word),)
         if isinstance(node, Name) and not text:

@@ -11,12 +11,34 @@ from dataclasses import dataclass
 
 from grader.robotcode.facts import Certainty, ConfigQuantity, Output
 
-# What Config uses where it is given nothing. WPILib 2024 to 2026; under discussion for 2027.
-DEFAULTS = {
-    "ramp": ConfigQuantity(Certainty.DEFAULT, 1.0, "volts-per-second"),
-    "step": ConfigQuantity(Certainty.DEFAULT, 7.0, "volts"),
-    "timeout": ConfigQuantity(Certainty.DEFAULT, 10.0, "seconds"),
+# What Config uses where it is given nothing, by season: ramp [V/s], step [V], timeout [s]. WPILib
+# 2024 to 2026; those of 2027 as on the development branch, where a smaller step is under discussion
+# (allwpilib #7794).
+SEASON = 2026
+CONFIG_DEFAULTS = {2026: (1.0, 7.0, 10.0), 2027: (1.0, 7.0, 10.0)}
+
+
+def config_defaults(season: int) -> dict[str, ConfigQuantity]:
+    """WPILib's own ramp, step and timeout in a season; 0 or an unknown one takes the current."""
+    ramp, step, timeout = CONFIG_DEFAULTS.get(season, CONFIG_DEFAULTS[SEASON])
+    return {
+        "ramp": ConfigQuantity(Certainty.DEFAULT, ramp, "volts-per-second"),
+        "step": ConfigQuantity(Certainty.DEFAULT, step, "volts"),
+        "timeout": ConfigQuantity(Certainty.DEFAULT, timeout, "seconds"),
+    }
+
+
+DEFAULTS = config_defaults(SEASON)
+NAMED_DEFAULTS = {  # Java's constants of Config, and what they hold
+    "DEFAULT_RAMP_RATE": "ramp",
+    "DEFAULT_STEP_VOLTAGE": "step",
+    "DEFAULT_TIMEOUT": "timeout",
 }
+
+# Commands v3 (Java, 2027): its packages, and what its SysIdRoutine calls its parts.
+COMMANDS_V3 = ("org.wpilib.command3.", "org.wpilib.commands3.")
+CONFIG_FACTORIES = frozenset({"useDataLog", "defaults"})  # static methods that make a Config
+MECHANISMS = frozenset({"Mechanism", "SysIdMechanism"})  # what makes a SysIdRoutine's mechanism
 
 # Keyword arguments, in order of position.
 CONFIG = ("rampRate", "stepVoltage", "timeout", "recordState")
@@ -30,6 +52,7 @@ SUBSYSTEMS = frozenset(
         "PIDSubsystem",
         "ProfiledPIDSubsystem",
         "TrapezoidProfileSubsystem",
+        "Mechanism",  # of Commands v3
     }
 )
 

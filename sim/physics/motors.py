@@ -62,7 +62,7 @@ MOTORS: dict[str, Motor] = {
         _motor("falcon500", 4.69, 257, 1.5, 6380),
         _motor("falcon500FOC", 5.84, 304, 1.5, 6080),
         _motor("neo", 2.6, 105, 1.8, 5676),
-        _motor("neoVortex", 3.6, 211, 3.615, 6784),
+        _motor("neoVortex", 3.6, 211, 3.615, 6784),  # C++ and Python; Java's table has 3.6 A free
         _motor("neo550", 0.97, 100, 1.4, 11000),
         _motor("minion", 3.17, 211, 2, 7704),
         _motor("cim", 2.42, 133, 2.7, 5310),

@@ -124,9 +124,9 @@ def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str
             cannot be right.
     """
     spelling = _spelling(language, season)
-    _check(found)
+    refuse_impossible_gains(found)
     write = LANGUAGES[language]
-    class_ = _class_name(name or found.type)
+    class_ = class_name(name or found.type)
     cls = CLASSES.get(found.type) or (
         write.angular if find_unit(found.units).angular else write.linear
     )
@@ -172,8 +172,12 @@ def _spelling(language: str, season: int) -> Spelling:
     return SPELLINGS[language, season]
 
 
-def _check(found: Fit) -> None:
-    """Refuse gains that no robot should run on."""
+def refuse_impossible_gains(found: Fit) -> None:
+    """Refuse gains that no robot should run on.
+
+    Raises:
+        BadRequest: a grave doubt, a gain that is no number, or a negative kV or kA.
+    """
     for doubt in found.doubts:
         if doubt.grave:
             raise BadRequest(
@@ -188,7 +192,12 @@ def _check(found: Fit) -> None:
             )
 
 
-def _class_name(name: str) -> str:
+def class_name(name: str) -> str:
+    """The class of a mechanism's gains: ``LeftDriveGains`` of ``left drive``.
+
+    Raises:
+        BadRequest: the name has no letter in front.
+    """
     words = re.findall(r"[^\W_]+", name)
     joined = "".join(word[0].upper() + word[1:] for word in words) + "Gains"
     if not words or not joined.isidentifier():

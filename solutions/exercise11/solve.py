@@ -7,7 +7,7 @@ CHOICES = {
     "Q0_guess": "Which gain makes it behave",
     "Q0_sysid": "Which model of the physics",
     "Q0_brace": "kA",
-    "kA_use": "It tells the robot's moment of inertia",
+    "kA_use": "It tells the robot's mass",
     "kS_flag": "Look for what drags",
     "step_shape": "Did a current limit",
     "step_length": "Much more room",

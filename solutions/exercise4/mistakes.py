@@ -14,6 +14,15 @@ LOGGED_RIGHT = (
     "        ).velocity(self.right_encoder.getRate())\n",
 )
 
+SHALLOW, DEEP = "    ", "        "  # in front of a method, and of its statements
+INIT = "    def __init__(self)"
+ROUTINE_PYTHON = (
+    f"{DEEP}self.routine = SysIdRoutine(\n"
+    f"{DEEP}    SysIdRoutine.Config(rampRate=0.5, stepVoltage=3.5, timeout=10.0),\n"
+    f"{DEEP}    SysIdRoutine.Mechanism(self.drive, self.record, self),\n"
+    f"{DEEP})\n"
+)
+
 MISTAKES = (
     Mistake(
         "the routine is never made",
@@ -160,6 +169,24 @@ MISTAKES = (
         replace_text(("this::record", "null")),
         "log",
         "null in place of the log callback",
+    ),
+    Mistake(
+        "the routine in the body of the class",
+        PYTHON,
+        replace_text(
+            (ROUTINE_PYTHON, ""),
+            (INIT, f"{ROUTINE_PYTHON.replace(DEEP, SHALLOW)}\n{INIT}"),
+            ("    self.routine =", "    routine ="),
+        ),
+        "assembled",
+        "the body of a class has no self",
+    ),
+    Mistake(
+        "None for the log callback",
+        PYTHON,
+        replace_text(("self.drive, self.record, self", "self.drive, None, self")),
+        "log",
+        "stops with a TypeError in the first loop",
     ),
     Mistake(
         "the voltage that was asked for in the log",

@@ -54,7 +54,7 @@ class RobotContainer:
     def __init__(self) -> None:
         self.subsystem = ExampleSubsystem()
         self.driver = CommandXboxController(0)
-        self.subsystem.setDefaultCommand(self.subsystem.turn(self.driver.getLeftY))
+        self.subsystem.setDefaultCommand(self.subsystem.turn(lambda: -self.driver.getLeftY()))
         self.configure_bindings()
 
     def configure_bindings(self) -> None:

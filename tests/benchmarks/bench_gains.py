@@ -1,4 +1,4 @@
-"""Two methods against the truth: six mechanisms, three noise levels, 20 and 5 ms, everyday dirt.
+"""Two methods against the truth: every mechanism, three noise levels, 20 and 5 ms, everyday dirt.
 
     python tests/benchmarks/bench_gains.py [seeds]
 

@@ -21,6 +21,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.core.log import Array, Log, Run
 
 STEP = 5e-5  # [s]
+NAMES = ("arm", "drivetrain", "elevator", "intake", "shooter", "turret")  # so figures compare
 KINDS = ("ideal", "sensor", "everyday")
 NOISES = (0.003, 0.01, 0.03, 0.1)  # [m/s] of a drivetrain that makes FULL_SPEED at 12 V
 PERIODS = (0.01, 0.02)  # [s]
@@ -163,11 +164,11 @@ def _run(truth: Truth, name: str, clock: float, rng: np.random.Generator) -> Run
 
 def error_logs(*, seeds: int = 3, first: int = 0) -> Iterator[tuple[str, str, Truth, Log]]:
     """Mechanism, kind, truth and log."""
-    plan = product(MECHANISMS, KINDS, PERIODS, NOISES, range(first, first + seeds))
+    plan = product(NAMES, KINDS, PERIODS, NOISES, range(first, first + seeds))
     for name, kind, period, noise, seed in plan:
         rng = np.random.default_rng(
             [
-                sorted(MECHANISMS).index(name),
+                NAMES.index(name),
                 KINDS.index(kind),
                 round(1e4 * period),
                 round(1e4 * noise),

@@ -3,8 +3,19 @@
 import re
 from collections.abc import Iterator
 
+from grader.robotcode.button_vocabulary import MODES_OF
 from grader.robotcode.compiling.java_types import type_errors
-from grader.robotcode.compiling.season import HOME, INHERITED, METHODS, PLAIN, SEASON, suggest_name
+from grader.robotcode.compiling.season import (
+    HOME,
+    INHERITED,
+    METHODS,
+    MODES_OF_2027,
+    MOTORS_OF_2027,
+    PLAIN,
+    SEASON,
+    import_season,
+    suggest_name,
+)
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Assign,
@@ -26,11 +37,13 @@ from grader.robotcode.name_resolution import (
     last_name,
     methods,
     simple_type_name,
+    type_of,
 )
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import UNITS, is_motor
 
+OLD_SEASON = 2026
 LANG = frozenset(
     {
         *("String", "Object", "Math", "Double", "Integer", "Boolean", "Float", "Long", "Short"),
@@ -70,6 +83,8 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     yield from _constructors(names)
     yield from _never_set(names)
     every = list(walk(module.body, Scope(module)))
+    if import_season(module.imports) == OLD_SEASON:
+        yield from _names_of_2027(every, names)
     open_ = any(one.name == "*" and not _static(one) for one in module.imports)
     declared = {node.name for node, _ in every if isinstance(node, Class)}
     targets = {node.target for node, _ in every if isinstance(node, Call)}
@@ -89,6 +104,19 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             yield from _variable(node, declared, scope, names, open_=open_)
         elif isinstance(node, Call):
             yield from _method(node, scope, names)
+
+
+def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator[ParseProblem]:
+    """Names that came with WPILib 2027, in a program that imports the packages before it."""
+    for node, scope in every:
+        if not isinstance(node, Member):
+            continue
+        of_mode = node.name in MODES_OF_2027 and last_name(node.owner) in MODES_OF
+        of_motor = node.name in MOTORS_OF_2027 and is_motor(type_of(node.owner, scope, names))
+        if of_mode or of_motor:
+            old = (MODES_OF_2027 | MOTORS_OF_2027)[node.name]
+            said = f"{node.name}() is a name of WPILib 2027, and the imports are older: "
+            yield ParseProblem(f"{said}{old}() is meant?", node.place.line)
 
 
 def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:

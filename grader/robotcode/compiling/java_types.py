@@ -28,7 +28,7 @@ from grader.robotcode.name_resolution import (
 from grader.robotcode.readings import device_of, quantity_of
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import ROTATIONS, UNITS, is_motor
+from grader.robotcode.vocabulary import MECHANISMS, ROTATIONS, UNITS, is_motor
 
 DEEPEST = 12
 NUMBER, SIGNAL = "double", "StatusSignal"
@@ -64,7 +64,7 @@ def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         name = last_name(node.target)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
-        if constructed_class(node, scope, names) == "Mechanism":
+        if constructed_class(node, scope, names) in MECHANISMS:
             yield from _callbacks(node, scope, names)
 
 

@@ -35,7 +35,22 @@ def python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         for one in every:
             if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Load) and one.id not in bound:
                 yield ParseProblem(f"nothing defines or imports {one.id}", one.lineno)
+    yield from _self_in_class_body(every)
     yield from _attributes(every)
+
+
+def _self_in_class_body(every: list[ast.AST]) -> Iterator[ParseProblem]:
+    """Where ``self`` is used in a class but in none of its methods: there it does not exist."""
+    later = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda)
+    for one in every:
+        waiting: list[ast.AST] = list(one.body) if isinstance(one, ast.ClassDef) else []
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, ast.Name) and node.id == "self":
+                said = "the body of a class has no self: move this line into __init__"
+                yield ParseProblem(said, node.lineno)
+            if not isinstance(node, later):
+                waiting.extend(ast.iter_child_nodes(node))
 
 
 def _imports(every: list[ast.AST]) -> Iterator[ParseProblem]:

@@ -4,8 +4,16 @@ No list is whole: a name that is not here is only called wrong where it is nearl
 """
 
 import difflib
+from collections.abc import Iterable
 
+from grader.robotcode.ir import Import
 from grader.robotcode.vocabulary import COMMANDS, PYTHON_WORDS, SIGNALS
+
+# Java names that came with 2027, and what they were called until then. WPILib 2027 is not released:
+# names as on allwpilib's development branch, whose early alphas still had test() and set().
+PACKAGES_OF = {"edu.wpi.first.": 2026, "org.wpilib.": 2027}
+MODES_OF_2027 = {"utility": "test", "isUtility": "isTest", "isUtilityEnabled": "isTestEnabled"}
+MOTORS_OF_2027 = {"setThrottle": "set", "getThrottle": "get"}
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
 SHORTEST = 4  # letters of a name that is compared
@@ -99,12 +107,14 @@ INHERITED = frozenset(  # what a subsystem, a command or a robot brings along
         *("setDefaultCommand", "getDefaultCommand", "removeDefaultCommand", "getCurrentCommand"),
         *("periodic", "simulationPeriodic", "addPeriodic", "getPeriod", "toString", "hashCode"),
         *("equals", "getClass", "addRequirements", "isReal", "isSimulation", "super"),
+        *("runRepeatedly", "idleFor", "idleUntil", "getRunningCommands"),  # of Commands v3
     }
 )
 PLAIN = frozenset(  # classes from which no field of interest is inherited
     {
         "Subsystem",
         "SubsystemBase",
+        "Mechanism",
         "TimedRobot",
         "Object",
         "object",
@@ -112,6 +122,15 @@ PLAIN = frozenset(  # classes from which no field of interest is inherited
         "TimedCommandRobot",
     }
 )
+
+
+def import_season(imports: Iterable[Import]) -> int:
+    """The season that a Java file is written for, by the packages it imports; 0 if none tells."""
+    for one in imports:
+        for package, season in PACKAGES_OF.items():
+            if one.path.startswith(package):
+                return season
+    return 0
 
 
 def suggest_name(name: str, known: frozenset[str] | dict[str, str]) -> str:

@@ -12,6 +12,7 @@ import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
 from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
+from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
@@ -68,12 +69,14 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option("--driven-by", metavar="MOTOR", help="Check against theory: krakenX60, neo, …")
 @click.option("--count", type=click.IntRange(min=1), default=1, help="How many motors, for that.")
 @click.option("--ratio", type=float, help="Motor turns per turn of the output, for that.")
-@click.option("--radius", type=float, default=1.0, help="Of wheel or drum [m], for that.")
+@click.option(
+    "--radius", type=float, default=1.0, help="Of wheel or drum [m], for that and --paste."
+)
 @click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for that.")
 @click.option(
     "--paste",
-    type=click.Choice(("java", "python")),
-    help="Only the constants and feedforward to paste into robot code.",
+    type=click.Choice((*LANGUAGES, *CONTROLLERS)),
+    help="Only the code to paste: WPILib's feedforward, or gains inside a motor controller.",
 )
 @click.option(
     "--season",
@@ -162,9 +165,7 @@ class _FitOutput:
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
         """Print what was asked for: robot code, JSON, or text for people."""
         if paste:
-            from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - only with --paste
-
-            click.echo(write_robot_code(self.found, language=paste, season=season), nl=False)
+            click.echo(paste_code(self.found, paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:

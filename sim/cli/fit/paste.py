@@ -1,0 +1,34 @@
+"""``sysid fit --paste``: the code to paste, for robot programs and for motor controllers."""
+
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from sim.fit import Fit
+
+LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
+CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains that somebody else's code holds, in Java
+
+
+def paste_code(found: "Fit", target: str, *, season: int) -> str:
+    """The text to print for ``--paste``; a radius counts only where the command was given one.
+
+    Args:
+        found: the fit, in the unit of its log.
+        target: one of ``LANGUAGES`` or ``CONTROLLERS``.
+        season: 2026 or 2027.
+
+    Raises:
+        BadRequest: no code can be written for these gains.
+    """
+    if target in LANGUAGES:
+        from sim.report.robot_code_snippet import write_robot_code  # noqa: PLC0415 - only with --paste
+
+        return write_robot_code(found, language=target, season=season)
+    from sim.report.controller_snippet import write_controller_code  # noqa: PLC0415 - the same
+
+    ctx = click.get_current_context()
+    given = ctx.get_parameter_source("radius") is not click.core.ParameterSource.DEFAULT
+    radius = ctx.params["radius"] if given else None
+    return write_controller_code(found, target=target, radius=radius, season=season)

@@ -1,0 +1,269 @@
+"""Java for gains that a motor controller or a swerve library holds: Phoenix 6, REVLib, YAGSL.
+
+    from sim.report.controller_snippet import write_controller_code
+    print(write_controller_code(found, target="phoenix6", radius=0.0508))
+
+Each counts in a unit of its own, so kV and kA are converted where they are written down. Sources:
+the documentation of ``Slot0Configs`` in Phoenix 6 26.3 and of ``FeedForwardConfig`` in REVLib
+2026.0; for YAGSL, ``SwerveDrive.replaceSwerveModuleFeedforward``, which takes WPILib's class.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from sim.core.errors import BadRequest
+from sim.core.units import find_unit
+from sim.fit import Fit
+from sim.report.robot_code_snippet import (
+    ORDER,
+    SPELLINGS,
+    class_name,
+    refuse_impossible_gains,
+    round_to_error,
+)
+
+ROTATION, METER = find_unit("rotations"), find_unit("meters")
+TURN = 2.0 * math.pi  # [rad]
+
+
+@dataclass(frozen=True)
+class Conversion:
+    """How many units of the log are one unit of the target.
+
+    Args:
+        name: the Java constant that holds it.
+        factor: its value; 1 needs no constant.
+        per: symbol of the target's unit.
+    """
+
+    name: str
+    factor: float
+    per: str
+
+
+@dataclass(frozen=True)
+class Target:
+    """Something that takes gains.
+
+    Args:
+        name: as people say it, with the release it was checked against.
+        unit: ``rotations`` or ``meters`` that it counts in; empty takes the unit of the log.
+        imports: the Java classes that its lines need.
+        notes: what has to be set beside the gains, a line each.
+        build: the lines that hand the gains over.
+    """
+
+    name: str
+    unit: str
+    imports: Callable[[Fit, int], tuple[str, ...]]
+    notes: Callable[[Fit], tuple[str, ...]]
+    build: Callable[[Fit], tuple[str, ...]]
+
+
+def write_controller_code(
+    found: Fit, *, target: str, radius: float | None = None, season: int = 2026, name: str = ""
+) -> str:
+    """Java with the gains of a fit in the units of a motor controller or a swerve library.
+
+    Args:
+        found: the fit, in the unit of its log.
+        target: ``phoenix6``, ``revlib`` or ``yagsl``.
+        radius: [m] of wheel or drum; what lies between a length and a rotation.
+        season: 2026 or 2027; only YAGSL's lines, which name a class of WPILib, depend on it.
+        name: what the mechanism is called; empty takes its type.
+
+    Returns:
+        The text, with a line break at its end. A gain is written as in the fit, times a constant
+        that converts it.
+
+    Raises:
+        BadRequest: an unknown target or season, a radius that is missing, a mechanism that the
+            target has no gains for, or gains that cannot be right.
+    """
+    if target not in TARGETS:
+        raise BadRequest(
+            f"unknown target {target!r}", advice=f"Choose one of: {', '.join(TARGETS)}."
+        )
+    if ("java", season) not in SPELLINGS:
+        raise BadRequest(f"unknown season {season!r}", advice="Choose 2026 or 2027.")
+    refuse_impossible_gains(found)
+    chosen = TARGETS[target]
+    if target == "yagsl" and found.type != "simple":
+        raise BadRequest(
+            f"an {found.type} for YAGSL, which holds the gains of a drive motor",
+            advice="Fit the log of the drive motors with --type simple.",
+        )
+    converted = convert_units(found, chosen.unit, radius=radius)
+    class_ = class_name(name or found.type)
+    return "\n".join(
+        (
+            *(f"import {one};" for one in chosen.imports(found, season)),
+            "",
+            *(f"// {line}" for line in _heading(found, chosen)),
+            f"public final class {class_} {{",
+            f"  private {class_}() {{}}",
+            "",
+            *(f"  {line}" for line in _constants(found, converted)),
+            "",
+            *(f"  {line}".rstrip() for line in chosen.build(found)),
+            "}",
+            "",
+        )
+    )
+
+
+def _heading(found: Fit, chosen: Target) -> Iterator[str]:
+    article = "an" if found.type[0] in "ae" else "a"
+    yield f"Measured gains of {article} {found.type} mechanism; ± is one standard error."
+    yield f"For {chosen.name}:"
+    yield from chosen.notes(found)
+    if found.doubts:
+        yield f"Warnings of the fit, to be read first: {len(found.doubts)}."
+
+
+def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
+    """The constant by which kV and kA of a fit are multiplied.
+
+    Args:
+        found: the fit.
+        unit: ``rotations``, ``meters``, or empty for the unit of the fit.
+        radius: [m] of wheel or drum, or None.
+
+    Raises:
+        BadRequest: a radius is needed and missing, or is none.
+    """
+    given = find_unit(found.units)
+    if not unit:
+        return Conversion("", 1.0, given.symbol)
+    wanted = find_unit(unit)
+    name = f"k{given.name.capitalize()}Per{wanted.name.capitalize().removesuffix('s')}"
+    if given.angular == wanted.angular:
+        return Conversion(name, wanted.si / given.si, wanted.symbol)
+    if radius is None or not (math.isfinite(radius) and radius > 0.0):
+        raise BadRequest(
+            f"no radius between {given.name} and {wanted.name}",
+            advice="Give --radius, that of wheel or drum in meters.",
+        )
+    between = radius if wanted.angular else 1.0 / radius  # meters per radian, or the other way
+    return Conversion(name, wanted.si * between / given.si, wanted.symbol)
+
+
+def _constants(found: Fit, converted: Conversion) -> Iterator[str]:
+    """The gains, each with its unit and its error in that unit."""
+    times = ""
+    if converted.factor != 1.0:
+        yield f"public static final double {converted.name} = {converted.factor!r};"
+        times = f" * {converted.name}"
+    units = {"kV": f"V·s/{converted.per}", "kA": f"V·s²/{converted.per}"}
+    for gain in ORDER[found.type]:
+        error, scale = found.errors[gain], converted.factor if gain in units else 1.0
+        value = round_to_error(found.gains[gain], error)
+        known = f" ± {error * scale:.2g}" if math.isfinite(error) else ""
+        factor = times if gain in units else ""
+        unit = units.get(gain, "V")
+        yield f"public static final double {gain} = {value}{factor};  // [{unit}]{known}"
+    if found.type == "arm":
+        level = -found.gains["offset_rad"] / TURN
+        yield (
+            f"public static final double kLevelReading = {level:.6f};"
+            "  // [rot] of the sensor when the arm is level"
+        )
+
+
+def _phoenix6_imports(found: Fit, season: int) -> tuple[str, ...]:  # noqa: ARG001 - as the others
+    gravity = ("com.ctre.phoenix6.signals.GravityTypeValue",) * (found.type != "simple")
+    return (
+        "com.ctre.phoenix6.configs.Slot0Configs",
+        *gravity,
+        "com.ctre.phoenix6.signals.StaticFeedforwardSignValue",
+    )
+
+
+def _phoenix6_notes(found: Fit) -> tuple[str, ...]:
+    level = "Zero the sensor where the arm is level: Arm_Cosine takes its position's cosine."
+    return (
+        "Volts per rotation of the mechanism. Set Feedback.SensorToMechanismRatio first.",
+        "For requests in volts: VelocityVoltage, PositionVoltage, MotionMagicVoltage.",
+        "EnableFOC has to be as in the tests; it changes kA, and kV a little.",
+        *((level,) if found.type == "arm" else ()),
+        "kP: sysid fit --preset ctre-phoenix6, converted as kV is.",
+    )
+
+
+def _phoenix6_lines(found: Fit) -> tuple[str, ...]:
+    gravity = {"elevator": "Elevator_Static", "arm": "Arm_Cosine"}.get(found.type)
+    weight = (
+        "        .withKG(kG)",
+        f"        .withGravityType(GravityTypeValue.{gravity})",
+    )
+    return (
+        "public static final Slot0Configs SLOT_0 =",
+        "    new Slot0Configs()",
+        "        .withKS(kS)",
+        "        .withKV(kV)",
+        "        .withKA(kA)",
+        *(weight if gravity else ()),
+        "        .withStaticFeedforwardSign(StaticFeedforwardSignValue.UseVelocitySign);",
+    )
+
+
+def _revlib_imports(found: Fit, season: int) -> tuple[str, ...]:  # noqa: ARG001 - as the others
+    return ("com.revrobotics.spark.config.FeedForwardConfig",)
+
+
+def _revlib_notes(found: Fit) -> tuple[str, ...]:
+    per = find_unit(found.units).symbol
+    level = "Zero the encoder where the arm is level: kCos is multiplied by its angle's cosine."
+    return (
+        f"Volts per {per}/s. Set both conversion factors, so that the encoder counts in {per}.",
+        "Without them a Spark counts rotations and rpm of the motor.",
+        "kV serves velocity and MAXMotion, kA MAXMotion only; gravity serves position control.",
+        *((level,) if found.type == "arm" else ()),
+        "Use it with: config.closedLoop.feedForward.apply(FEED_FORWARD);",
+        "kP is a duty cycle there: sysid fit --preset rev-brushless.",
+    )
+
+
+def _revlib_lines(found: Fit) -> tuple[str, ...]:
+    gravity = {"elevator": ".kG(kG)", "arm": ".kCos(kG).kCosRatio(kCosRatio)"}.get(found.type, "")
+    line = "public static final FeedForwardConfig FEED_FORWARD ="
+    made = f"    new FeedForwardConfig().kS(kS).kV(kV).kA(kA){gravity};"
+    if found.type != "arm":
+        return line, made
+    ratio = find_unit(found.units).si / ROTATION.si
+    per = find_unit(found.units).symbol
+    return (
+        f"public static final double kCosRatio = {ratio!r};  // [rot/{per}]",
+        "",
+        line,
+        made,
+    )
+
+
+def _yagsl_imports(found: Fit, season: int) -> tuple[str, ...]:  # noqa: ARG001 - as the others
+    return (f"{SPELLINGS['java', season].module}.SimpleMotorFeedforward",)
+
+
+def _yagsl_notes(found: Fit) -> tuple[str, ...]:  # noqa: ARG001 - as the others
+    return (
+        "Volts per meter of the wheel's way. YAGSL takes them for all modules:",
+        "swerveDrive.replaceSwerveModuleFeedforward(FEEDFORWARD);",
+    )
+
+
+def _yagsl_lines(found: Fit) -> tuple[str, ...]:
+    gains = ", ".join(ORDER[found.type])
+    return (
+        "public static final SimpleMotorFeedforward FEEDFORWARD =",
+        f"    new SimpleMotorFeedforward({gains});",
+    )
+
+
+TARGETS = {
+    "phoenix6": Target(
+        "Phoenix 6 (26.3)", ROTATION.name, _phoenix6_imports, _phoenix6_notes, _phoenix6_lines
+    ),
+    "revlib": Target("REVLib (2026)", "", _revlib_imports, _revlib_notes, _revlib_lines),
+    "yagsl": Target("YAGSL", METER.name, _yagsl_imports, _yagsl_notes, _yagsl_lines),
+}

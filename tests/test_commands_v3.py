@@ -1,0 +1,321 @@
+"""Commands v3 of WPILib 2027: its SysIdRoutine is read and graded like that of Commands v2.
+
+Signatures as on allwpilib's development branch, commandsv3, org.wpilib.command3.sysid.SysIdRoutine:
+Config(rampRate, stepVoltage, timeout, recordState), where null is refused for the first three;
+Config.useDataLog(rampRate, stepVoltage, timeout); Config.defaults(); SysIdMechanism(drive, log,
+mechanism[, name]), where null is allowed for log and name.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from grader.exercise import Exercise
+from grader.robotcode import read
+from grader.robotcode.binding_facts import Guard
+from grader.robotcode.bindings import bindings_of
+from grader.robotcode.facts import Certainty
+from grader.robotcode.vocabulary import CONFIG_DEFAULTS
+
+ROOT = Path(__file__).resolve().parents[1]
+EXERCISE4 = Exercise("exercise4", ROOT / "exercises" / "exercise4")
+EXERCISE5 = Exercise("exercise5", ROOT / "exercises" / "exercise5")
+
+RAMP, STEP, TIMEOUT = "Volts.of(0.5).per(Second)", "Volts.of(3.5)", "Seconds.of(10)"
+THREE = f"{RAMP}, {STEP}, {TIMEOUT}"
+CONFIG = f"SysIdRoutine.Config.useDataLog({THREE})"
+MECHANISM = "new SysIdRoutine.SysIdMechanism(this::drive, this::record, this)"
+
+HEAD = """package first.robot;
+
+import static org.wpilib.units.Units.Meters;
+import static org.wpilib.units.Units.MetersPerSecond;
+import static org.wpilib.units.Units.Second;
+import static org.wpilib.units.Units.Seconds;
+import static org.wpilib.units.Units.Volts;
+
+import com.ctre.phoenix6.hardware.TalonFX;
+import org.wpilib.command3.Command;
+import org.wpilib.command3.Mechanism;
+import org.wpilib.command3.sysid.SysIdRoutine;
+import org.wpilib.sysid.SysIdRoutineLog;
+import org.wpilib.units.VoltageUnit;
+import org.wpilib.units.measure.Time;
+import org.wpilib.units.measure.Velocity;
+import org.wpilib.units.measure.Voltage;
+"""
+FIELDS = """
+  private static final double METERS_PER_ROTATION = 0.0472;
+
+  private final TalonFX m_left = new TalonFX(1);
+  private final TalonFX m_right = new TalonFX(2);
+"""
+CALLBACKS = """
+  private void drive(Voltage voltage) {
+    m_left.setVoltage(voltage.in(Volts));
+    m_right.setVoltage(voltage.in(Volts));
+  }
+
+  private void record(SysIdRoutineLog log) {
+    log.motor("left")
+        .voltage(Volts.of(m_left.getMotorVoltage().getValueAsDouble()))
+        .linearPosition(Meters.of(getMeters(m_left)))
+        .linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_left)));
+    log.motor("right")
+        .voltage(Volts.of(m_right.getMotorVoltage().getValueAsDouble()))
+        .linearPosition(Meters.of(getMeters(m_right)))
+        .linearVelocity(MetersPerSecond.of(getMetersPerSecond(m_right)));
+  }
+
+  private double getMeters(TalonFX motor) {
+    return motor.getPosition().getValueAsDouble() * METERS_PER_ROTATION;
+  }
+
+  private double getMetersPerSecond(TalonFX motor) {
+    return motor.getVelocity().getValueAsDouble() * METERS_PER_ROTATION;
+  }
+"""
+
+
+def program(
+    *,
+    config=CONFIG,
+    mechanism=MECHANISM,
+    base="extends Mechanism",
+    imports="",
+    fields="",
+    routine="",
+):
+    made = routine or (
+        f"  private final SysIdRoutine m_routine =\n      new SysIdRoutine(\n          {config},\n"
+        f"          {mechanism});\n"
+    )
+    return (
+        f"{HEAD}{imports}\n/** A drivetrain. */\npublic class ExampleSubsystem {base} {{\n"
+        f"{FIELDS}{fields}\n{made}{CALLBACKS}}}\n"
+    )
+
+
+DUTY = "m_left.set(voltage.in(Volts) / 12)"
+NESTED = (
+    "import org.wpilib.command3.sysid.SysIdRoutine.Config;\n"
+    "import org.wpilib.command3.sysid.SysIdRoutine.SysIdMechanism;\n"
+)
+RIGHT = {  # style -> the program
+    "as its documentation has it": program(),
+    "an interface": program(base="implements Mechanism"),
+    "all four numbers": program(config=f"new SysIdRoutine.Config({THREE}, null)"),
+    "a state consumer": program(
+        config=f"new SysIdRoutine.Config({THREE}, state -> System.out.println(state))"
+    ),
+    "a name": program(mechanism=MECHANISM.replace(", this)", ', this, "drive")')),
+    "no name": program(mechanism=MECHANISM.replace(", this)", ", this, null)")),
+    "nested classes imported": program(
+        imports=NESTED,
+        config=f"Config.useDataLog({THREE})",
+        mechanism="new SysIdMechanism(this::drive, this::record, this)",
+    ),
+    "nested classes imported, the constructor": program(
+        imports=NESTED,
+        config=f"new Config({THREE}, null)",
+        mechanism="new SysIdMechanism(this::drive, this::record, this)",
+    ),
+    "a static import": program(
+        imports="import static org.wpilib.command3.sysid.SysIdRoutine.Config.useDataLog;\n",
+        config=f"useDataLog({THREE})",
+    ),
+    "the timeout by default": program(
+        imports=NESTED,
+        config=f"Config.useDataLog({RAMP}, {STEP}, Config.DEFAULT_TIMEOUT)",
+    ),
+    "a field for the config": program(
+        fields=f"  private final SysIdRoutine.Config m_config = {CONFIG};\n", config="m_config"
+    ),
+    "a var in the constructor": program(
+        routine=(
+            "  private final SysIdRoutine m_routine;\n\n  public ExampleSubsystem() {\n"
+            f"    var config = {CONFIG};\n    var mechanism = {MECHANISM};\n"
+            "    m_routine = new SysIdRoutine(config, mechanism);\n  }\n"
+        )
+    ),
+    "a field for the mechanism": program(
+        fields=f"  private final SysIdRoutine.SysIdMechanism m_tested = {MECHANISM};\n",
+        mechanism="m_tested",
+    ),
+    "lambdas": program(mechanism=MECHANISM.replace("this::drive", "volts -> drive(volts)")),
+    "a lambda for the log": program(
+        mechanism=MECHANISM.replace("this::record", "log -> record(log)")
+    ),
+    "constants": program(
+        fields=(
+            f"  private static final Velocity<VoltageUnit> RAMP = {RAMP};\n"
+            f"  private static final Voltage STEP = {STEP};\n"
+            f"  private static final Time TIMEOUT = {TIMEOUT};\n"
+        ),
+        config="SysIdRoutine.Config.useDataLog(RAMP, STEP, TIMEOUT)",
+    ),
+    "a method that makes the config": program(
+        routine=(
+            f"  private static SysIdRoutine.Config settings() {{\n    return {CONFIG};\n  }}\n\n"
+            "  private final SysIdRoutine m_routine =\n"
+            f"      new SysIdRoutine(settings(), {MECHANISM});\n"
+        )
+    ),
+    "other units": program(
+        config="SysIdRoutine.Config.useDataLog("
+        "Millivolts.of(500).per(Second), Millivolts.of(3500), Minutes.of(1.0 / 6))",
+        imports="import static org.wpilib.units.Units.Millivolts;\n"
+        "import static org.wpilib.units.Units.Minutes;\n",
+    ),
+    "a name handed to Mechanism": program(
+        routine=(
+            '  public ExampleSubsystem() {\n    super("Drive");\n  }\n\n'
+            "  private final SysIdRoutine m_routine =\n"
+            f"      new SysIdRoutine(\n          {CONFIG},\n          {MECHANISM});\n"
+        )
+    ),
+    "four commands": program(
+        routine=(
+            f"  private final SysIdRoutine m_routine = new SysIdRoutine({CONFIG}, {MECHANISM});\n\n"
+            "  public Command quasistatic(SysIdRoutine.Direction direction) {\n"
+            "    return m_routine.quasistatic(direction);\n  }\n\n"
+            "  public Command dynamic(SysIdRoutine.Direction direction) {\n"
+            "    return m_routine.dynamic(direction);\n  }\n"
+        )
+    ),
+}
+WRONG = {  # what is wrong -> the program, the check that fails, and what it says
+    "its defaults": (
+        program(config="SysIdRoutine.Config.defaults()"), "step", "WPILib's default, 7 V"
+    ),
+    "null, which it refuses": (
+        program(config=f"new SysIdRoutine.Config({RAMP}, {STEP}, null, null)"),
+        "timeout",
+        "null for the timeout",
+    ),
+    "the lesson's step": (
+        program(config=CONFIG.replace("3.5", "3")), "step", "Volts.of(3) in line 29: 3 V"
+    ),
+    "no log": (
+        program(mechanism=MECHANISM.replace("this::record", "null")), "log", "null in place of"
+    ),
+    "a duty cycle": (
+        program().replace("m_left.setVoltage(voltage.in(Volts))", DUTY),
+        "open-loop",
+        "m_left",
+    ),
+    "another mechanism": (
+        program(
+            fields='  private final Mechanism m_other = new Mechanism("other");\n',
+            mechanism=MECHANISM.replace(", this)", ", m_other)"),
+        ),
+        "assembled",
+        "which subsystem the Mechanism gets",
+    ),
+}  # fmt: skip
+
+
+def graded(exercise, text, tmp_path, *, name="ExampleSubsystem.java"):
+    path = tmp_path / name
+    path.write_text(text, "utf-8")
+    return {one.id: one for one in exercise.grade(path, student="ann", run=False).checks}
+
+
+@pytest.mark.parametrize("style", RIGHT)
+def test_the_facts_are_read(style, tmp_path):
+    path = tmp_path / "ExampleSubsystem.java"
+    path.write_text(RIGHT[style], "utf-8")
+
+    facts = read(path)
+
+    assert [one.value for one in (facts.ramp, facts.step, facts.timeout)] == [0.5, 3.5, 10.0]
+    assert {one.known for one in (facts.ramp, facts.step)} == {Certainty.STATED}
+    assert (facts.is_subsystem, facts.subsystem_passed) == (True, True)
+    assert {call.motor for call in facts.drive} == {"m_left", "m_right"}
+    assert [one.signal for one in facts.logged] == ["voltage", "position", "velocity"] * 2
+    assert facts.compile_errors == facts.unread == ()
+
+
+@pytest.mark.parametrize("style", RIGHT)
+def test_a_right_answer_earns_all_points(style, tmp_path):
+    found = graded(EXERCISE4, RIGHT[style], tmp_path)
+
+    assert {name: one.seen for name, one in found.items() if one.status != "passed"} == {}
+    assert sum(one.points for one in found.values()) == 15
+
+
+@pytest.mark.parametrize("mistake", WRONG)
+def test_a_wrong_answer_is_told_what_is_wrong(mistake, tmp_path):
+    text, check, said = WRONG[mistake]
+
+    found = graded(EXERCISE4, text, tmp_path)[check]
+
+    assert found.status == "failed"
+    assert said in found.seen
+
+
+BINDINGS = """package first.robot;
+
+import org.wpilib.command3.Command;
+import org.wpilib.command3.Mechanism;
+import org.wpilib.command3.Trigger;
+import org.wpilib.command3.button.CommandXboxController;
+import org.wpilib.command3.button.RobotModeTriggers;
+import org.wpilib.command3.sysid.SysIdRoutine;
+import org.wpilib.command3.sysid.SysIdRoutine.Direction;
+
+public class RobotContainer {
+  private final Arm m_arm = new Arm();
+  private final CommandXboxController m_driver = new CommandXboxController(0);
+
+  public RobotContainer() {
+    Trigger testing = RobotModeTriggers.utility();
+    // Quasistatic, forward: a slow ramp, which measures kS and kV.
+    m_driver.a().and(testing).whileTrue(m_arm.quasistatic(Direction.FORWARD));
+    // Quasistatic, reverse: kS and kV once more, from the other side.
+    m_driver.b().and(testing).whileTrue(m_arm.quasistatic(Direction.REVERSE));
+    // Dynamic, forward: a step, which measures kA.
+    m_driver.x().and(testing).whileTrue(m_arm.dynamic(Direction.FORWARD));
+    // Dynamic, reverse: kA once more, from the other side.
+    m_driver.y().and(testing).whileTrue(m_arm.dynamic(Direction.REVERSE));
+  }
+}
+
+class Arm extends Mechanism {
+  private final SysIdRoutine m_routine =
+      new SysIdRoutine(
+          SysIdRoutine.Config.defaults(),
+          new SysIdRoutine.SysIdMechanism(volts -> {}, null, this));
+
+  public Command quasistatic(Direction direction) {
+    return m_routine.quasistatic(direction);
+  }
+
+  public Command dynamic(Direction direction) {
+    return m_routine.dynamic(direction);
+  }
+}
+"""
+
+
+def test_its_commands_are_bound_and_guarded_like_those_of_v2(tmp_path):
+    path = tmp_path / "RobotContainer.java"
+    path.write_text(BINDINGS, "utf-8")
+
+    facts = bindings_of(path)
+    found = graded(EXERCISE5, BINDINGS, tmp_path, name="RobotContainer.java")
+
+    assert all(one.guards == (Guard.TEST_MODE,) for one in facts.bindings)
+    assert {name: one.seen for name, one in found.items() if one.status != "passed"} == {}
+
+
+def test_a_changed_default_of_a_season_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setitem(CONFIG_DEFAULTS, 2027, (1.0, 4.0, 10.0))
+    newer = program(config="SysIdRoutine.Config.defaults()")
+    steps = {}
+    for name, text in (("newer", newer), ("older", newer.replace("org.wpilib.", "edu.wpi.first."))):
+        path = tmp_path / f"{name}.java"
+        path.write_text(text, "utf-8")
+        steps[name] = read(path).step.value
+
+    assert steps == {"newer": 4.0, "older": 7.0}
