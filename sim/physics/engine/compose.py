@@ -12,13 +12,16 @@ import inspect
 import sys
 from collections.abc import Iterator, Mapping
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
 from sim.physics.engine import one_body, power_path, stepping, two_bodies, two_body_modes
-from sim.physics.engine.kernel import Kernel, kernel_file, load_kernel
 from sim.physics.engine.two_body_modes import WAYS
 from sim.support.work.cache import cache_folder
+
+if TYPE_CHECKING:
+    from sim.physics.engine.kernel import Kernel
 
 MODULES = (power_path, two_body_modes, one_body, two_bodies, stepping)
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
@@ -68,7 +71,9 @@ def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
     return found
 
 
-def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel | ModuleType:
+def compose_engine(
+    effects: Mapping[str, Effect], *, compiled: bool = True
+) -> "Kernel | ModuleType":
     """The engine for these effects: something with ``move``.
 
     Args:
@@ -77,6 +82,7 @@ def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> K
 
     Raises:
         BadRequest: an effect is written wrongly; the message says which, and what is wrong.
+        ImportError: it has to be compiled, and Numba or llvmlite (extra ``fast``) is missing.
     """
     for name, effect in effects.items():
         if wrong := effect.contract_breaches():
@@ -88,6 +94,8 @@ def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> K
             )
     text = "\n".join(_engine_lines(effects, compiled=compiled))
     if compiled:
+        from sim.physics.engine.kernel import kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
+
         return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
@@ -95,7 +103,13 @@ def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> K
 
 
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
-    """Whether an engine for these effects waits in the cache."""
+    """Whether an engine for these effects waits in the cache.
+
+    Raises:
+        ImportError: llvmlite (extra ``fast``) is missing.
+    """
+    from sim.physics.engine.kernel import kernel_file  # noqa: PLC0415 - needs llvmlite
+
     text = "\n".join(_engine_lines(effects, compiled=True))
     return kernel_file(cache_folder(), _engine_hash(effects, text)).is_file()
 
