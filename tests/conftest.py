@@ -15,6 +15,8 @@ ROOT = Path(__file__).resolve().parents[1]
 SLOW = (  # files that take long; begun first, they keep no core waiting at the end
     "test_lessons_in_browser",
     "test_instructors_day",
+    "test_install",
+    "test_without_numba",
     "test_reconcile_real",
     "test_engine",
     "test_lessons",

@@ -3,6 +3,7 @@
 Exit codes: 0 full marks, 1 not all right yet, 2 could not do it (one line says why, and what next).
 """
 
+import importlib.util
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -31,6 +32,7 @@ MODULES = {
     "serve": "serve",
     "watch": "watch",
 }
+COURSE_PACKAGES = ("pebble", "tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
 class ExerciseOrCommand(click.Group):
@@ -48,14 +50,14 @@ class ExerciseOrCommand(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
-        if not {*args[:1]} & {"-h", "--help", *self.list_commands(ctx)}:
+        if not {*args[:1]} & {"-h", "--help", "--version", *self.list_commands(ctx)}:
             args = ["exercise", *args]
         return super().parse_args(ctx, args)
 
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Show grading, what the command is mostly for, and then the rest."""
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
-        formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
+        formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
             "grade", "watch | doctor | class FOLDER | release | export | serve FOLDER  [--help]"
         )
@@ -70,12 +72,30 @@ class ExerciseOrCommand(click.Group):
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
     epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.",
 )
+@click.version_option(package_name="sysid-course")
 def grade() -> None:
     """Grade an exercise. Without a name: how far you are, and the next step.
 
     EXERCISE is a name such as exercise4, or its number. FILE is your answer; without it, the
     exercise's own file is graded.
     """
+    _refuse_bare_installation()
+
+
+def _refuse_bare_installation() -> None:
+    """Refuse to grade where only ``sysid`` was installed.
+
+    Raises:
+        BadRequest: a package of the extra ``course`` is missing.
+    """
+    missing = [name for name in COURSE_PACKAGES if importlib.util.find_spec(name) is None]
+    if missing:
+        cloned = (Path(__file__).resolve().parents[2] / "pyproject.toml").is_file()
+        install = 'python -m pip install "sysid-course[course]"'
+        raise BadRequest(
+            f"lessons and grading are not installed ({', '.join(missing)} missing)",
+            advice=f"Install them: {'python -m grader start' if cloned else install}",
+        )
 
 
 @grade.command(hidden=True)
@@ -123,15 +143,26 @@ def exercise(
 
 
 @grade.command()
+@click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--no-lab", is_flag=True, help="Do not open JupyterLab.")
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
-def start(student: str | None, *, no_lab: bool) -> int:
-    """Show where you stand, make your data, open the first lesson."""
+def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
+    """Show where you stand, make your data, open the first lesson.
+
+    With FOLDER, lessons and exercises are first unpacked into it, if they are not there yet.
+
+    For example: grade start my-course
+    """
     from grader.class_package import read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
-    folder, progress, who = locate_course(student)
+    if folder is not None:
+        from grader.course_folder import unpack_course  # noqa: PLC0415 - the same
+
+        if unpack_course(folder):
+            _print_message(f"lessons and exercises are in {folder}. Grade inside it: cd {folder}")
+    folder, progress, who = locate_course(student, inside=folder)
     of_class = read_class_package(folder)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
@@ -139,8 +170,14 @@ def start(student: str | None, *, no_lab: bool) -> int:
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
-def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
+def locate_course(
+    student: str | None, *, inside: Path | None = None
+) -> "tuple[Path, Progress, str]":
     """The course folder, the progress kept there, and who is learning.
+
+    Args:
+        student: who was named on the command line.
+        inside: a folder in the course; None takes the one that one stands in.
 
     Raises:
         BadRequest: there is no course here, or the name is none.
@@ -148,7 +185,7 @@ def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
     from grader.class_package import find_learner  # noqa: PLC0415 - the same
     from grader.course import describe_other_code, find_course, load_progress  # noqa: PLC0415 - --help must not wait
 
-    folder = find_course(Path.cwd())
+    folder = find_course(inside.resolve() if inside else Path.cwd())
     _print_message(describe_other_code(folder))
     progress, said = load_progress(folder)
     _print_message(said)

@@ -1,8 +1,8 @@
 """The simulation engine: one compiled kernel for simulation, fit and reconcile.
 
 It is composed from the effects of the catalogue when first used: about 20 seconds once, from the
-cache on disk within a tenth of a second after that. Without Numba (extra ``fast``) the same text runs
-uncompiled: the same digits, about a hundred times slower.
+cache on disk within a tenth of a second after that. Without Numba (extra ``fast``) the same text
+runs uncompiled: the same digits, about a hundred times slower.
 """
 
 import importlib.util
@@ -11,7 +11,6 @@ import sys
 from dataclasses import dataclass, field, fields
 from functools import cache
 from threading import Lock
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,6 +46,8 @@ from sim.physics.engine.two_body_modes import WAYS
 from sim.physics.model import Model
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from sim.physics.engine.kernel import Kernel
 
 __all__ = [

@@ -10,13 +10,15 @@ import ast
 import hashlib
 import inspect
 import sys
-from collections.abc import Iterator, Mapping
-from types import ModuleType
+from collections.abc import Callable, Iterator, Mapping
+from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
-from sim.physics.engine import one_body, power_path, stepping, two_bodies, two_body_modes
+from sim.physics.engine import ieee_math, one_body, power_path, stepping, two_bodies, two_body_modes
 from sim.physics.engine.two_body_modes import WAYS
 from sim.support.work.cache import cache_folder
 
@@ -99,7 +101,14 @@ def compose_engine(
         return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
+    module.__dict__["move"] = np.errstate(all="ignore")(module.move)  # as compiled code is: quiet
     return module
+
+
+def use_ieee_math(act: Callable[..., float]) -> Callable[..., float]:
+    """An effect's function with ``ieee_math`` as its ``math``, for the uncompiled engine."""
+    code, globals_ = act.__code__, act.__globals__
+    return FunctionType(code, {**globals_, "math": ieee_math}, act.__name__, act.__defaults__)
 
 
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
@@ -128,17 +137,20 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
     """The lines of the module."""
     yield '"""Composed by compose.py."""'
     yield "from __future__ import annotations"
-    yield "import math"
     yield "import numpy as np"
     if compiled:
+        yield "import math"
         yield "from numba import carray, cfunc, njit, types"
         yield "step = njit(error_model='numpy', forceinline=True)"
     else:
+        yield "from sim.physics.engine import ieee_math as math"
+        yield "from sim.physics.engine.compose import use_ieee_math"
         yield "step = lambda function: function"
     for effect in effects.values():
         for hook, act in effect.hooks.items():
             yield f"import {act.__module__}"
-            yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
+            makes = "step" if compiled else "use_ieee_math"
+            yield f"{_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
     at = parameter_slices(effects)
     for hook in HOOKS:
         yield from _hook_lines(hook, effects, at)
@@ -201,6 +213,7 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
         yield f"def move(count, n, rows, {', '.join(asked)}):"
     else:
+        given["on"] = "on.tolist()"  # Python is quicker with numbers of its own
         yield f"def move({', '.join(asked)}):"
     yield f"    step_runs({', '.join(given.get(name, name) for name in asked)})"
 
