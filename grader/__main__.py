@@ -174,7 +174,7 @@ def _install(*, testing: bool) -> tuple[str, str] | None:
     if sys.version_info[:2] > NEWEST:
         said = sys.version.split()[0]
         return (
-            f"pip could not install the course: not every package has a wheel for Python {said} yet",
+            f"pip could not install the course: some packages have no wheel for Python {said} yet",
             "Use Python {}.{}, then run the same command again.".format(*NEWEST),
         )
     return (

@@ -294,5 +294,5 @@ def test_when_pip_fails_on_a_newer_python_it_names_the_newest_that_works(
 
     assert bootstrap.main(["start"]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
-    assert "not every package has a wheel for Python" in said
+    assert "some packages have no wheel for Python" in said
     assert "Use Python 3.14" in said
