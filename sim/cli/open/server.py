@@ -280,7 +280,8 @@ def _write_code(one: OpenLog, reading: Reading, query: Mapping[str, str]) -> dic
         raise BadRequest("there is no such language or season", advice="Choose java and 2026.")
     found = one.fit(reading).found.in_log_units()
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
-    found = replace(found, gains={**found.gains, **moved})
+    errors = {name: error for name, error in found.errors.items() if name not in moved}
+    found = replace(found, gains={**found.gains, **moved}, errors=errors)  # a hand has no error
     return {"code": write_robot_code(found, language=language, season=int(season))}
 
 

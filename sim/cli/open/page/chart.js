@@ -10,7 +10,7 @@ const PANELS = [
   { name: "error", share: 0.17 },
   { name: "voltage", share: 0.25 },
 ];
-const TOP = 30, GAP = 16, AXIS = 26, OVERVIEW = 34; // [px]
+const TOP = 44, GAP = 26, AXIS = 24, OVERVIEW = 34; // [px]
 const CLOSEST = 0.08; // [s] a view is never shorter
 const ZOOM = 1.25; // by one step of a key or a wheel
 const DOTS = 5; // [px] between samples from which each is a dot of its own
@@ -139,7 +139,7 @@ export class Chart {
     this.left = clientWidth < 560 ? 40 : 54;
     this.right = clientWidth - (clientWidth < 560 ? 8 : 14);
     let y = TOP;
-    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * PANELS.length;
+    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (PANELS.length - 1) - 10;
     this.panels = {};
     for (const { name, share } of PANELS) {
       this.panels[name] = { top: y, bottom: y + share * room };
@@ -210,7 +210,7 @@ export class Chart {
   clip(to, draw) {
     to.save();
     to.beginPath();
-    to.rect(this.left, 0, this.right - this.left, this.overview.top - AXIS + 4);
+    to.rect(this.left - 3, 0, this.right - this.left + 3, this.overview.top - AXIS + 4);
     to.clip();
     draw();
     to.restore();
@@ -226,7 +226,7 @@ export class Chart {
         if (end < this.left || from > this.right) continue;
         to.fillStyle = stripe;
         to.beginPath();
-        to.roundRect(from - 3, TOP - 6, Math.max(end - from + 6, 3), bottom - TOP + 10, 5);
+        to.roundRect(from - 3, TOP - 22, Math.max(end - from + 6, 3), bottom - TOP + 26, 6);
         to.fill();
         const begins = Math.max(from, this.left) + 2;
         const room = Math.min(end, this.right) - begins;
@@ -235,7 +235,7 @@ export class Chart {
         for (const text of [`${run.part ? `${run.part} ` : ""}${kind} ${way}`, `${kind.slice(0, 4)}. ${way}`, way]) {
           if (to.measureText(text).width > room) continue;
           to.fillStyle = k === this.cursor?.run ? ink : quiet;
-          to.fillText(text, begins, TOP - 13);
+          to.fillText(text, begins, TOP - 30);
           break;
         }
       }
@@ -244,18 +244,22 @@ export class Chart {
 
   drawFaults(to) {
     const { fault } = this.colors;
+    let free = 0;
+    to.textBaseline = "alphabetic";
     this.clip(to, () => {
       for (const one of this.faults) {
         const from = this.xOf(this.timeline.placeOf(one.run, one.start));
         const end = Math.max(this.xOf(this.timeline.placeOf(one.run, one.end)), from + 2);
         to.globalAlpha = 0.14;
         to.fillStyle = fault;
-        to.fillRect(from, TOP - 6, end - from, this.panels.voltage.bottom - TOP + 10);
+        to.fillRect(from, TOP - 22, end - from, this.panels.voltage.bottom - TOP + 26);
         to.globalAlpha = 1;
-        to.fillRect(from, TOP - 6, end - from, 2.5);
+        to.fillRect(from, TOP - 22, end - from, 3);
         const width = to.measureText(one.name).width;
-        if (from + width + 8 < this.right && end - from > 3) {
-          to.fillText(one.name, from + 3, TOP + 10);
+        const at = Math.max(Math.min(from, this.right - width - 6), this.left);
+        if (from < this.right && end > this.left && at > free) {
+          to.fillText(one.name, at + 1, TOP - 7);
+          free = at + width + 8;
         }
       }
     });
@@ -280,7 +284,14 @@ export class Chart {
     const { top } = this.panels[name];
     to.fillStyle = quiet;
     to.globalAlpha = 0.9;
-    to.fillText(title, this.left + 4, top - 3 + (name === "velocity" ? 14 : 0));
+    to.textBaseline = "top";
+    if (name === "velocity") {
+      to.fillText(title, this.left + 5, top - 3);
+    } else {
+      to.textBaseline = "alphabetic";
+      to.fillText(title, this.left + 5, top - 6);
+    }
+    to.textBaseline = "alphabetic";
     to.globalAlpha = 1;
   }
 
@@ -288,7 +299,7 @@ export class Chart {
     const { measured, volts } = this.colors;
     const { velocity, voltage } = this.runs[run];
     const y = this.heights("velocity");
-    this.curve(to, run, 0, velocity, y, { color: measured, width: 1.4, alpha: 0.85, dots: true });
+    this.curve(to, run, 0, velocity, y, { color: measured, width: 5, alpha: 0.42, dots: true });
     this.curve(to, run, 0, voltage, this.heights("voltage"), { color: volts, width: 1.5, steps: true });
   }
 
@@ -332,7 +343,7 @@ export class Chart {
         to.globalAlpha = 1;
         for (let k = from; k < end; k++) {
           to.beginPath();
-          to.arc(this.xOf(begins + time[k]), y(values[k - first]), 2.2, 0, 7);
+          to.arc(this.xOf(begins + time[k]), y(values[k - first]), 2.4, 0, 7);
           to.fill();
         }
       }
@@ -385,8 +396,8 @@ export class Chart {
     const [low, high] = this.speeds;
     const y = (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
     to.strokeStyle = measured;
-    to.globalAlpha = 0.6;
-    to.lineWidth = 1;
+    to.globalAlpha = 0.85;
+    to.lineWidth = 1.2;
     for (const [k, run] of this.runs.entries()) {
       const [from, end] = this.timeline.spanOf(k).map(x);
       to.fillStyle = stripe;
@@ -425,7 +436,7 @@ export class Chart {
     const to = this.moving.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
-    this.drawGrid(to, "error", `measured − simulated, ${this.symbol}/s`, 2);
+    this.drawGrid(to, "error", `measured − simulated, ${this.symbol}/s`, 3);
     const [y, height] = [this.heights("velocity"), this.heights("error")];
     this.clip(to, () => {
       if (this.noise) {
@@ -440,7 +451,7 @@ export class Chart {
         to.beginPath();
         to.rect(this.left, this.panels.velocity.top - 8, this.right - this.left, this.panels.velocity.bottom - this.panels.velocity.top + 14);
         to.clip();
-        this.curve(to, k, one.first, one.velocity, y, { color: this.colors.simulated, width: 2.2 });
+        this.curve(to, k, one.first, one.velocity, y, { color: this.colors.simulated, width: 1.8 });
         to.restore();
       }
     });
@@ -456,7 +467,7 @@ export class Chart {
     to.strokeStyle = ink;
     to.globalAlpha = 0.55;
     to.lineWidth = 1;
-    line(to, Math.round(x) + 0.5, TOP - 6, Math.round(x) + 0.5, this.panels.voltage.bottom + 4);
+    line(to, Math.round(x) + 0.5, TOP - 22, Math.round(x) + 0.5, this.panels.voltage.bottom + 4);
     to.globalAlpha = 1;
     const one = this.simulated[run];
     const guess = one && sample >= one.first ? one.velocity[sample - one.first] : null;

@@ -63,7 +63,8 @@ function take(log, summary, samples) {
   const next = (count) => samples.subarray(from, (from += count));
   log.runs = summary.runs.map((run) => {
     const [time, voltage, position, velocity] = Array.from({ length: SIGNALS }, () => next(run.samples));
-    return { ...run, time, voltage, position: per(position, summary), velocity: per(velocity, summary) };
+    const part = summary.runs.some((one) => one.part !== run.part) ? run.part : "";
+    return { ...run, part, time, voltage, position: per(position, summary), velocity: per(velocity, summary) };
   });
 }
 
@@ -157,7 +158,7 @@ function showSimulation(log) {
   chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si);
   showMeter(log, error);
   showCursor(chart.cursor);
-  at("reset").disabled = !sliders.isMoved;
+  at("reset").hidden = !sliders.isMoved;
 }
 
 // ---- showing
@@ -241,7 +242,9 @@ function faultCard(one) {
     const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
     card.append(text("p", where, "where"));
   }
-  card.append(text("p", one.evidence), text("p", one.advice, "advice"));
+  const advice = text("p", "", "advice");
+  advice.append(...prose(one.advice));
+  card.append(text("p", one.evidence), advice);
   if (one.run !== null && one.test) {
     card.append(button("button small", "Show", () => {
       chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
@@ -255,7 +258,7 @@ function showFit() {
   const log = logs.get(active);
   const { fit, fitRefused } = log;
   at("paste").disabled = !fit;
-  at("reset").disabled = true;
+  at("reset").hidden = true;
   const report = at("report");
   report.toggleAttribute("href", false);
   report.setAttribute("aria-disabled", String(!fit));
@@ -266,13 +269,26 @@ function showFit() {
     at("meter").replaceChildren(...said);
     at("verdict").textContent = fitRefused ? sentence(fitRefused) : "Fitting…";
     at("doubts").replaceChildren();
+    at("feedback").replaceChildren();
     return;
   }
   report.href = addressOf(log.id, "report.html", log.query);
   sliders.show(fit.gains, log.gains);
-  at("verdict").textContent = fit.verdict;
+  at("verdict").replaceChildren(...prose(fit.verdict));
+  showFeedback(fit);
   showDoubts();
   showSimulation(log);
+}
+
+/** Feedback gains to start from, as SysId suggests them. */
+function showFeedback({ feedback }) {
+  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) => {
+    const pair = document.createElement("div");
+    const gains = [`kP ${figure(kP)}`, ...(kD ? [`kD ${figure(kD)}`] : [])];
+    pair.append(text("dt", `${loop} loop`), text("dd", gains.join("  ")));
+    return pair;
+  });
+  at("feedback").replaceChildren(...rows);
 }
 
 function showDoubts() {
@@ -288,7 +304,7 @@ function showDoubts() {
 
 function doubtItem({ message, grave }) {
   const made = item(grave ? "grave" : "look");
-  made.append(text("b", grave ? "Wrong" : "Look"), ` ${message}`);
+  made.append(text("b", grave ? "Wrong" : "Look"), " ", ...prose(message));
   return made;
 }
 
@@ -381,7 +397,7 @@ function showRefusal(name, problem) {
   const close = button("close", "×", () => card.remove());
   close.setAttribute("aria-label", "Close this message");
   card.append(close);
-  at(active === null ? "refusals-empty" : "refusals").prepend(card);
+  at("refusals").prepend(card);
 }
 
 function setLoading(log, busy) {
@@ -389,6 +405,14 @@ function setLoading(log, busy) {
 }
 
 // ---- small things
+
+/** A sentence of the command line for this page: code set apart, a number kept with its sign. */
+function prose(words) {
+  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%")
+    .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)
+    .replace(/--(type|units)\b/g, "$1");
+  return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
+}
 
 function text(tag, words, kind = "") {
   const made = document.createElement(tag);
@@ -426,9 +450,15 @@ function say(words) {
   say.waiting = setTimeout(() => toast.classList.remove("seen"), 2600);
 }
 
+/** The gains that stand elsewhere than the fit put them. */
+function movedGains({ fit, gains }) {
+  const moved = fit.gains.filter(({ name, value }) => gains[name] !== value);
+  return Object.fromEntries(moved.map(({ name }) => [name, gains[name]]));
+}
+
 async function showCode() {
   const log = logs.get(active);
-  const query = { ...log.query, ...(log.moved ? log.gains : {}), language: at("language").value, season: at("season").value };
+  const query = { ...log.query, ...movedGains(log), language: at("language").value, season: at("season").value };
   try {
     at("code-text").textContent = (await askLog(log.id, "code", query)).code;
   } catch (problem) {
@@ -489,13 +519,13 @@ addEventListener("drop", (event) => {
 
 // ---- color theme: as the system, light, dark
 
-const THEMES = [["", "◐", "as the system"], ["light", "☀", "light"], ["dark", "☾", "dark"]];
+const THEMES = [["", "half", "as the system"], ["light", "light", "light"], ["dark", "dark", "dark"]];
 
 function setTheme(name) {
   const [, sign, words] = THEMES.find(([one]) => one === name) ?? THEMES[0];
   if (name) document.documentElement.dataset.theme = name;
   else delete document.documentElement.dataset.theme;
-  at("theme").textContent = sign;
+  at("theme").dataset.sign = sign;
   at("theme").setAttribute("aria-label", `Color theme: ${words}`);
   try {
     localStorage.setItem("theme", name);

@@ -40,8 +40,11 @@ export class Sliders {
     Object.assign(number, { type: "text", inputMode: "decimal", spellcheck: false });
     number.setAttribute("aria-label", `${nameOf(gain.name)} as a number`);
     slider.setAttribute("aria-describedby", `${id}-means`);
-    const means = element("p", "means", `${gain.means} · ${gain.error_text === "?" ? "" : "± "}${gain.error_text}`);
+    const means = element("p", "means", gain.means);
     means.id = `${id}-means`;
+    means.title = gain.means;
+    const error = element("span", "error", `± ${gain.error_text}`);
+    error.title = "one standard error";
     const share = (one) => Math.min(Math.max((one - low) / (high - low), 0), 1);
     slider.style.setProperty("--fit", share(gain.value));
     const row = { gain, value, place };
@@ -66,7 +69,7 @@ export class Sliders {
     place.className = "gain";
     put(value);
     const head = element("div", "top");
-    head.append(label, number, element("span", "unit", gain.unit));
+    head.append(label, number, error, element("span", "unit", gain.unit));
     place.append(head, slider, means);
     return row;
   }
