@@ -48,7 +48,7 @@ def served(folder, *files):
 def ask(server, path, *, body=None, method=None, headers=(), word=None):
     """The status and the content of an answer."""
     address = f"http://{server.hosts[0]}/{server.word if word is None else word}/{path}"
-    asked = urllib.request.Request(address, data=body, method=method, headers=dict(headers))  # noqa: S310 - ours
+    asked = urllib.request.Request(address, data=body, method=method, headers=dict(headers))
     try:
         with urllib.request.urlopen(asked, timeout=60) as answer:  # noqa: S310 - ours
             return answer.status, answer.read()

@@ -242,3 +242,30 @@ def test_the_command_prints_its_address_and_ends_with_ctrl_c(drive):
 
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("The page is at http://127.0.0.1:")
+
+
+def test_the_first_requests_may_come_all_at_once(tmp_path, drive):
+    """In a process of its own: threads that import the same modules must not find them half made."""
+    code = (
+        "import sys, threading, urllib.request, pathlib\n"
+        "from sim.cli.open.server import PageServer\n"
+        "from sim.cli.open.session import Session\n"
+        "server = PageServer(Session(pathlib.Path(sys.argv[1]), [pathlib.Path(sys.argv[2])]))\n"
+        "threading.Thread(target=server.serve_forever, daemon=True).start()\n"
+        "found = []\n"
+        "def ask(what):\n"
+        "    with urllib.request.urlopen(f'{server.address}logs/1/{what}') as answer:\n"
+        "        found.append(answer.status)\n"
+        "names = ['summary', 'samples', 'faults', 'fit', 'directions', 'code', 'report.html']\n"
+        "threads = [threading.Thread(target=ask, args=(name,)) for name in names]\n"
+        "threads.append(threading.Thread(target=server.session.warm_up))\n"
+        "[thread.start() for thread in threads]\n"
+        "[thread.join() for thread in threads]\n"
+        "print(found == [200] * len(names))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path), str(drive)],
+        capture_output=True, encoding="utf-8", check=False, timeout=120,
+    )  # fmt: skip
+
+    assert (done.stdout.strip(), done.stderr) == ("True", "")

@@ -14,7 +14,6 @@ from sim.core.errors import BadRequest, Refusal
 from sim.core.units import find_unit
 
 if TYPE_CHECKING:
-    from sim.cli.fit.parts import PooledParts
     from sim.cli.open.session import OpenLog, Reading
     from sim.core.log import Log
     from sim.fit import Fit

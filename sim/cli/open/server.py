@@ -90,15 +90,15 @@ class PageRequest(BaseHTTPRequestHandler):
     sys_version = ""
     timeout = PATIENCE
 
-    def do_GET(self) -> None:  # noqa: N802 - the name that http.server calls
+    def do_GET(self) -> None:
         """A file of the page, or what is known of a log."""
         self._answer(self._get)
 
-    def do_POST(self) -> None:  # noqa: N802 - the name that http.server calls
+    def do_POST(self) -> None:
         """A dropped file, or the example."""
         self._answer(self._post)
 
-    def do_DELETE(self) -> None:  # noqa: N802 - the name that http.server calls
+    def do_DELETE(self) -> None:
         """Close a log."""
         self._answer(self._delete)
 
@@ -157,6 +157,7 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_json(_name(self.server.session.add(name, path)))
             case ["example"]:
                 self._drain()
+                self.server.session.import_everything()
                 self._send_json(_name(self.server.session.add_example()))
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
@@ -175,6 +176,7 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
         """What the page asks about one log."""
+        self.server.session.import_everything()
         reading = Reading(query.get("units") or None, query.get("type") or None)
         match what:
             case "summary":

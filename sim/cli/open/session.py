@@ -138,6 +138,7 @@ class Session:
         self._numbers = count(1)
         self._logs: dict[int, OpenLog] = {}
         self._lock = threading.Lock()
+        self._imports = threading.Lock()
         for file in files:
             self.add(file.name, file)
 
@@ -210,12 +211,30 @@ class Session:
         write(spoiled.log, path)
         return self.add(name, path)
 
+    def import_everything(self) -> None:
+        """Import what requests need, once and in one thread.
+
+        Requests run in threads, and two threads that import modules which import one another can
+        find one of them half made.
+        """
+        with self._imports:
+            import sim.bench.mechanisms  # noqa: PLC0415 - so that the address is printed at once
+            import sim.bench.simulate  # noqa: PLC0415 - the same
+            import sim.cli.fit.against  # noqa: PLC0415 - the same
+            import sim.cli.fit.parts  # noqa: PLC0415 - the same
+            import sim.cli.options  # noqa: PLC0415 - the same
+            import sim.fit.physics  # noqa: PLC0415 - the same
+            import sim.fit.pooled  # noqa: PLC0415 - the same
+            import sim.inspect.contaminate  # noqa: PLC0415 - the same
+            import sim.inspect.detect_faults  # noqa: PLC0415 - the same
+            import sim.io.formats.csv  # noqa: PLC0415 - the same
+            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
+            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
+            import sim.report  # noqa: F401, PLC0415 - the same
+
     def warm_up(self) -> None:
         """Load what the first log needs, so that it need not wait for it."""
-        import sim.cli.fit.parts  # noqa: PLC0415 - that is the point of it
-        import sim.fit  # noqa: PLC0415 - the same
-        import sim.inspect.detect_faults  # noqa: PLC0415 - the same
-        import sim.report.fit_terminal  # noqa: F401, PLC0415 - the same
-        from sim.physics.engine import load_engine  # noqa: PLC0415 - the same
+        self.import_everything()
+        from sim.physics.engine import load_engine  # noqa: PLC0415 - that is the point of it
 
         load_engine()

@@ -198,7 +198,7 @@ export class Chart {
     this.drawRuns(to);
     this.drawFaults(to);
     this.drawGrid(to, "velocity", `velocity, ${this.symbol}/s`, 6);
-    this.drawGrid(to, "voltage", "voltage, V", 3);
+    this.drawGrid(to, "voltage", "voltage, V", 4);
     this.clip(to, () => {
       for (const run of this.runs.keys()) this.drawMeasured(to, run);
       for (const other of this.others) this.drawOther(to, other);

@@ -408,7 +408,7 @@ function setLoading(log, busy) {
 
 /** A sentence of the command line for this page: code set apart, a number kept with its sign. */
 function prose(words) {
-  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%")
+  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2")
     .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)
     .replace(/--(type|units)\b/g, "$1");
   return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
@@ -560,6 +560,11 @@ function drawHero() {
     at(id).setAttribute("d", `M${points.join("L")}`);
   }
 }
+
+/** The gains stay in sight while one scrolls; a column that is taller than the screen, by its end. */
+new ResizeObserver(([{ target }]) => {
+  target.style.setProperty("--top", `${Math.min(12, innerHeight - target.offsetHeight - 12)}px`);
+}).observe(document.querySelector(".side"));
 
 drawHero();
 let kept = "";
