@@ -17,6 +17,8 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_instructors_day",
     "test_install",
     "test_without_numba",
+    "test_open_in_browser",
+    "test_open_server",
     "test_reconcile_real",
     "test_engine",
     "test_lessons",

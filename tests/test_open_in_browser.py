@@ -28,8 +28,7 @@ DROP = """(files) => {
     }
     window.dispatchEvent(new DragEvent('drop', {dataTransfer: given, bubbles: true}));
 }"""
-DROP_AND_TIME = (
-    """(file) => {
+DROP_AND_TIME = """(file) => {
     const began = performance.now();
     const seen = {};
     return new Promise((done) => {
@@ -41,12 +40,10 @@ DROP_AND_TIME = (
                 done({...seen, gains: (performance.now() - began) / 1000});
             } else requestAnimationFrame(look);
         };
-        (%s)([file]);
+        (DROP)([file]);
         look();
     });
-}"""
-    % DROP
-)
+}""".replace("(DROP)", f"({DROP})")
 DRAG = """async ({id, seconds}) => {
     const slider = document.getElementById(id);
     const [low, high] = [Number(slider.min), Number(slider.max)];

@@ -245,7 +245,7 @@ def test_the_command_prints_its_address_and_ends_with_ctrl_c(drive):
 
 
 def test_the_first_requests_may_come_all_at_once(tmp_path, drive):
-    """In a process of its own: threads that import the same modules must not find them half made."""
+    """In a process of its own: threads that import the same modules could find them half made."""
     code = (
         "import sys, threading, urllib.request, pathlib\n"
         "from sim.cli.open.server import PageServer\n"
