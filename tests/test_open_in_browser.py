@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 from open_page import BROKEN, drive_log, served, slipped_log, write_log, write_old_json
 
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 from sim.io import read
@@ -352,3 +355,17 @@ def test_nothing_lies_beside_the_screen_in_either_theme(browser, server, tmp_pat
         page.locator("#theme").click()
         page.locator("#theme").click()
         assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(page, tmp_path):
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
+    drop(page, write_log(log, tmp_path / "arm.wpilog"))
+    page.locator("#gain-kG").wait_for()
+    page.get_by_role("button", name="Look for what is missing").click()
+    page.locator("#story progress").wait_for()
+    page.locator("#story .finding h3", has_text="drag").wait_for()
+
+    assert page.locator("#story .headline").inner_text().startswith("Missing in the model is drag")
+    assert page.locator("#story .gaps > div").count() == 2
+    assert page.complaints == []

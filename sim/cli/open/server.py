@@ -191,6 +191,8 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_json(page_data.describe_fit(one, reading))
             case "directions":
                 self._send_json(page_data.describe_directions(one, reading))
+            case "reconcile":
+                self._send_json(one.reconcile(reading).to_json())
             case "code":
                 self._send_json(_write_code(one, reading, query))
             case "report.html":

@@ -13,6 +13,7 @@ from sim.core.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
     from sim.cli.fit.parts import PooledParts
+    from sim.cli.open.reconcile_job import ReconcileJob
     from sim.core.log import Log
     from sim.inspect.detect_faults import Inspection
 
@@ -109,6 +110,12 @@ class OpenLog:
             )
 
         return self._once(("fit", reading), find)
+
+    def reconcile(self, reading: Reading) -> "ReconcileJob":
+        """The search for missing effects, begun when it is first asked for."""
+        from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
+
+        return self._once(("reconcile", reading), lambda: ReconcileJob(self, reading))
 
     def _once(self, key: Hashable, make: Callable[[], Result]) -> Result:
         """What was made before under this key, or what is made now; a refusal is kept, too."""
@@ -222,7 +229,9 @@ class Session:
             import sim.bench.simulate  # noqa: PLC0415 - the same
             import sim.cli.fit.against  # noqa: PLC0415 - the same
             import sim.cli.fit.parts  # noqa: PLC0415 - the same
+            import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
             import sim.cli.options  # noqa: PLC0415 - the same
+            import sim.cli.reconcile  # noqa: PLC0415 - the same
             import sim.fit.physics  # noqa: PLC0415 - the same
             import sim.fit.pooled  # noqa: PLC0415 - the same
             import sim.inspect.contaminate  # noqa: PLC0415 - the same
@@ -230,6 +239,8 @@ class Session:
             import sim.io.formats.csv  # noqa: PLC0415 - the same
             import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
             import sim.io.formats.wpilog  # noqa: PLC0415 - the same
+            import sim.reconcile.dropout_intervals  # noqa: PLC0415 - the same
+            import sim.reconcile.story_text  # noqa: PLC0415 - the same
             import sim.report  # noqa: F401, PLC0415 - the same
 
     def warm_up(self) -> None:

@@ -35,7 +35,7 @@ async function begin({ id, name }) {
 
 async function load(log) {
   log.failed = null;
-  log.faults = log.fit = log.fitRefused = log.directions = null;
+  log.faults = log.fit = log.fitRefused = log.search = null;
   const asked = (log.asked = {});
   setLoading(log, true);
   try {
@@ -176,7 +176,7 @@ function activate(id) {
 function clear(log) {
   at("title").textContent = log?.name ?? "";
   at("facts").textContent = "Reading…";
-  for (const id of ["runs", "faults", "doubts", "sliders", "meter", "readout"]) at(id).replaceChildren();
+  for (const id of ["runs", "faults", "doubts", "feedback", "sliders", "meter", "readout", "story"]) at(id).replaceChildren();
   at("verdict").textContent = "";
 }
 
@@ -194,6 +194,7 @@ function showLog() {
   showRuns(log);
   showFaults();
   showFit();
+  showStory();
   showOthers();
   setLoading(log, !(log.faults && (log.fit || log.fitRefused)));
 }
@@ -305,6 +306,92 @@ function showDoubts() {
 function doubtItem({ message, grave }) {
   const made = item(grave ? "grave" : "look");
   made.append(text("b", grave ? "Wrong" : "Look"), " ", ...prose(message));
+  return made;
+}
+
+// ---- what the model lacks
+
+const POLL = 250; // [ms] between two questions how far a search is
+
+async function reconcile(log) {
+  const { asked } = log;
+  try {
+    for (;;) {
+      log.search = await askLog(log.id, "reconcile", log.query);
+      if (log.asked !== asked) return;
+      if (active === log.id) showStory();
+      if (log.search.story) return;
+      await new Promise((done) => setTimeout(done, POLL));
+    }
+  } catch (problem) {
+    if (log.asked !== asked) return;
+    log.search = { refused: sentence(problem) };
+    if (active === log.id) showStory();
+  }
+}
+
+function showStory() {
+  const log = logs.get(active);
+  const { search } = log;
+  const place = at("story");
+  if (!search) {
+    const start = button("button", "Look for what is missing", () => {
+      log.search = { words: "begins", share: 0 };
+      showStory();
+      reconcile(log);
+    });
+    place.replaceChildren(
+      text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. This takes some seconds.", "quiet"),
+      start,
+    );
+    return;
+  }
+  if (search.refused) {
+    place.replaceChildren(item("grave", search.refused));
+    return;
+  }
+  if (!search.story) {
+    const bar = place.querySelector("progress") ?? Object.assign(document.createElement("progress"), { max: 1 });
+    bar.value = search.share;
+    bar.setAttribute("aria-label", "How far the search is");
+    place.replaceChildren(text("p", `${search.words}…`, "quiet"), bar);
+    return;
+  }
+  const { story } = search;
+  const head = text("p", "", "headline");
+  head.append(...prose(story.headline));
+  const found = story.findings.map((one) => {
+    const card = text("article", "", "finding");
+    const name = text("h3", one.name.replaceAll("-", " "));
+    name.append(text("span", one.kind === "fault" ? "damage" : one.size, "badge"));
+    card.append(name, text("p", one.sentence));
+    for (const words of one.parameters) card.append(text("p", words, "where"));
+    for (const [title, words] of one.look) card.append(text("p", `${title}: ${words}`, "advice"));
+    return card;
+  });
+  const rest = [...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
+    .map((words) => { const made = item("look"); made.append(...prose(words)); return made; });
+  place.replaceChildren(head, gapBars(story), ...found, list(rest), list(story.places.map((one) => item("busy", one))), text("p", story.how, "quiet"));
+}
+
+/** The gap of each model as a bar: in times the noise, 1 is nothing but noise. */
+function gapBars({ gaps }) {
+  const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
+  const rows = gaps.map(({ name, text: words, gap }, k) => {
+    const row = text("div", "", k === gaps.length - 1 ? "last" : "");
+    const bar = text("i", "");
+    bar.style.setProperty("--share", (gap ?? most) / most);
+    row.append(text("span", name), bar, text("b", words));
+    return row;
+  });
+  const bars = text("div", "", "gaps");
+  bars.append(text("p", "Simulation error, in times the noise of the velocity", "quiet"), ...rows);
+  return bars;
+}
+
+function list(rows) {
+  const made = text("ul", "", "doubts");
+  made.append(...rows);
   return made;
 }
 
