@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
-from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
+from sim.cli.fit.parts import Parts, fit_parts, joined_log, kind_of_parts
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
@@ -35,6 +35,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
         click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
+        click.option("--wpilog", type=FILE, help="Write measured, simulated, residual as a log."),
     )
     for option in reversed(options):
         command = option(command)
@@ -110,6 +111,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     loop: str | None,
     html: Path | None,
     plot: Path | None,
+    wpilog: Path | None,
     as_json: bool,  # noqa: FBT001 - click passes it by name
     **entries: str | None,
 ) -> int:
@@ -143,6 +145,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
     _write(told, html=html, plot=plot)
+    _write_wpilog(found, parts, wpilog)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
 
@@ -193,6 +196,14 @@ class _FitOutput:
             self.found, preset=preset, title=title, log=self.log, tried=self.tried,
             notes=self.notes,
         )  # fmt: skip
+
+
+def _write_wpilog(found: "Fit", parts: "Parts", path: Path | None) -> None:
+    """The log of measured and simulated signals, if it was asked for."""
+    if path is not None:
+        from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - only with --wpilog
+
+        write_replay(found, parts, path)
 
 
 def _write(told: _FitOutput, *, html: Path | None, plot: Path | None) -> None:

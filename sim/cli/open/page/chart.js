@@ -197,8 +197,8 @@ export class Chart {
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
     this.drawRuns(to);
     this.drawFaults(to);
-    this.drawGrid(to, "velocity", `velocity, ${this.symbol}/s`, 6);
-    this.drawGrid(to, "voltage", "voltage, V", 4);
+    this.drawGrid(to, "velocity", `velocity, ${this.symbol}/s`);
+    this.drawGrid(to, "voltage", "voltage, V");
     this.clip(to, () => {
       for (const run of this.runs.keys()) this.drawMeasured(to, run);
       for (const other of this.others) this.drawOther(to, other);
@@ -265,11 +265,13 @@ export class Chart {
     });
   }
 
-  drawGrid(to, name, title, count) {
+  drawGrid(to, name, title) {
     const { rule, quiet } = this.colors;
     const y = this.heights(name);
     const [low, high] = name === "velocity" ? this.speeds : name === "voltage" ? this.volts : this.errors();
     to.textBaseline = "middle";
+    const { top, bottom } = this.panels[name];
+    const count = Math.max(2, Math.floor((bottom - top) / (name === "velocity" ? 38 : 20)));
     for (const tick of roundTicks(low, high, count)) {
       const at = Math.round(y(tick)) + 0.5;
       to.strokeStyle = rule;
@@ -281,7 +283,6 @@ export class Chart {
     }
     to.textAlign = "left";
     to.textBaseline = "alphabetic";
-    const { top } = this.panels[name];
     to.fillStyle = quiet;
     to.globalAlpha = 0.9;
     to.textBaseline = "top";
@@ -436,7 +437,7 @@ export class Chart {
     const to = this.moving.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
-    this.drawGrid(to, "error", `measured − simulated, ${this.symbol}/s`, 3);
+    this.drawGrid(to, "error", `measured − simulated, ${this.symbol}/s`);
     const [y, height] = [this.heights("velocity"), this.heights("error")];
     this.clip(to, () => {
       if (this.noise) {

@@ -1,7 +1,7 @@
 // The gains: a slider and a number for each, with the fit's own value and its error marked.
 
 const STEPS = 2000; // of a slider from end to end
-const DIGITS = 5; // of a gain that is shown
+const DIGITS = 5; // of a gain that is shown; of a small one fewer, so that it has room
 
 /** Rows of sliders in a form; calls back with {kS: 0.2, …} whenever a gain is moved. */
 export class Sliders {
@@ -95,7 +95,8 @@ function endsOf({ name, value }) {
 }
 
 function short(value) {
-  return String(Number(value.toPrecision(DIGITS))).replace("-", "−");
+  const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
+  return String(Number(value.toPrecision(digits))).replace("-", "−");
 }
 
 function element(tag, kind, text) {
