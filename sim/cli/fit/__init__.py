@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
-from sim.cli.fit.parts import Parts, fit_parts, joined_log, kind_of_parts
+from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
+    from sim.cli.fit.parts import Parts
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
@@ -144,8 +145,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     tried = try_feedback_gains(found, PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
-    _write(told, html=html, plot=plot)
-    _write_wpilog(found, parts, wpilog)
+    _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
 
@@ -198,16 +198,14 @@ class _FitOutput:
         )  # fmt: skip
 
 
-def _write_wpilog(found: "Fit", parts: "Parts", path: Path | None) -> None:
-    """The log of measured and simulated signals, if it was asked for."""
-    if path is not None:
+def _write(
+    told: _FitOutput, *, html: Path | None, plot: Path | None, wpilog: Path | None, parts: "Parts"
+) -> None:
+    """The files that were asked for."""
+    if wpilog is not None:
         from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - only with --wpilog
 
-        write_replay(found, parts, path)
-
-
-def _write(told: _FitOutput, *, html: Path | None, plot: Path | None) -> None:
-    """The files that were asked for."""
+        write_replay(told.found, parts, wpilog)
     if html is None and plot is None:
         return
     from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws

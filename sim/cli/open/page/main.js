@@ -249,7 +249,7 @@ function faultCard(one) {
   if (one.run !== null && one.test) {
     card.append(button("button small", "Show", () => {
       chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
-      at("plot").scrollIntoView({ block: "nearest", behavior: "smooth" });
+      at("plot").scrollIntoView({ block: "center", behavior: "smooth" });
     }));
   }
   return card;
