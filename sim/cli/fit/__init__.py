@@ -141,8 +141,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
-    found = found.in_log_units()
-    tried = try_feedback_gains(found, PRESETS[preset], own=own)
+    tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
     _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
