@@ -11,11 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import click
+from click.shell_completion import CompletionItem
 
 from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
+from sim.support.completion import explain_completion
 
 if TYPE_CHECKING:
     from grader.consequence import Consequence
@@ -70,7 +72,8 @@ class ExerciseOrCommand(click.Group):
 @click.group(
     cls=ExerciseOrCommand,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
-    epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.",
+    epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.\n\n"
+    + explain_completion("grade"),
 )
 @click.version_option(package_name="sysid-course")
 def grade() -> None:
@@ -98,8 +101,25 @@ def _refuse_bare_installation() -> None:
         )
 
 
+def complete_exercise(
+    context: click.Context, _parameter: click.Parameter, begun: str
+) -> list[CompletionItem]:
+    """Names of exercises in the course that one stands in; and of commands, where one may stand."""
+    from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
+
+    try:
+        folder = find_course(Path.cwd()) / "exercises"
+    except BadRequest:
+        names = []
+    else:
+        names = sorted(path.parent.name for path in folder.glob("*/checks.py"))
+    if context.info_name == "exercise":
+        names += grade.list_commands(context)
+    return [CompletionItem(name) for name in names if name.startswith(begun) and name != "exercise"]
+
+
 @grade.command(hidden=True)
-@click.argument("exercise", required=False)
+@click.argument("exercise", required=False, shell_complete=complete_exercise)
 @click.argument("file", required=False, type=click.Path(path_type=Path))
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
