@@ -30,6 +30,8 @@ def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     Raises:
         Refusal: it cannot be read in this way.
     """
+    from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - once needed
+
     log = one.log(reading)
     unit = find_unit(log.units)
     runs = [
@@ -52,6 +54,8 @@ def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
         "runs": runs,
         "samples": sum(run["samples"] for run in runs),
         "doubts": _doubts(log.doubts, one),
+        "compiles": not engine_is_cached(),
+        "compiled": engine_can_compile(),
     }
 
 

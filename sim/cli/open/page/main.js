@@ -268,7 +268,10 @@ function showFit() {
     at("sliders").replaceChildren();
     const said = fitRefused ? [text("p", "No gains", "big"), text("p", "The reason stands under Verdict.", "quiet")] : [text("p", "Fitting…", "quiet")];
     at("meter").replaceChildren(...said);
-    at("verdict").textContent = fitRefused ? sentence(fitRefused) : "Fitting…";
+    const waits = log.summary.compiles
+      ? "The simulation is compiled first. That is done once, and takes about twenty seconds."
+      : "Fitting…";
+    at("verdict").textContent = fitRefused ? sentence(fitRefused) : waits;
     at("doubts").replaceChildren();
     at("feedback").replaceChildren();
     return;
@@ -341,7 +344,8 @@ function showStory() {
       reconcile(log);
     });
     place.replaceChildren(
-      text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. This takes some seconds.", "quiet"),
+      text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
+        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet"),
       start,
     );
     return;
