@@ -15,6 +15,7 @@ from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 from sim.io import read
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = ["--no-sandbox", "--disable-gpu"]  # a container runs as root, where no sandbox can start
@@ -22,7 +23,7 @@ LEAST_PICTURES = 20.0  # [1/s] while a gain is dragged
 FIRST_PICTURE, GAINS = 1.0, 2.0  # [s] from the drop; twice as long is let pass on a busy machine
 BUSY = 2.0
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
-PATIENCE = 60_000  # [ms]
+PATIENCE = 30_000  # [ms]
 DROP = """(files) => {
     const given = new DataTransfer();
     for (const {name, content} of files) {
@@ -397,4 +398,33 @@ def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(pa
 
     assert page.locator("#story .headline").inner_text().startswith("Missing in the model is drag")
     assert page.locator("#story .gaps > div").count() == 2
+    assert page.complaints == []
+
+
+def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
+    log = drive_log()
+    groups = [
+        SignalGroup(
+            run.time,
+            {"/a/1": run.voltage, "/a/2": run.position, "/a/3": run.velocity, "/a/4": 0 * run.time},
+            {"/b": [(run.time[0], run.test), (run.time[-1] + 0.02, "none")]},
+        )
+        for run in log.runs
+    ]
+    write_signals(groups, tmp_path / "strange.wpilog", units={})
+    drop(page, tmp_path / "strange.wpilog")
+    page.get_by_text("Which entries are the signals?").wait_for()
+    for label, name in (
+        ("Voltage at the motor", "/a/1"),
+        ("Position", "/a/2"),
+        ("Velocity", "/a/3"),
+        ("Name of the running test", "/b"),
+    ):
+        page.get_by_label(label, exact=True).select_option(name)
+    assert page.locator(".spark svg path").count() == 3
+    page.get_by_role("button", name="Open the log").click()
+    page.locator("#gain-kV").wait_for()
+
+    assert float(page.get_by_label("kV as a number").input_value()) == pytest.approx(2.52, rel=0.01)
+    assert page.locator(".tab").count() == 1
     assert page.complaints == []

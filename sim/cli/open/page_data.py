@@ -12,14 +12,19 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal
 from sim.core.units import find_unit
+from sim.io.entries.entry import NUMBERS, STRING
 
 if TYPE_CHECKING:
     from sim.cli.open.session import OpenLog, Reading
-    from sim.core.log import Log
+    from sim.core.log import Array, Log
     from sim.fit import Fit
     from sim.inspect.detect_faults import Inspection
+    from sim.io.entries.entry import Entry
 
 SIGNALS = ("time", "voltage", "position", "velocity")
+MOST_ENTRIES = 400  # that are listed to choose from
+PICTURE = 120  # points of an entry's picture
+LONGEST_UNIT = 40  # [characters] longer metadata is no unit
 LAGS = 1e-5  # [s] a shorter lag is none
 FEWEST = 4  # [samples] a shorter run is no test, and is not simulated
 
@@ -155,11 +160,34 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
     return {"starts": starts, "noise": noise}
 
 
+def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
+    """Entries that can be signals, each with a small picture: numbers first, then texts."""
+    found = [one for one in entries if one.type in (*NUMBERS, STRING) and len(one)]
+    found.sort(key=lambda one: (one.type == STRING, one.name))
+    return [
+        {
+            "name": one.name,
+            "text": one.type == STRING,
+            "unit": one.metadata if len(one.metadata) <= LONGEST_UNIT else "",
+            "samples": len(one),
+            "picture": [] if one.type == STRING else _thin(one.numbers()),
+        }
+        for one in found[:MOST_ENTRIES]
+    ]
+
+
+def _thin(values: "Array") -> list[float]:
+    """Some of the values, from first to last; what is no number is left out."""
+    step = max(1, values.size // PICTURE)
+    return [float(f"{value:.4g}") for value in values[::step].tolist() if math.isfinite(value)]
+
+
 def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
     """What went wrong, where, and what to do; the folder of dropped files is left out."""
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
-    return {"what": refusal.what, "where": place, "advice": refusal.advice}
+    kind = type(refusal).__name__
+    return {"what": refusal.what, "where": place, "advice": refusal.advice, "kind": kind}
 
 
 def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:

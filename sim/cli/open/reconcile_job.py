@@ -46,7 +46,9 @@ class ReconcileJob:
 
         try:
             one, reading = self._one, self._reading
-            log = read(one.path, units=reading.units, type=reading.type)
+            log = read(
+                one.path, units=reading.units, type=reading.type, entries=dict(reading.entries)
+            )
             story = reconcile(
                 log,
                 type=reading.type or log.type or "simple",

@@ -22,6 +22,7 @@ from sim.cli.open import page_data
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
 from sim.io import LARGEST_FILE
+from sim.io.entries.entry import NEEDED
 
 PAGE = Path(__file__).with_name("page")
 KINDS = {
@@ -177,10 +178,13 @@ class PageRequest(BaseHTTPRequestHandler):
     def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
         """What the page asks about one log."""
         self.server.session.import_everything()
-        reading = Reading(query.get("units") or None, query.get("type") or None)
+        chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
+        reading = Reading(query.get("units") or None, query.get("type") or None, chosen)
         match what:
             case "summary":
                 self._send_json(page_data.describe_log(one, reading))
+            case "entries":
+                self._send_json(page_data.describe_entries(one.entries()))
             case "samples":
                 content = page_data.pack_samples(one.log(reading))
                 self._send(content, "application/octet-stream")

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from sim.cli.open.reconcile_job import ReconcileJob
     from sim.core.log import Log
     from sim.inspect.detect_faults import Inspection
+    from sim.io.entries.entry import Entry
 
 Result = TypeVar("Result")
 
@@ -30,10 +31,18 @@ class Reading:
     Args:
         units: of its positions; None believes the file.
         type: of the mechanism; None believes the file.
+        entries: signal and the entry that a person chose for it; others are looked for by name.
     """
 
     units: str | None = None
     type: str | None = None
+    entries: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def needs_slope(self) -> bool:
+        """Whether a position was chosen and no velocity: its slope is the velocity."""
+        chosen = dict(self.entries)
+        return "position" in chosen and "velocity" not in chosen
 
 
 @dataclass(eq=False)
@@ -66,8 +75,9 @@ class OpenLog:
 
             return dict(
                 read_parts(
-                    [self.path], units=reading.units, type=reading.type, motor=None, entries={},
-                    velocity=1.0, pick=None,
+                    [self.path], units=reading.units, type=reading.type, motor=None,
+                    entries=dict(reading.entries),
+                    velocity=None if reading.needs_slope else 1.0, pick=None,
                 )
             )  # fmt: skip
 
@@ -82,6 +92,16 @@ class OpenLog:
         from sim.cli.fit.parts import joined_log  # noqa: PLC0415 - with the formats
 
         return self._once(("log", reading), lambda: joined_log(self.parts(reading)))
+
+    def entries(self) -> "list[Entry]":
+        """The entries of the file, for a person who chooses signals.
+
+        Raises:
+            Refusal: it cannot be read, or has no entries with names.
+        """
+        from sim.io import list_entries  # noqa: PLC0415 - reads formats
+
+        return self._once("entries", lambda: list_entries(self.path))
 
     def inspection(self, reading: Reading) -> "Inspection":
         """What is wrong with the record.

@@ -2,11 +2,12 @@
 
 /** A refusal of the server: what is wrong, where, and what to do next. */
 export class Refused extends Error {
-  constructor({ what, where, advice }) {
+  constructor({ what, where, advice, kind }) {
     super(what);
     this.what = what.replace(/\.$/, "");
     this.where = where;
     this.advice = advice;
+    this.kind = kind;
   }
 }
 

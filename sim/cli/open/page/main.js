@@ -47,10 +47,12 @@ async function load(log) {
     take(log, summary, samples);
   } catch (problem) {
     setLoading(log, false);
+    if (await offerChoice(log, problem)) return;
     forget(log.id);
     throw problem;
   }
-  if (active === log.id) showLog();
+  log.choice = null;
+  if (active === log.id) activate(log.id);
   showTabs();
   await Promise.all([askFaults(log, asked), askFit(log, asked)]);
   setLoading(log, false);
@@ -118,6 +120,75 @@ function forget(id) {
   showTabs();
 }
 
+// ---- signals that are not found by name
+
+const ROLES = [
+  ["voltage", "Voltage at the motor", false],
+  ["position", "Position", false],
+  ["velocity", "Velocity", false],
+  ["state", "Name of the running test", true],
+];
+
+/** Where signals are missing and the file has entries, let a person choose; whether it is so. */
+async function offerChoice(log, problem) {
+  if (problem.kind !== "MissingSignal") return false;
+  const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
+  if (!entries.length) return false;
+  log.choice = { entries, why: sentence(problem), chosen: { ...log.query } };
+  if (active === log.id) activate(log.id);
+  showTabs();
+  return true;
+}
+
+function showChoice(log) {
+  const { entries, why, chosen } = log.choice;
+  at("choose-why").textContent = `${log.name}: ${why}`;
+  at("signal-rows").replaceChildren(...ROLES.map(([role, words, isText]) => {
+    const row = text("label", "", "signal");
+    const select = document.createElement("select");
+    select.name = role;
+    select.setAttribute("aria-label", words);
+    select.append(new Option(role === "velocity" ? "the slope of the position" : "found by its name", ""));
+    for (const one of entries.filter((entry) => entry.text === isText)) {
+      select.append(new Option(`${one.name}${one.unit ? ` [${one.unit}]` : ""}`, one.name));
+    }
+    select.value = chosen[role] ?? "";
+    const place = text("div", "", "spark");
+    const draw = () => {
+      const one = entries.find((entry) => entry.name === select.value);
+      place.replaceChildren(...(one ? [isText ? text("span", `${one.samples} times`) : sparkline(one.picture)] : []));
+    };
+    select.addEventListener("change", draw);
+    draw();
+    row.append(text("span", words, "role"), select, place);
+    return row;
+  }));
+}
+
+/** A small picture of an entry. */
+function sparkline(values) {
+  const svg = "http://www.w3.org/2000/svg";
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const points = values.map((value, k) => `${((200 * k) / Math.max(values.length - 1, 1)).toFixed(1)} ${(34 - (30 * (value - low)) / (high - low || 1)).toFixed(1)}`);
+  const picture = document.createElementNS(svg, "svg");
+  const path = document.createElementNS(svg, "path");
+  picture.setAttribute("viewBox", "0 0 200 38");
+  picture.setAttribute("preserveAspectRatio", "none");
+  picture.setAttribute("role", "img");
+  picture.setAttribute("aria-label", `from ${figure(low)} to ${figure(high)}`);
+  path.setAttribute("d", `M${points.join("L")}`);
+  picture.append(path);
+  return picture;
+}
+
+at("signals").addEventListener("submit", (event) => {
+  event.preventDefault();
+  const log = logs.get(active);
+  const chosen = Object.fromEntries(new FormData(event.target));
+  log.query = { ...log.query, ...chosen };
+  guarded(log.name, () => load(log));
+});
+
 // ---- simulating
 
 /** Simulate every run of a log with gains in its own unit; the error, and the curves in `log`. */
@@ -166,8 +237,12 @@ function showSimulation(log) {
 function activate(id) {
   active = id;
   at("empty").hidden = id !== null;
-  at("work").hidden = id === null;
+  const choice = logs.get(id)?.choice;
+  at("work").hidden = id === null || Boolean(choice);
+  at("choose").hidden = !choice;
+  if (choice) showChoice(logs.get(id));
   document.title = id === null ? "sysid" : `${logs.get(id).name} – sysid`;
+  if (choice) return;
   if (logs.get(id)?.runs) showLog();
   else clear(logs.get(id));
 }
