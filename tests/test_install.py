@@ -7,6 +7,7 @@ import subprocess
 import venv
 import zipfile
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
 from authored import authored_answer
@@ -95,6 +96,25 @@ def test_the_bare_install_simulates_fits_and_inspects(bare, tmp_path):
 
     fitted = run(["sysid", "fit", "drive.wpilog", "--json"], bare, cwd=tmp_path)
     assert json.loads(fitted.stdout)["gains"]["kV"] == pytest.approx(2.5238, rel=1e-3)
+
+
+def test_the_bare_install_opens_the_page(bare, tmp_path):
+    run(["sysid", "simulate", "drivetrain", "--seed", "1", "-o", "drive.csv"], bare, cwd=tmp_path)
+    program = shutil.which("sysid", path=bare["PATH"])
+    with subprocess.Popen(
+        [program, "open", "drive.csv", "--no-browser"], cwd=tmp_path, env=bare,
+        stdout=subprocess.PIPE, encoding="utf-8",
+    ) as page:  # fmt: skip
+        try:
+            address = page.stdout.readline().split()[-1]
+            with urlopen(address, timeout=60) as answer:  # noqa: S310 - our own server's
+                assert b"Drop a log." in answer.read()
+            with urlopen(f"{address}logs/1/fit", timeout=120) as answer:  # noqa: S310 - the same
+                gains = {one["name"]: one["value"] for one in json.load(answer)["gains"]}
+        finally:
+            page.terminate()
+
+    assert gains["kV"] == pytest.approx(2.52, rel=0.01)
 
 
 def test_the_bare_install_says_what_grading_needs(bare, tmp_path):

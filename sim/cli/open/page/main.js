@@ -134,7 +134,7 @@ async function offerChoice(log, problem) {
   if (problem.kind !== "MissingSignal") return false;
   const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
   if (!entries.length) return false;
-  log.choice = { entries, why: sentence(problem), chosen: { ...log.query } };
+  log.choice = { entries, why: `${problem.what}.`, chosen: { ...log.query } };
   if (active === log.id) activate(log.id);
   showTabs();
   return true;
