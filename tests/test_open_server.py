@@ -140,6 +140,7 @@ def test_code_holds_the_gains_and_those_that_were_moved_by_hand_have_no_error(tm
     assert "kV = 2.5" in fitted
     assert "±" in fitted
     assert "3.25" in moved
+    assert moved.startswith("# Moved by hand, not measured: kV\n")
     assert wrong[0] == 422
 
 

@@ -290,7 +290,12 @@ def _write_code(one: OpenLog, reading: Reading, query: Mapping[str, str]) -> dic
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
     found = replace(found, gains={**found.gains, **moved}, errors=errors)  # a hand has no error
-    return {"code": write_robot_code(found, language=language, season=int(season))}
+    code = write_robot_code(found, language=language, season=int(season))
+    if moved:
+        code = (
+            f"{LANGUAGES[language].comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
+        )
+    return {"code": code}
 
 
 def _is_number(text: str) -> bool:
