@@ -21,11 +21,12 @@ from pathlib import Path
 
 from grader.exec_process import INTERRUPTED, run_process
 
-OLDEST = (3, 11)
+OLDEST, NEWEST = (3, 11), (3, 14)  # the newest for which every package has a wheel
+OURS = "sysid-course"
 ROOT = Path(__file__).resolve().parent.parent
 HOPPED = "SYSID_COURSE_ENVIRONMENT"  # set in the second process, so that it cannot make a third
 INSTALLED = "SYSID_COURSE_INSTALLED"  # the same for an installation that does not help
-SIZE, SIZE_TO_TEST = "750 MB", "1.1 GB"  # on the disk, measured on Linux
+SIZE, SIZE_TO_TEST = "780 MB", "1.1 GB"  # on the disk, measured on Linux
 LAST = 6  # lines of pip's complaint that are worth reading
 COULD_NOT = 2
 EVERYTHING = (  # all tests, a file at a time on each core, in the order of tests/conftest.py
@@ -54,7 +55,9 @@ def main(arguments: list[str]) -> int:
             return _run_command(arguments)
         if not (ROOT / "pyproject.toml").is_file():
             names = ", ".join(find_missing_packages(arguments[:1]))
-            return _give_up(f"{names} not installed", "python -m pip install sysid-course[test]")
+            return _give_up(
+                f"{names} not installed", 'python -m pip install "sysid-course[course]"'
+            )
         if is_in_environment() or HOPPED in os.environ:
             return _install_and_run(arguments)
         return _run_in_environment(arguments)
@@ -70,7 +73,7 @@ def find_missing_packages(command: list[str]) -> list[str]:
     """
     wanted = _read_requirements(testing=command == ["test"])
     if command in (["start"], ["test"]):
-        wanted.append("sysid-course")  # lessons and tests run elsewhere, where only that finds us
+        wanted.append(OURS)  # lessons and tests run elsewhere, where only that finds us
     names = []
     for name in wanted:
         try:
@@ -88,11 +91,12 @@ def _read_requirements(*, testing: bool) -> list[str]:
         project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     except FileNotFoundError:  # an installed copy: pip saw to what it needs
         return []
-    asked = list(project["dependencies"])
+    extras = project["optional-dependencies"]
+    asked = [*project["dependencies"], *extras["course"], *extras["fast"]]
     if testing:
-        asked += project["optional-dependencies"]["test"]
+        asked += extras["test"]
     names = [re.match(r"[\w.-]+", one) for one in asked if ";" not in one]
-    return [name[0] for name in names if name]
+    return [name[0] for name in names if name and name[0] != OURS]
 
 
 def is_in_environment() -> bool:
@@ -145,7 +149,7 @@ def _install_and_run(arguments: list[str]) -> int:
     if INSTALLED in os.environ:
         return _give_up(
             f"{', '.join(names)} is still missing after installing",
-            f"Try by hand: {sys.executable} -m pip install -e {ROOT}",
+            f"Try by hand: {sys.executable} -m pip install -e '{ROOT}[course]'",
         )
     problem = _install(testing=arguments[:1] == ["test"])
     if problem:
@@ -161,12 +165,18 @@ def _install(*, testing: bool) -> tuple[str, str] | None:
     _print_line(f"Installing what the course needs: up to {size}, which may take a few minutes ...")
     if find_spec("pip") is None:
         _run_quietly([sys.executable, "-m", "ensurepip"])
-    what = ".[test]" if testing else "."
+    what = ".[test]" if testing else ".[course]"
     pip = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     said = _run_quietly([*pip, "-e", what], cwd=ROOT)
     if not said:
         return None
     _print_line(said)
+    if sys.version_info[:2] > NEWEST:
+        said = sys.version.split()[0]
+        return (
+            f"pip could not install the course: some packages have no wheel for Python {said} yet",
+            "Use Python {}.{}, then run the same command again.".format(*NEWEST),
+        )
     return (
         "pip could not install the course; its last words are above",
         "Is this machine online, and is there room on the disk? Then run the same command again.",

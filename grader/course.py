@@ -39,7 +39,8 @@ def find_course(start: Path) -> Path:
             )
     raise BadRequest(
         f"{start} is not in a course folder",
-        advice="Run this inside the course folder: the one that holds exercises and lessons.",
+        advice="Run this inside the course folder, the one that holds exercises and lessons. To "
+        "make one: grade start my-course",
     )
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from grader.isolation import find_isolation_level
 
 OLDEST = (3, 11)
-NEEDED = ("numpy", "scipy", "matplotlib", "numba", "jupyterlab", "ipywidgets", "tree-sitter")
+NEEDED = ("numpy", "scipy", "matplotlib", "jupyterlab", "ipywidgets", "tree-sitter")
 ROBOT = ("wpilib", "robotpy-commands-v2")
 
 
@@ -61,7 +61,7 @@ def _check_python() -> MachineFinding:
 def _check_packages() -> MachineFinding:
     lacking = [name for name in NEEDED if _find_version(name) is None]
     found = f"{', '.join(lacking)} missing" if lacking else "all there"
-    advice = "In the course folder: python -m pip install -e ."
+    advice = 'In the course folder: python -m pip install -e ".[course]"'
     return MachineFinding("packages", found, not lacking, advice=advice)
 
 
@@ -73,8 +73,13 @@ def _find_version(name: str) -> str | None:
 
 
 def _check_engine() -> MachineFinding:
-    from sim.physics.engine import engine_is_cached  # noqa: PLC0415 - it needs what may be missing
+    from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - beside its use
 
+    if not engine_can_compile():
+        advice = "It works, slowly. To compile it: python -m pip install numba"
+        return MachineFinding(
+            "simulation", "not compiled: Numba is missing", right=False, needed=False, advice=advice
+        )
     ready = engine_is_cached()
     found = "compiled" if ready else "not compiled yet; the first simulation takes twenty seconds"
     return MachineFinding(

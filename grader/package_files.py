@@ -28,7 +28,18 @@ TOPS = ("LICENSE", "README.md", "pyproject.toml")
 FOLDERS = ("exercises", "lessons")
 STARTERS = "exercises/starters.toml"
 AUTHORED = ("README.md", "hints.toml")  # of an exercise, besides checks.py and its modules
-SOURCES = (".py", ".md", ".html", ".jinja", "example.toml", "setup.sh", "run_autograder")
+SOURCES = (
+    ".py",
+    ".md",
+    ".html",
+    ".jinja",
+    ".js",
+    ".css",
+    ".svg",
+    "example.toml",
+    "setup.sh",
+    "run_autograder",
+)
 """Ends of names of what belongs to the packages."""
 MADE = {"__pycache__", "data", "build", "dist"}  # by Python, and a learner's own data
 IGNORED = {"Thumbs.db", "desktop.ini"}  # by Windows

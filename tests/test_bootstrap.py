@@ -135,7 +135,8 @@ def test_an_environment_that_is_there_is_used_as_it_is(world):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "what"), [(["start"], "."), (["exercise4"], "."), (["test", "-q"], ".[test]")]
+    ("arguments", "what"),
+    [(["start"], ".[course]"), (["exercise4"], ".[course]"), (["test", "-q"], ".[test]")],
 )
 def test_inside_an_environment_it_installs_into_that(world, monkeypatch, capsys, arguments, what):
     inside(monkeypatch)
@@ -204,7 +205,7 @@ def test_without_the_project_it_says_what_to_install(world, capsys):
     (world.root / "pyproject.toml").unlink()
 
     assert bootstrap.main(["start"]) == 2
-    assert "python -m pip install sysid-course[test]" in capsys.readouterr().err
+    assert 'python -m pip install "sysid-course[course]"' in capsys.readouterr().err
 
 
 def test_ctrl_c_is_quiet(monkeypatch, capsys):
@@ -282,3 +283,16 @@ def test_an_isolated_python_gets_as_far_as_installing(tmp_path):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert "no virtual environment. Move it away." in done.stderr
+
+
+def test_when_pip_fails_on_a_newer_python_it_names_the_newest_that_works(
+    world, monkeypatch, capsys
+):
+    inside(monkeypatch)
+    monkeypatch.setattr(sys, "version_info", (3, 99, 0))
+    world.says = "ERROR: Failed building wheel for numpy"
+
+    assert bootstrap.main(["start"]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert "some packages have no wheel for Python" in said
+    assert "Use Python 3.14" in said

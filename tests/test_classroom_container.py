@@ -148,5 +148,5 @@ def test_the_doctor_says_whether_an_engine_answers(engine, handed_in, capsys, co
 
 def test_the_image_holds_what_the_course_needs_and_not_the_course():
     assert "COPY" not in DOCKERFILE
-    assert 'pip install --no-cache-dir "/build[robot]"' in DOCKERFILE
+    assert 'pip install --no-cache-dir "/build[course,robot]"' in DOCKERFILE
     assert "pip uninstall -y sysid-course" in DOCKERFILE

@@ -23,6 +23,7 @@ from urllib.request import urlopen
 
 import pytest
 from authored import authored_answer, mistakes_of
+from wheel import LEFT_OUT, build_wheel
 
 from grader.exercise import list_exercises
 from grader.serve.student_folders import can_separate, prepare_separation
@@ -33,16 +34,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 ROOT = Path(__file__).resolve().parents[1]
-LEFT_OUT = (
-    ".git",
-    ".venv",
-    "data",
-    "__pycache__",
-    ".course",
-    "tests",
-    ".mypy_cache",
-    ".ruff_cache",
-)
 WHOLE = 218  # points of the twelve exercises and of practice
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 ALONE = ("Anna Bauer", "Diaz Cara", "week-3-ginah-2010")  # exercises in folders, whole courses
@@ -164,15 +155,7 @@ def course(tmp_path_factory):
 def wheel(tmp_path_factory):
     """What pip makes of the wheel: the packages, and no course around them."""
     place = tmp_path_factory.mktemp("wheel")
-    source = shutil.copytree(ROOT, place / "source", ignore=shutil.ignore_patterns(*LEFT_OUT))
-    built = subprocess.run(
-        [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "-w", place, source],
-        capture_output=True, encoding="utf-8", check=False,
-    )  # fmt: skip
-    if built.returncode:
-        pytest.skip(f"pip cannot build a wheel here: {built.stderr.strip()[-200:]}")
-    (archive,) = place.glob("*.whl")
-    with zipfile.ZipFile(archive) as opened:
+    with zipfile.ZipFile(build_wheel(place)) as opened:
         opened.extractall(place / "site-packages")
     return place / "site-packages"
 

@@ -236,9 +236,9 @@ def test_the_exercise_folder_one_stands_in_is_loaded_and_not_the_installed_one(c
 
 def installed(root, place):
     """What pip makes of the wheel: the packages, and no course around them."""
-    for name in tomllib.loads((root / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"][
-        "build"
-    ]["targets"]["wheel"]["packages"]:
+    hatch = tomllib.loads((root / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]
+    wheel = hatch["build"]["targets"]["wheel"]
+    for name in set(wheel["only-include"]) - set(wheel["sources"]):
         shutil.copytree(root / name, place / name, ignore=NOT_COPIED)
     return place
 

@@ -132,7 +132,12 @@ def test_ctrl_c_before_jupyterlab_is_quiet_too(course, capsys):
 
 @pytest.mark.usefixtures("course")
 def test_without_jupyterlab_it_says_how_to_get_it(monkeypatch, capsys):
-    monkeypatch.setattr(starting.importlib.util, "find_spec", lambda _name: None)
+    find = starting.importlib.util.find_spec
+    monkeypatch.setattr(
+        starting.importlib.util,
+        "find_spec",
+        lambda name, *more: None if name == "jupyterlab" else find(name, *more),
+    )
 
     assert run_command(["start"]) == 2
     assert "python -m pip install jupyterlab" in capsys.readouterr().err

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SCRIPTS = ("setup.sh", "run_autograder")
-ONLY_LESSONS = {"ipywidgets", "jupyterlab"}  # packages that grading does not need
+NOT_FOR_GRADING = {"ipywidgets", "jupyterlab", "sysid-course"}  # lessons need them, or it is us
 SECONDS_ALLOWED = 540  # [s] of the ten minutes that Gradescope allows unless told otherwise
 OWNER_ONLY = {"class.secret", "roster.csv"}
 EXECUTABLE, READABLE, PRIVATE = 0o755, 0o644, 0o600
@@ -81,12 +81,13 @@ def _join_lines(lines: Iterable[str]) -> bytes:
 def _read_requirements(pyproject: bytes) -> tuple[list[str], list[str]]:
     """What to install from PyPI: always, and to run robot code."""
     project = tomllib.loads(pyproject.decode())["project"]
+    extras = project["optional-dependencies"]
     plain = [
         one
-        for one in project["dependencies"]
-        if (name := re.match(r"[\w.-]+", one)) and name[0] not in ONLY_LESSONS
+        for one in (*project["dependencies"], *extras["course"], *extras["fast"])
+        if (name := re.match(r"[\w.-]+", one)) and name[0] not in NOT_FOR_GRADING
     ]
-    return plain, list(project["optional-dependencies"]["robot"])
+    return plain, list(extras["robot"])
 
 
 def _zip_files(files: Mapping[str, bytes]) -> bytes:
@@ -126,7 +127,7 @@ jobs:
         with:
           python-version: "3.12"
       - name: Install the course
-        run: python -m pip install --quiet --editable .
+        run: python -m pip install --quiet --editable ".[course]"
 {steps}\
       - name: Show the points
         if: ${{{{ !cancelled() }}}}

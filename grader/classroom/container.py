@@ -26,7 +26,7 @@ IMAGE = "sysid-course"
 DOCKERFILE = """\
 FROM python:3.12-slim
 RUN --mount=type=bind,target=/build,rw \\
-    pip install --no-cache-dir "/build[robot]" && pip uninstall -y sysid-course
+    pip install --no-cache-dir "/build[course,robot]" && pip uninstall -y sysid-course
 """
 BUILD = f"python -m grader.classroom.container | {{engine}} build -t {IMAGE} -f - ."
 ENGINE_FAILED = (125, 126, 127)  # what docker and podman return when nothing was started

@@ -3,6 +3,7 @@
 Exit codes: 0 full marks, 1 not all right yet, 2 could not do it (one line says why, and what next).
 """
 
+import importlib.util
 import sys
 from dataclasses import replace
 from importlib import import_module
@@ -10,11 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import click
+from click.shell_completion import CompletionItem
 
 from grader.terminal import print_error, print_lines
 from sim.core.errors import BadRequest
 from sim.support import command_line
 from sim.support.command_line import COULD_NOT, DONE, NOT_RIGHT
+from sim.support.completion import explain_completion
 
 if TYPE_CHECKING:
     from grader.consequence import Consequence
@@ -31,6 +34,7 @@ MODULES = {
     "serve": "serve",
     "watch": "watch",
 }
+COURSE_PACKAGES = ("pebble", "tomlkit", "tree_sitter", "tree_sitter_java")  # of the extra `course`
 
 
 class ExerciseOrCommand(click.Group):
@@ -48,14 +52,14 @@ class ExerciseOrCommand(click.Group):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take everything that does not begin with a command as a request to grade."""
-        if not {*args[:1]} & {"-h", "--help", *self.list_commands(ctx)}:
+        if not {*args[:1]} & {"-h", "--help", "--version", *self.list_commands(ctx)}:
             args = ["exercise", *args]
         return super().parse_args(ctx, args)
 
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Show grading, what the command is mostly for, and then the rest."""
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
-        formatter.write_usage("grade", "start [--no-lab] [--student NAME]")
+        formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
             "grade", "watch | doctor | class FOLDER | release | export | serve FOLDER  [--help]"
         )
@@ -68,18 +72,54 @@ class ExerciseOrCommand(click.Group):
 @click.group(
     cls=ExerciseOrCommand,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
-    epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.",
+    epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.\n\n"
+    + explain_completion("grade"),
 )
+@click.version_option(package_name="sysid-course")
 def grade() -> None:
     """Grade an exercise. Without a name: how far you are, and the next step.
 
     EXERCISE is a name such as exercise4, or its number. FILE is your answer; without it, the
     exercise's own file is graded.
     """
+    _refuse_bare_installation()
+
+
+def _refuse_bare_installation() -> None:
+    """Refuse to grade where only ``sysid`` was installed.
+
+    Raises:
+        BadRequest: a package of the extra ``course`` is missing.
+    """
+    missing = [name for name in COURSE_PACKAGES if importlib.util.find_spec(name) is None]
+    if missing:
+        cloned = (Path(__file__).resolve().parents[2] / "pyproject.toml").is_file()
+        install = 'python -m pip install "sysid-course[course]"'
+        raise BadRequest(
+            f"lessons and grading are not installed ({', '.join(missing)} missing)",
+            advice=f"Install them: {'python -m grader start' if cloned else install}",
+        )
+
+
+def complete_exercise(
+    context: click.Context, _parameter: click.Parameter, begun: str
+) -> list[CompletionItem]:
+    """Names of exercises in the course that one stands in; and of commands, where one may stand."""
+    from grader.course import find_course  # noqa: PLC0415 - --help has to start at once
+
+    try:
+        folder = find_course(Path.cwd()) / "exercises"
+    except BadRequest:
+        names = []
+    else:
+        names = sorted(path.parent.name for path in folder.glob("*/checks.py"))
+    if context.info_name == "exercise":
+        names += grade.list_commands(context)
+    return [CompletionItem(name) for name in names if name.startswith(begun) and name != "exercise"]
 
 
 @grade.command(hidden=True)
-@click.argument("exercise", required=False)
+@click.argument("exercise", required=False, shell_complete=complete_exercise)
 @click.argument("file", required=False, type=click.Path(path_type=Path))
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
@@ -123,15 +163,26 @@ def exercise(
 
 
 @grade.command()
+@click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--no-lab", is_flag=True, help="Do not open JupyterLab.")
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
-def start(student: str | None, *, no_lab: bool) -> int:
-    """Show where you stand, make your data, open the first lesson."""
+def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
+    """Show where you stand, make your data, open the first lesson.
+
+    With FOLDER, lessons and exercises are first unpacked into it, if they are not there yet.
+
+    For example: grade start my-course
+    """
     from grader.class_package import read_class_package  # noqa: PLC0415 - the same
     from grader.course import update_progress  # noqa: PLC0415 - --help has to start at once
     from grader.start import start as begin  # noqa: PLC0415 - the same
 
-    folder, progress, who = locate_course(student)
+    if folder is not None:
+        from grader.course_folder import unpack_course  # noqa: PLC0415 - the same
+
+        if unpack_course(folder):
+            _print_message(f"lessons and exercises are in {folder}. Grade inside it: cd {folder}")
+    folder, progress, who = locate_course(student, inside=folder)
     of_class = read_class_package(folder)
     if who != progress.student and (of_class is None or of_class.is_for(who)):
         progress = replace(progress, student=who)
@@ -139,8 +190,14 @@ def start(student: str | None, *, no_lab: bool) -> int:
     return begin(folder, progress, student=who, lab=not no_lab)
 
 
-def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
+def locate_course(
+    student: str | None, *, inside: Path | None = None
+) -> "tuple[Path, Progress, str]":
     """The course folder, the progress kept there, and who is learning.
+
+    Args:
+        student: who was named on the command line.
+        inside: a folder in the course; None takes the one that one stands in.
 
     Raises:
         BadRequest: there is no course here, or the name is none.
@@ -148,7 +205,7 @@ def locate_course(student: str | None) -> "tuple[Path, Progress, str]":
     from grader.class_package import find_learner  # noqa: PLC0415 - the same
     from grader.course import describe_other_code, find_course, load_progress  # noqa: PLC0415 - --help must not wait
 
-    folder = find_course(Path.cwd())
+    folder = find_course(inside.resolve() if inside else Path.cwd())
     _print_message(describe_other_code(folder))
     progress, said = load_progress(folder)
     _print_message(said)

@@ -1,14 +1,24 @@
 """``grade watch``."""
 
 import click
+from click.shell_completion import CompletionItem
 
 from grader.terminal import print_lines, style_line
 from sim.core.errors import Refusal
 from sim.support.command_line import COULD_NOT, DONE, print_error
 
 
+def _complete(
+    context: click.Context, parameter: click.Parameter, begun: str
+) -> list[CompletionItem]:
+    """Names of exercises."""
+    from grader.cli import complete_exercise  # noqa: PLC0415 - which imports this module
+
+    return complete_exercise(context, parameter, begun)
+
+
 @click.command()
-@click.argument("exercise", required=False)
+@click.argument("exercise", required=False, shell_complete=_complete)
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
 @click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
 def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:

@@ -7,6 +7,7 @@ from pkgutil import iter_modules
 import click
 
 from sim.support.command_line import run_command
+from sim.support.completion import explain_completion
 
 __all__ = ["main", "sysid"]
 
@@ -33,6 +34,7 @@ def main() -> None:
 
 @click.command(
     cls=Commands,
+    epilog=explain_completion("sysid"),
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
 @click.version_option(package_name="sysid-course")

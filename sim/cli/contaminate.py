@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from sim.cli.options import FILE, read_logs_together, reading_options
+from sim.cli.options import FAULT_NAMES, FILE, read_logs_together, reading_options
 
 
 @click.command()
@@ -14,6 +14,7 @@ from sim.cli.options import FILE, read_logs_together, reading_options
     "--fault",
     "faults",
     multiple=True,
+    shell_complete=FAULT_NAMES,
     required=True,
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
     help="Damage to do; once for each. `sysid faults` lists them.",

@@ -10,11 +10,16 @@ import click
 
 from sim.core.units import UNITS
 from sim.core.vocabulary import TYPES
+from sim.support.completion import complete_members
 
 if TYPE_CHECKING:
     from sim.core.log import Log
 
 FILE = click.Path(path_type=Path)
+SIM = Path(__file__).resolve().parents[1]
+MECHANISM_NAMES = complete_members(SIM / "bench" / "mechanisms")
+EFFECT_NAMES = complete_members(SIM / "physics" / "effects")
+FAULT_NAMES = complete_members(SIM / "inspect" / "faults")
 
 
 def _factor(_: click.Context, __: click.Parameter, value: float) -> float:

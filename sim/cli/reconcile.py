@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.options import FILE, as_json, read_logs_together, reading_options
-from sim.support.command_line import DONE, NOT_RIGHT
+from sim.support.command_line import DONE, NOT_RIGHT, print_error
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -82,6 +82,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
         for name, file in (("validation", validation), ("held_out", held_out))
         if file is not None
     }
+    _warn_uncompiled()
     with _watched(seen=not as_json) as progress:
         story = _solved(logs, type_=type_, travel=travel, progress=progress)
     if html is not None:
@@ -96,6 +97,18 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
 
         show_story(story, title=", ".join(map(str, files)))
     return NOT_RIGHT if story.verdict in UNSURE or story.remainder else DONE
+
+
+def _warn_uncompiled() -> None:
+    """Say that this takes long where Numba is missing: a search simulates thousands of times."""
+    from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
+
+    if not engine_can_compile():
+        print_error(
+            "Numba is not installed, so this takes minutes instead of seconds; the result is the "
+            'same. To make it quick: python -m pip install "sysid-course[fast]"',
+            name="sysid",
+        )
 
 
 def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], None]]":

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE
+from sim.cli.options import EFFECT_NAMES, FAULT_NAMES, FILE, MECHANISM_NAMES
 from sim.core.errors import BadRequest, Refusal
 from sim.core.vocabulary import KINDS
 from sim.physics.battery import CONTROLLERS, Battery
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("mechanism")
+@click.argument("mechanism", shell_complete=MECHANISM_NAMES)
 @click.option("-o", "--output", type=FILE, required=True, help="Log to write: .wpilog or .csv.")
 @click.option("--ramp", default=0.5, show_default=True, help="Quasistatic ramp [V/s].")
 @click.option("--step", default=3.5, show_default=True, help="Dynamic step [V].")
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 @click.option(
     "--hide",
     multiple=True,
+    shell_complete=EFFECT_NAMES,
     metavar="EFFECT[:SIZE]",
     help="Physics that the model will not have; once for each. `sysid effects` lists them.",
 )
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     "--fault",
     "faults",
     multiple=True,
+    shell_complete=FAULT_NAMES,
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
     help="Damage to the record; once for each. `sysid faults` lists them.",
 )

@@ -19,6 +19,7 @@ from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
+    from sim.cli.fit.parts import Parts
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
@@ -36,6 +37,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
         click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
+        click.option("--wpilog", type=FILE, help="Write measured, simulated, residual as a log."),
     )
     for option in reversed(options):
         command = option(command)
@@ -113,6 +115,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     loop: str | None,
     html: Path | None,
     plot: Path | None,
+    wpilog: Path | None,
     as_json: bool,  # noqa: FBT001 - click passes it by name
     **entries: str | None,
 ) -> int:
@@ -141,11 +144,10 @@ def fit(  # noqa: PLR0917 - click passes options by name
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
-    found = found.in_log_units()
-    tried = try_feedback_gains(found, PRESETS[preset], own=own)
+    tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
-    _write(told, html=html, plot=plot)
+    _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
 
@@ -196,8 +198,14 @@ class _FitOutput:
         )  # fmt: skip
 
 
-def _write(told: _FitOutput, *, html: Path | None, plot: Path | None) -> None:
+def _write(
+    told: _FitOutput, *, html: Path | None, plot: Path | None, wpilog: Path | None, parts: "Parts"
+) -> None:
     """The files that were asked for."""
+    if wpilog is not None:
+        from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - only with --wpilog
+
+        write_replay(told.found, parts, wpilog)
     if html is None and plot is None:
         return
     from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws

@@ -10,15 +10,20 @@ import ast
 import hashlib
 import inspect
 import sys
-from collections.abc import Iterator, Mapping
-from types import ModuleType
+from collections.abc import Callable, Iterator, Mapping
+from types import FunctionType, ModuleType
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
-from sim.physics.engine import one_body, power_path, stepping, two_bodies, two_body_modes
-from sim.physics.engine.kernel import Kernel, kernel_file, load_kernel
+from sim.physics.engine import ieee_math, one_body, power_path, stepping, two_bodies, two_body_modes
 from sim.physics.engine.two_body_modes import WAYS
 from sim.support.work.cache import cache_folder
+
+if TYPE_CHECKING:
+    from sim.physics.engine.kernel import Kernel
 
 MODULES = (power_path, two_body_modes, one_body, two_bodies, stepping)
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
@@ -69,7 +74,9 @@ def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
     return found
 
 
-def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> Kernel | ModuleType:
+def compose_engine(
+    effects: Mapping[str, Effect], *, compiled: bool = True
+) -> "Kernel | ModuleType":
     """The engine for these effects: something with ``move``.
 
     Args:
@@ -78,6 +85,7 @@ def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> K
 
     Raises:
         BadRequest: an effect is written wrongly; the message says which, and what is wrong.
+        ImportError: it has to be compiled, and Numba or llvmlite (extra ``fast``) is missing.
     """
     for name, effect in effects.items():
         if wrong := effect.contract_breaches():
@@ -89,14 +97,29 @@ def compose_engine(effects: Mapping[str, Effect], *, compiled: bool = True) -> K
             )
     text = "\n".join(_engine_lines(effects, compiled=compiled))
     if compiled:
+        from sim.physics.engine.kernel import kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
+
         return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
+    module.__dict__["move"] = np.errstate(all="ignore")(module.move)  # as compiled code is: quiet
     return module
 
 
+def use_ieee_math(act: Callable[..., float]) -> Callable[..., float]:
+    """An effect's function with ``ieee_math`` as its ``math``, for the uncompiled engine."""
+    code, globals_ = act.__code__, act.__globals__
+    return FunctionType(code, {**globals_, "math": ieee_math}, act.__name__, act.__defaults__)
+
+
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
-    """Whether an engine for these effects waits in the cache."""
+    """Whether an engine for these effects waits in the cache.
+
+    Raises:
+        ImportError: llvmlite (extra ``fast``) is missing.
+    """
+    from sim.physics.engine.kernel import kernel_file  # noqa: PLC0415 - needs llvmlite
+
     text = "\n".join(_engine_lines(effects, compiled=True))
     return kernel_file(cache_folder(), _engine_hash(effects, text)).is_file()
 
@@ -115,17 +138,20 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
     """The lines of the module."""
     yield '"""Composed by compose.py."""'
     yield "from __future__ import annotations"
-    yield "import math"
     yield "import numpy as np"
     if compiled:
+        yield "import math"
         yield "from numba import carray, cfunc, njit, types"
         yield "step = njit(error_model='numpy', forceinline=True)"
     else:
+        yield "from sim.physics.engine import ieee_math as math"
+        yield "from sim.physics.engine.compose import use_ieee_math"
         yield "step = lambda function: function"
     for effect in effects.values():
         for hook, act in effect.hooks.items():
             yield f"import {act.__module__}"
-            yield f"{_alias(effect, hook)} = step({act.__module__}.{act.__name__})"
+            makes = "step" if compiled else "use_ieee_math"
+            yield f"{_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
     at = parameter_slices(effects)
     for hook in HOOKS:
         yield from _hook_lines(hook, effects, at)
@@ -188,6 +214,7 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
         yield f"def move(count, n, rows, {', '.join(asked)}):"
     else:
+        given["on"] = "on.tolist()"  # Python is quicker with numbers of its own
         yield f"def move({', '.join(asked)}):"
     yield f"    step_runs({', '.join(given.get(name, name) for name in asked)})"
 

@@ -1,0 +1,79 @@
+"""``sysid fit --wpilog``: measured, simulated, and what is left, as entries of one log."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sim.core.units import Unit, find_unit
+from sim.fit.replay import FEWEST, RunReplay, replay_fit
+from sim.inspect.detect_faults import inspect
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from sim.core.log import Log, Run
+    from sim.fit import Fit
+    from sim.inspect.fault import Damage
+
+TOP = "/sysid"  # above all entries
+
+
+def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
+    """Write every run, measured and simulated, at the log's own times.
+
+    Where there are several parts, the entries of each stand below its name:
+    ``/sysid/left/measured/velocity``.
+
+    Args:
+        found: the fit.
+        parts: the logs it was fitted to, by the name of each part.
+        path: the file, ending in .wpilog.
+
+    Raises:
+        BadRequest: nothing can be simulated with these gains, or the file cannot be written.
+    """
+    unit = find_unit(found.log_units)
+    groups = [
+        group
+        for name, log in parts.items()
+        for group in _list_groups(found, log, f"{TOP}/{name}" if len(parts) > 1 else TOP, unit)
+    ]
+    names = {name for group in groups for name in group.signals}
+    units = {
+        name: unit.name if name.endswith("position") else f"{unit.name} per second"
+        for name in names
+        if not name.endswith("voltage")
+    }
+    write_signals(groups, path, units=units | {f"{TOP}/voltage": "volts"})
+
+
+def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[SignalGroup]:
+    """A group for each run that is long enough to be simulated."""
+    faults = inspect(log).faults
+    runs = [(k, run) for k, run in enumerate(log.runs) if len(run) >= FEWEST]
+    for (k, run), replay in zip(runs, replay_fit(found, log), strict=False):
+        yield _make_group(replay, run, [one for one in faults if one.where.run == k], top, unit)
+
+
+def _make_group(
+    replay: RunReplay, run: "Run", faults: "list[Damage]", top: str, unit: Unit
+) -> SignalGroup:
+    """One run: signals, the name of its test, and its faults where they begin and end."""
+    signals = {
+        f"{top}/voltage": replay.run.voltage,
+        f"{top}/measured/position": replay.run.position / unit.si,
+        f"{top}/measured/velocity": replay.run.velocity / unit.si,
+        f"{top}/simulated/position": replay.position / unit.si,
+        f"{top}/simulated/velocity": replay.velocity / unit.si,
+        f"{top}/residual/position": replay.position_error / unit.si,
+        f"{top}/residual/velocity": replay.velocity_error / unit.si,
+    }
+    time = replay.run.time
+    after = float(time[-1] + np.median(np.diff(time)))
+    marks = [(max(one.where.start, float(run.time[0])), one.fault) for one in faults]
+    marks += [(one.where.end, "") for one in faults]
+    texts = {f"{top}/test": [(float(time[0]), run.test), (after, "none")]}
+    return SignalGroup(time, signals, texts | ({f"{top}/fault": sorted(marks)} if marks else {}))

@@ -1,0 +1,50 @@
+"""``sysid open``: a page in the browser that shows logs, fits them, and lets one move the gains."""
+
+import os
+import sys
+import tempfile
+import threading
+import webbrowser
+from pathlib import Path
+
+import click
+
+from sim.cli.options import FILE
+from sim.support.command_line import DONE
+
+
+@click.command(name="open")
+@click.argument("files", nargs=-1, type=FILE)
+@click.option(
+    "--port",
+    type=click.IntRange(0, 65535),
+    default=0,
+    help="Port on this machine.  [default: a free one]",
+)
+@click.option("--no-browser", is_flag=True, help="Only print the address.")
+def open(files: tuple[Path, ...], *, port: int, no_browser: bool) -> int:  # noqa: A001 - the command's own name
+    """Show logs on a page of this machine: faults, runs, gains to move over the measured curve.
+
+    Drop logs on the page, or name them here. Nothing leaves this machine, and no network is
+    needed. Ctrl-C ends it.
+
+    For example: sysid open drive.wpilog
+    """
+    from sim.cli.open.server import PageServer  # noqa: PLC0415 - --help must not wait for it
+    from sim.cli.open.session import Session  # noqa: PLC0415 - the same
+
+    with tempfile.TemporaryDirectory(prefix="sysid-open-", ignore_cleanup_errors=True) as folder:
+        session = Session(Path(folder), files)
+        with PageServer(session, port=port) as server:
+            click.echo(f"The page is at {server.address}\nCtrl-C here ends it.")
+            sys.stdout.flush()
+            threading.Thread(target=session.warm_up, daemon=True).start()
+            if not no_browser and os.environ.get("BROWSER") != "none":
+                threading.Thread(
+                    target=webbrowser.open, args=(server.address,), daemon=True
+                ).start()
+            try:
+                server.serve_forever()
+            except KeyboardInterrupt:
+                click.echo("")
+    return DONE

@@ -1,0 +1,744 @@
+// The page: which logs are open, which one is seen, and what is known of it.
+
+import { Refused, addressOf, askLog, askSamples, closeLog, listLogs, openExample, openFile } from "./api.js";
+import { Chart } from "./chart.js";
+import { makeModel, rms, simulateRun } from "./simulate.js";
+import { Sliders } from "./sliders.js";
+
+const MOST_SHOWN = 12; // faults in the list before the rest is folded away
+const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
+
+const at = (id) => document.getElementById(id);
+const logs = new Map();
+let active = null;
+
+const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor });
+const sliders = new Sliders(at("sliders"), moveGains);
+window.sysid = { chart, sliders, logs }; // for tests, and for the curious
+
+// ---- opening logs
+
+async function openAll(files) {
+  await Promise.all([...files].map(async (file) => {
+    await guarded(file.name, async () => begin(await openFile(file)));
+  }));
+}
+
+/** Take a log that the server opened: read it, show it, then ask for faults and gains. */
+async function begin({ id, name }) {
+  const log = { id, name, query: {}, others: false };
+  logs.set(id, log);
+  if (active === null) activate(id);
+  showTabs();
+  await load(log);
+}
+
+async function load(log) {
+  log.failed = null;
+  log.faults = log.fit = log.fitRefused = log.search = null;
+  const asked = (log.asked = {});
+  setLoading(log, true);
+  try {
+    const [summary, samples] = await Promise.all([
+      askLog(log.id, "summary", log.query),
+      askSamples(log.id, log.query),
+    ]);
+    if (log.asked !== asked) return;
+    take(log, summary, samples);
+  } catch (problem) {
+    setLoading(log, false);
+    if (await offerChoice(log, problem)) return;
+    forget(log.id);
+    throw problem;
+  }
+  log.choice = null;
+  if (active === log.id) activate(log.id);
+  showTabs();
+  await Promise.all([askFaults(log, asked), askFit(log, asked)]);
+  setLoading(log, false);
+}
+
+/** Cut the samples into runs; positions and velocities in the log's own unit, times in seconds. */
+function take(log, summary, samples) {
+  log.summary = summary;
+  let from = 0;
+  const next = (count) => samples.subarray(from, (from += count));
+  log.runs = summary.runs.map((run) => {
+    const [time, voltage, position, velocity] = Array.from({ length: SIGNALS }, () => next(run.samples));
+    const part = summary.runs.some((one) => one.part !== run.part) ? run.part : "";
+    return { ...run, part, time, voltage, position: per(position, summary), velocity: per(velocity, summary) };
+  });
+}
+
+function per(values, { units }) {
+  return units.si === 1 ? values : values.map((value) => value / units.si);
+}
+
+async function askFaults(log, asked) {
+  const found = await askLog(log.id, "faults", log.query).catch((problem) => ({
+    faults: [], clean: false, doubts: [{ message: sentence(problem), grave: true }],
+  }));
+  if (log.asked !== asked) return;
+  log.faults = found;
+  if (active === log.id) showFaults();
+}
+
+async function askFit(log, asked) {
+  try {
+    const fit = await askLog(log.id, "fit", log.query);
+    if (log.asked !== asked) return;
+    log.fit = fit;
+    log.gains = Object.fromEntries(fit.gains.map((gain) => [gain.name, gain.value]));
+    log.fitError = simulate(log, log.gains);
+  } catch (problem) {
+    if (!(problem instanceof Refused)) throw problem;
+    log.fitRefused = problem;
+  }
+  if (active === log.id) showFit();
+  if (!log.fit) return;
+  const more = await askLog(log.id, "directions", log.query).catch(() => null);
+  if (more === null || log.asked !== asked) return;
+  log.fit.doubts.push(...more.doubts);
+  log.fit.notes.push(...more.notes);
+  if (active === log.id) showDoubts();
+}
+
+/** Do something for one file; what goes wrong is shown, and nothing else stops. */
+async function guarded(name, work) {
+  try {
+    await work();
+  } catch (problem) {
+    if (!(problem instanceof Refused)) console.error(problem);
+    showRefusal(name, problem);
+  }
+}
+
+function forget(id) {
+  logs.delete(id);
+  closeLog(id).catch(() => {});
+  if (active === id) activate([...logs.keys()].at(-1) ?? null);
+  showTabs();
+}
+
+// ---- signals that are not found by name
+
+const ROLES = [
+  ["voltage", "Voltage at the motor", false],
+  ["position", "Position", false],
+  ["velocity", "Velocity", false],
+  ["state", "Name of the running test", true],
+];
+
+/** Where signals are missing and the file has entries, let a person choose; whether it is so. */
+async function offerChoice(log, problem) {
+  if (problem.kind !== "MissingSignal") return false;
+  const entries = log.choice?.entries ?? await askLog(log.id, "entries").catch(() => []);
+  if (!entries.length) return false;
+  log.choice = { entries, why: `${problem.what}.`, chosen: { ...log.query } };
+  if (active === log.id) activate(log.id);
+  showTabs();
+  return true;
+}
+
+function showChoice(log) {
+  const { entries, why, chosen } = log.choice;
+  at("choose-why").textContent = `${log.name}: ${why}`;
+  at("signal-rows").replaceChildren(...ROLES.map(([role, words, isText]) => {
+    const row = text("label", "", "signal");
+    const select = document.createElement("select");
+    select.name = role;
+    select.setAttribute("aria-label", words);
+    select.append(new Option(role === "velocity" ? "the slope of the position" : "found by its name", ""));
+    for (const one of entries.filter((entry) => entry.text === isText)) {
+      select.append(new Option(`${one.name}${one.unit ? ` [${one.unit}]` : ""}`, one.name));
+    }
+    select.value = chosen[role] ?? "";
+    const place = text("div", "", "spark");
+    const draw = () => {
+      const one = entries.find((entry) => entry.name === select.value);
+      place.replaceChildren(...(one ? [isText ? text("span", `${one.samples} times`) : sparkline(one.picture)] : []));
+    };
+    select.addEventListener("change", draw);
+    draw();
+    row.append(text("span", words, "role"), select, place);
+    return row;
+  }));
+}
+
+/** A small picture of an entry. */
+function sparkline(values) {
+  const svg = "http://www.w3.org/2000/svg";
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  const points = values.map((value, k) => `${((200 * k) / Math.max(values.length - 1, 1)).toFixed(1)} ${(34 - (30 * (value - low)) / (high - low || 1)).toFixed(1)}`);
+  const picture = document.createElementNS(svg, "svg");
+  const path = document.createElementNS(svg, "path");
+  picture.setAttribute("viewBox", "0 0 200 38");
+  picture.setAttribute("preserveAspectRatio", "none");
+  picture.setAttribute("role", "img");
+  picture.setAttribute("aria-label", `from ${figure(low)} to ${figure(high)}`);
+  path.setAttribute("d", `M${points.join("L")}`);
+  picture.append(path);
+  return picture;
+}
+
+at("signals").addEventListener("submit", (event) => {
+  event.preventDefault();
+  const log = logs.get(active);
+  const chosen = Object.fromEntries(new FormData(event.target));
+  log.query = { ...log.query, ...chosen };
+  guarded(log.name, () => load(log));
+});
+
+// ---- simulating
+
+/** Simulate every run of a log with gains in its own unit; the error, and the curves in `log`. */
+function simulate(log, gains) {
+  const { si } = log.summary.units;
+  const inSi = { ...gains, kV: gains.kV / si, kA: gains.kA / si };
+  const model = makeModel(log.fit.type, inSi, log.fit);
+  let [sum, count] = [0, 0];
+  log.simulated = log.runs.map((run, k) => {
+    const start = log.fit.starts[k];
+    if (!start || !model) return null;
+    const cut = { time: run.time.subarray(start.first), voltage: run.voltage.subarray(start.first) };
+    const { velocity } = simulateRun(cut, model, start);
+    if (si !== 1) velocity.forEach((value, i) => { velocity[i] = value / si; });
+    const error = rms(run.velocity.subarray(start.first), velocity);
+    sum += error * error * velocity.length;
+    count += velocity.length;
+    return { first: start.first, velocity };
+  });
+  return count ? Math.sqrt(sum / count) : null;
+}
+
+function moveGains(values) {
+  const log = logs.get(active);
+  if (!log?.fit) return;
+  log.gains = values;
+  log.moved = sliders.isMoved;
+  if (moveGains.waiting) return;
+  moveGains.waiting = requestAnimationFrame(() => {
+    moveGains.waiting = 0;
+    showSimulation(log);
+  });
+}
+
+function showSimulation(log) {
+  if (active !== log.id) return;
+  const error = simulate(log, log.gains);
+  chart.setSimulation(log.simulated, log.fit.noise === null ? null : log.fit.noise / log.summary.units.si);
+  showMeter(log, error);
+  showCursor(chart.cursor);
+  at("reset").hidden = !sliders.isMoved;
+}
+
+// ---- showing
+
+function activate(id) {
+  active = id;
+  at("empty").hidden = id !== null;
+  const choice = logs.get(id)?.choice;
+  at("work").hidden = id === null || Boolean(choice);
+  at("choose").hidden = !choice;
+  if (choice) showChoice(logs.get(id));
+  document.title = id === null ? "sysid" : `${logs.get(id).name} – sysid`;
+  if (choice) return;
+  if (logs.get(id)?.runs) showLog();
+  else clear(logs.get(id));
+}
+
+/** The frame of a log that is still being read. */
+function clear(log) {
+  at("title").textContent = log?.name ?? "";
+  at("facts").textContent = "Reading…";
+  for (const id of ["runs", "faults", "doubts", "feedback", "sliders", "meter", "readout", "story"]) at(id).replaceChildren();
+  at("verdict").textContent = "";
+}
+
+function showLog() {
+  const log = logs.get(active);
+  const { summary } = log;
+  at("title").textContent = log.name;
+  const runs = `${log.runs.length} run${log.runs.length === 1 ? "" : "s"}`;
+  const facts = [runs, `${summary.samples.toLocaleString("en")} samples`];
+  if (summary.mechanism) facts.unshift(summary.mechanism);
+  at("facts").textContent = facts.join(" · ");
+  at("type").value = log.query.type ?? summary.type;
+  at("units").value = summary.units.name;
+  chart.setLog({ runs: log.runs, faults: marks(log), symbol: summary.units.symbol });
+  showRuns(log);
+  showFaults();
+  showFit();
+  showStory();
+  showOthers();
+  setLoading(log, !(log.faults && (log.fit || log.fitRefused)));
+}
+
+function showRuns(log) {
+  const chips = log.runs.map((run, k) => {
+    const way = run.test.endsWith("forward") ? "→" : "←";
+    const label = `${run.part ? `${run.part} ` : ""}${run.test.replace(/-\w+$/, "")} ${way}`;
+    const chip = button("chip", label, () => chart.showRun(k));
+    chip.setAttribute("aria-label", `Show run ${k}, ${run.part} ${run.test}`);
+    return chip;
+  });
+  at("runs").replaceChildren(button("chip all", "All", () => chart.showAll()), ...chips);
+}
+
+function marks(log) {
+  return (log.faults?.faults ?? [])
+    .filter((one) => one.run !== null && one.test)
+    .map((one) => ({ run: one.run, start: one.start_s, end: one.end_s, name: one.fault }));
+}
+
+function showFaults() {
+  const log = logs.get(active);
+  const place = at("faults");
+  if (!log.faults) {
+    place.replaceChildren(item("busy", "Looking for faults…"));
+    return;
+  }
+  chart.setFaults(marks(log));
+  const { faults } = log.faults;
+  const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(one));
+  if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
+  if (!faults.length) {
+    rows.push(item("well", `No fault in ${log.runs.length === 1 ? "this run" : `these ${log.runs.length} runs`}.`));
+  }
+  rows.push(...log.faults.doubts.map((one) => doubtItem(one)));
+  place.replaceChildren(...rows);
+}
+
+function faultCard(one) {
+  const card = item("fault");
+  const name = text("h3", one.fault.replaceAll("-", " "));
+  name.append(text("span", one.confidence >= 0.9 ? "sure" : one.confidence >= 0.7 ? "likely" : "perhaps", "badge"));
+  card.append(name);
+  if (one.test) {
+    const where = one.run === null ? one.test : `${one.test}, ${one.start_s.toFixed(2)} to ${one.end_s.toFixed(2)} s`;
+    card.append(text("p", where, "where"));
+  }
+  const advice = text("p", "", "advice");
+  advice.append(...prose(one.advice));
+  card.append(text("p", one.evidence), advice);
+  if (one.run !== null && one.test) {
+    card.append(button("button small", "Show", () => {
+      chart.showFault({ run: one.run, start: one.start_s, end: one.end_s });
+      at("plot").scrollIntoView({ block: "center", behavior: "smooth" });
+    }));
+  }
+  return card;
+}
+
+function showFit() {
+  const log = logs.get(active);
+  const { fit, fitRefused } = log;
+  at("paste").disabled = !fit;
+  at("reset").hidden = true;
+  const report = at("report");
+  report.toggleAttribute("href", false);
+  report.setAttribute("aria-disabled", String(!fit));
+  at("verdict-card").classList.toggle("wrong", Boolean(fitRefused));
+  if (!fit) {
+    at("sliders").replaceChildren();
+    const said = fitRefused ? [text("p", "No gains", "big"), text("p", "The reason stands under Verdict.", "quiet")] : [text("p", "Fitting…", "quiet")];
+    at("meter").replaceChildren(...said);
+    const waits = log.summary.compiles
+      ? "The simulation is compiled first. That is done once, and takes about twenty seconds."
+      : "Fitting…";
+    at("verdict").textContent = fitRefused ? sentence(fitRefused) : waits;
+    at("doubts").replaceChildren();
+    at("feedback").replaceChildren();
+    return;
+  }
+  report.href = addressOf(log.id, "report.html", log.query);
+  sliders.show(fit.gains, log.gains);
+  at("verdict").replaceChildren(...prose(fit.verdict));
+  showFeedback(fit);
+  showDoubts();
+  showSimulation(log);
+}
+
+/** Feedback gains to start from, as SysId suggests them. */
+function showFeedback({ feedback }) {
+  const rows = Object.entries(feedback).map(([loop, { kP, kD }]) => {
+    const pair = document.createElement("div");
+    const gains = [`kP ${figure(kP)}`, ...(kD ? [`kD ${figure(kD)}`] : [])];
+    pair.append(text("dt", `${loop} loop`), text("dd", gains.join("  ")));
+    return pair;
+  });
+  at("feedback").replaceChildren(...rows);
+}
+
+function showDoubts() {
+  const { fit } = logs.get(active);
+  at("verdict-card").classList.toggle("wrong", fit.doubts.some((one) => one.grave));
+  const known = fit.doubts.toSorted((a, b) => Number(b.grave) - Number(a.grave));
+  const notes = fit.notes.map((note) => item("well", note));
+  const parts = fit.parts.length
+    ? [item("busy", `The fit also allows for ${fit.parts.map((one) => one.replaceAll("-", " ")).join(", ")}; the curve here leaves them out.`)]
+    : [];
+  at("doubts").replaceChildren(...known.map((one) => doubtItem(one)), ...parts, ...notes);
+}
+
+function doubtItem({ message, grave }) {
+  const made = item(grave ? "grave" : "look");
+  made.append(text("b", grave ? "Wrong" : "Look"), " ", ...prose(message));
+  return made;
+}
+
+// ---- what the model lacks
+
+const POLL = 250; // [ms] between two questions how far a search is
+
+async function reconcile(log) {
+  const { asked } = log;
+  try {
+    for (;;) {
+      log.search = await askLog(log.id, "reconcile", log.query);
+      if (log.asked !== asked) return;
+      if (active === log.id) showStory();
+      if (log.search.story) return;
+      await new Promise((done) => setTimeout(done, POLL));
+    }
+  } catch (problem) {
+    if (log.asked !== asked) return;
+    log.search = { refused: sentence(problem) };
+    if (active === log.id) showStory();
+  }
+}
+
+function showStory() {
+  const log = logs.get(active);
+  const { search } = log;
+  const place = at("story");
+  if (!search) {
+    const start = button("button", "Look for what is missing", () => {
+      log.search = { words: "begins", share: 0 };
+      showStory();
+      reconcile(log);
+    });
+    place.replaceChildren(
+      text("p", "Tries every effect of the catalogue, drag to backlash, and names those that explain the simulation error. " + (log.summary.compiled
+        ? "This takes some seconds." : "This takes minutes: Numba is not installed. With the extra fast it takes seconds."), "quiet"),
+      start,
+    );
+    return;
+  }
+  if (search.refused) {
+    place.replaceChildren(item("grave", search.refused));
+    return;
+  }
+  if (!search.story) {
+    const bar = place.querySelector("progress") ?? Object.assign(document.createElement("progress"), { max: 1 });
+    bar.value = search.share;
+    bar.setAttribute("aria-label", "How far the search is");
+    place.replaceChildren(text("p", `${search.words}…`, "quiet"), bar);
+    return;
+  }
+  const { story } = search;
+  const head = text("p", "", "headline");
+  head.append(...prose(story.headline));
+  const found = story.findings.map((one) => {
+    const card = text("article", "", "finding");
+    const name = text("h3", one.name.replaceAll("-", " "));
+    name.append(text("span", one.kind === "fault" ? "damage" : one.size, "badge"));
+    card.append(name, text("p", one.sentence));
+    for (const words of one.parameters) card.append(text("p", words, "where"));
+    for (const [title, words] of one.look) card.append(text("p", `${title}: ${words}`, "advice"));
+    return card;
+  });
+  const rest = [...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
+    .map((words) => { const made = item("look"); made.append(...prose(words)); return made; });
+  place.replaceChildren(head, gapBars(story), ...found, list(rest), list(story.places.map((one) => item("busy", one))), text("p", story.how, "quiet"));
+}
+
+/** The gap of each model as a bar: in times the noise, 1 is nothing but noise. */
+function gapBars({ gaps }) {
+  const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
+  const rows = gaps.map(({ name, text: words, gap }, k) => {
+    const row = text("div", "", k === gaps.length - 1 ? "last" : "");
+    const bar = text("i", "");
+    bar.style.setProperty("--share", (gap ?? most) / most);
+    row.append(text("span", name), bar, text("b", words));
+    return row;
+  });
+  const bars = text("div", "", "gaps");
+  bars.append(text("p", "Simulation error, in times the noise of the velocity", "quiet"), ...rows);
+  return bars;
+}
+
+function list(rows) {
+  const made = text("ul", "", "doubts");
+  made.append(...rows);
+  return made;
+}
+
+function showMeter(log, error) {
+  const unit = `${log.summary.units.symbol}/s`;
+  const number = text("p", error === null ? "–" : figure(error), "big");
+  number.append(text("span", unit, "unit"));
+  const ratio = error === null || !log.fitError ? null : error / log.fitError;
+  const said = error === null
+    ? "Nothing moves with these gains: kV and kA have to be above zero."
+    : !log.moved || ratio === null ? "simulation error of the fit"
+      : `simulation error, ${ratio >= 10 ? Math.round(ratio) : ratio.toFixed(2)} × that of the fit`;
+  const bar = text("div", "", "bar-of-error");
+  bar.style.setProperty("--share", ratio === null ? 1 : Math.min(1, Math.max(0.04, 1 / ratio)));
+  bar.classList.toggle("far", ratio !== null && ratio > 2);
+  at("meter").replaceChildren(number, text("p", said, "quiet"), bar);
+}
+
+function showCursor(cursor) {
+  const log = logs.get(active);
+  if (!log?.runs) return;
+  const { symbol } = log.summary.units;
+  const run = cursor && log.runs[cursor.run];
+  const k = cursor?.sample;
+  const one = cursor && log.simulated?.[cursor.run];
+  const guess = one && k >= one.first ? one.velocity[k - one.first] : null;
+  const rows = [
+    ["run", run ? run.test : "point at the curve", "run"],
+    ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""],
+    ["voltage", run ? `${figure(run.voltage[k])} V` : "–", "volts"],
+    ["measured", run ? `${figure(run.velocity[k])} ${symbol}/s` : "–", "measured"],
+    ["simulated", guess === null || guess === undefined ? "–" : `${figure(guess)} ${symbol}/s`, "simulated"],
+    ["error", guess === null || guess === undefined ? "–" : `${figure(run.velocity[k] - guess)} ${symbol}/s`, "left"],
+    ["position", run ? `${figure(run.position[k])} ${symbol}` : "–", ""],
+  ];
+  at("readout").replaceChildren(...rows.map(([name, value, kind]) => {
+    const pair = text("div", "", kind);
+    pair.append(text("dt", name), text("dd", value));
+    return pair;
+  }));
+}
+
+function showTabs() {
+  const tabs = [...logs.values()].map((log) => {
+    const tab = text("div", "", `tab${log.id === active ? " now" : ""}`);
+    const name = button("name", log.name, () => { activate(log.id); showTabs(); });
+    if (log.id === active) name.setAttribute("aria-current", "true");
+    tab.append(name);
+    if (logs.size > 1 && log.id !== active) {
+      const over = button("over", "◑", () => { log.others = !log.others; showOthers(); showTabs(); });
+      over.setAttribute("aria-pressed", String(log.others));
+      over.setAttribute("aria-label", `Lay ${log.name} over the log that is seen`);
+      over.title = "Lay over";
+      tab.append(over);
+    }
+    const close = button("close", "×", () => forget(log.id));
+    close.setAttribute("aria-label", `Close ${log.name}`);
+    tab.append(close);
+    return tab;
+  });
+  at("logs").replaceChildren(...tabs);
+  showOthers();
+}
+
+/** Lay the runs of other logs over those of the same test, the first over the first. */
+function showOthers() {
+  const log = logs.get(active);
+  if (!log?.runs) return;
+  const laid = [];
+  const colors = ["#9b5de5", "#c08a00", "#2a9d8f", "#d0539a"];
+  const others = [...logs.values()].filter((one) => one.others && one.id !== active && one.runs);
+  for (const [k, other] of others.entries()) {
+    const used = new Set();
+    for (const [run, mine] of log.runs.entries()) {
+      const theirs = other.runs.find((one) => one.test === mine.test && !used.has(one));
+      if (!theirs) continue;
+      used.add(theirs);
+      const factor = other.summary.units.si / log.summary.units.si;
+      laid.push({ color: colors[k % colors.length], run, time: theirs.time, velocity: theirs.velocity.map((value) => value * factor) });
+    }
+  }
+  chart.setOthers(laid);
+  document.querySelector(".legend .other").hidden = !laid.length;
+}
+
+function showRefusal(name, problem) {
+  const card = text("article", "", "refusal");
+  card.setAttribute("role", "alert");
+  card.append(text("h3", name), text("p", `${problem.what ?? problem.message}.`), text("p", problem.advice ?? "", "advice"));
+  const close = button("close", "×", () => card.remove());
+  close.setAttribute("aria-label", "Close this message");
+  card.append(close);
+  at("refusals").prepend(card);
+}
+
+function setLoading(log, busy) {
+  if (log.id === active) at("loading").classList.toggle("busy", busy);
+}
+
+// ---- small things
+
+/** A sentence of the command line for this page: code set apart, a number kept with its sign. */
+function prose(words) {
+  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2")
+    .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)
+    .replace(/--(type|units)\b/g, "$1");
+  return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
+}
+
+function text(tag, words, kind = "") {
+  const made = document.createElement(tag);
+  made.textContent = words;
+  if (kind) made.className = kind;
+  return made;
+}
+
+function item(kind, words = "") {
+  return text("li", words, kind);
+}
+
+function button(kind, words, press) {
+  const made = text("button", words, kind);
+  made.type = "button";
+  made.addEventListener("click", press);
+  return made;
+}
+
+function figure(value) {
+  const size = Math.abs(value);
+  const digits = size >= 100 ? 0 : size >= 10 ? 2 : size >= 1 ? 3 : size >= 0.001 ? 4 : 5;
+  return value.toFixed(digits).replace("-", "−");
+}
+
+function sentence(problem) {
+  return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`;
+}
+
+function say(words) {
+  const toast = at("toast");
+  toast.textContent = words;
+  toast.classList.add("seen");
+  clearTimeout(say.waiting);
+  say.waiting = setTimeout(() => toast.classList.remove("seen"), 2600);
+}
+
+/** The gains that stand elsewhere than the fit put them. */
+function movedGains({ fit, gains }) {
+  const moved = fit.gains.filter(({ name, value }) => gains[name] !== value);
+  return Object.fromEntries(moved.map(({ name }) => [name, gains[name]]));
+}
+
+async function showCode() {
+  const log = logs.get(active);
+  const query = { ...log.query, ...movedGains(log), language: at("language").value, season: at("season").value };
+  try {
+    at("code-text").textContent = (await askLog(log.id, "code", query)).code;
+  } catch (problem) {
+    at("code-text").textContent = sentence(problem);
+  }
+}
+
+async function copyCode() {
+  try {
+    await navigator.clipboard.writeText(at("code-text").textContent);
+    say("Copied.");
+  } catch {
+    getSelection().selectAllChildren(at("code-text"));
+    say("Selected. Copy it with the keyboard.");
+  }
+}
+
+// ---- hands
+
+at("file").addEventListener("change", (event) => {
+  openAll(event.target.files);
+  event.target.value = "";
+});
+at("example").addEventListener("click", () => guarded("example", async () => begin(await openExample())));
+at("reset").addEventListener("click", () => sliders.reset());
+at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
+at("copy").addEventListener("click", copyCode);
+for (const id of ["language", "season"]) at(id).addEventListener("change", showCode);
+for (const id of ["type", "units"]) {
+  at(id).addEventListener("change", () => {
+    const log = logs.get(active);
+    const before = { ...log.query };
+    log.query = { ...log.query, [id]: at(id).value };
+    guarded(log.name, async () => {
+      try {
+        await askLog(log.id, "summary", log.query);
+      } catch (problem) {
+        log.query = before;
+        showLog();
+        throw problem;
+      }
+      log.moved = false;
+      await load(log);
+    });
+  });
+}
+
+let over = 0;
+addEventListener("dragenter", (event) => { event.preventDefault(); over++; at("veil").classList.add("seen"); });
+addEventListener("dragover", (event) => event.preventDefault());
+addEventListener("dragleave", () => { if (--over <= 0) at("veil").classList.remove("seen"); });
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  over = 0;
+  at("veil").classList.remove("seen");
+  if (event.dataTransfer.files.length) openAll(event.dataTransfer.files);
+});
+
+// ---- color theme: as the system, light, dark
+
+const THEMES = [["", "half", "as the system"], ["light", "light", "light"], ["dark", "dark", "dark"]];
+
+function setTheme(name) {
+  const [, sign, words] = THEMES.find(([one]) => one === name) ?? THEMES[0];
+  if (name) document.documentElement.dataset.theme = name;
+  else delete document.documentElement.dataset.theme;
+  at("theme").dataset.sign = sign;
+  at("theme").setAttribute("aria-label", `Color theme: ${words}`);
+  try {
+    localStorage.setItem("theme", name);
+  } catch { /* a browser that keeps nothing */ }
+  chart.readColors();
+}
+
+at("theme").addEventListener("click", () => {
+  const now = document.documentElement.dataset.theme ?? "";
+  setTheme(THEMES[(THEMES.findIndex(([name]) => name === now) + 1) % THEMES.length][0]);
+});
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => chart.readColors());
+
+/** Samples of a step with noise, on the first screen. */
+function drawHero() {
+  const svg = "http://www.w3.org/2000/svg";
+  const dots = Array.from({ length: 46 }, (_, k) => {
+    const x = 40 + k * 12.7;
+    const wave = Math.sin(12.9 * k) * 2.6 + Math.sin(4.1 * k) * 1.7;
+    const dot = document.createElementNS(svg, "circle");
+    dot.setAttribute("cx", String(x));
+    dot.setAttribute("cy", String(60 + 130 * Math.exp(-(x - 40) / 82) + wave));
+    dot.setAttribute("r", "2.6");
+    return dot;
+  });
+  at("hero-dots").replaceChildren(...dots);
+  for (const [id, slow, end] of [["hero-fit", 82, 60], ["hero-ghost", 150, 44]]) {
+    const points = Array.from({ length: 59 }, (_, k) => {
+      const x = 40 + 10 * k;
+      return `${x} ${(end + (190 - end) * Math.exp(-(x - 40) / slow)).toFixed(1)}`;
+    });
+    at(id).setAttribute("d", `M${points.join("L")}`);
+  }
+}
+
+/** The gains stay in sight while one scrolls; a column that is taller than the screen, by its end. */
+new ResizeObserver(([{ target }]) => {
+  target.style.setProperty("--top", `${Math.min(12, innerHeight - target.offsetHeight - 12)}px`);
+}).observe(document.querySelector(".side"));
+
+drawHero();
+let kept = "";
+try {
+  kept = localStorage.getItem("theme") ?? "";
+} catch { /* a browser that keeps nothing */ }
+setTheme(kept);
+guarded("logs", async () => {
+  const named = await listLogs();
+  await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));
+});

@@ -1,0 +1,107 @@
+// The gains: a slider and a number for each, with the fit's own value and its error marked.
+
+const STEPS = 2000; // of a slider from end to end
+const DIGITS = 5; // of a gain that is shown; of a small one fewer, so that it has room
+
+/** Rows of sliders in a form; calls back with {kS: 0.2, …} whenever a gain is moved. */
+export class Sliders {
+  constructor(form, onMove) {
+    this.form = form;
+    this.onMove = onMove;
+    this.rows = [];
+    form.addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  /** Show the gains of a fit: {name, value, error, error_text, unit, means}, at these values. */
+  show(gains, values) {
+    this.rows = gains.map((gain) => this.makeRow(gain, values[gain.name]));
+    this.form.replaceChildren(...this.rows.map((row) => row.place));
+  }
+
+  get values() {
+    return Object.fromEntries(this.rows.map((row) => [row.gain.name, row.value]));
+  }
+
+  /** Whether a gain stands elsewhere than the fit put it. */
+  get isMoved() {
+    return this.rows.some((row) => row.value !== row.gain.value);
+  }
+
+  makeRow(gain, value) {
+    const [low, high] = endsOf(gain);
+    const place = document.createElement("div");
+    const label = element("label", "name", nameOf(gain.name));
+    const number = element("input", "number");
+    const slider = element("input", "slider");
+    const id = `gain-${gain.name}`;
+    label.htmlFor = id;
+    label.title = gain.means;
+    Object.assign(slider, { id, type: "range", min: low, max: high, step: (high - low) / STEPS });
+    Object.assign(number, { type: "text", inputMode: "decimal", spellcheck: false });
+    number.setAttribute("aria-label", `${nameOf(gain.name)} as a number`);
+    slider.setAttribute("aria-describedby", `${id}-means`);
+    const means = element("p", "means", gain.means);
+    means.id = `${id}-means`;
+    means.title = gain.means;
+    const error = element("span", "error", `± ${gain.error_text}`);
+    error.title = "one standard error";
+    const share = (one) => Math.min(Math.max((one - low) / (high - low), 0), 1);
+    slider.style.setProperty("--fit", share(gain.value));
+    const row = { gain, value, place };
+    const put = (to, { typed = false } = {}) => {
+      row.value = to;
+      slider.value = to;
+      slider.style.setProperty("--at", share(to));
+      if (!typed) number.value = short(to);
+      slider.setAttribute("aria-valuetext", `${short(to)} ${gain.unit}`);
+      place.classList.toggle("moved", to !== gain.value);
+    };
+    slider.addEventListener("input", () => { put(Number(slider.value)); this.onMove(this.values); });
+    slider.addEventListener("dblclick", () => { put(gain.value); this.onMove(this.values); });
+    number.addEventListener("input", () => {
+      const typed = Number(number.value.replace("−", "-").replace(",", "."));
+      const fine = number.value.trim() !== "" && Number.isFinite(typed);
+      number.toggleAttribute("aria-invalid", !fine);
+      if (fine) { put(typed, { typed: true }); this.onMove(this.values); }
+    });
+    number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); number.value = short(row.value); });
+    row.put = put;
+    place.className = "gain";
+    put(value);
+    const head = element("div", "top");
+    head.append(label, number, error, element("span", "unit", gain.unit));
+    place.append(head, slider, means);
+    return row;
+  }
+
+  /** Put every gain where the fit had it. */
+  reset() {
+    for (const row of this.rows) row.put(row.gain.value);
+    this.onMove(this.values);
+  }
+}
+
+/** How a gain is called. */
+export function nameOf(name) {
+  return name === "offset_rad" ? "angle" : name;
+}
+
+/** From where to where a gain can be moved. */
+function endsOf({ name, value }) {
+  if (name === "kS") return [Math.min(0, 2 * value), Math.max(2 * value, 0.6)];
+  if (name === "kG") return [value - Math.max(Math.abs(value), 0.5), value + Math.max(Math.abs(value), 0.5)];
+  if (name === "offset_rad") return [value - 0.8, value + 0.8];
+  return value > 0 ? [0.02 * value, 2 * value] : [2 * value, Math.max(-0.5 * value, 0.1)];
+}
+
+function short(value) {
+  const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
+  return String(Number(value.toPrecision(digits))).replace("-", "−");
+}
+
+function element(tag, kind, text) {
+  const made = document.createElement(tag);
+  made.className = kind;
+  if (text !== undefined) made.textContent = text;
+  return made;
+}

@@ -1,0 +1,69 @@
+// The time axis: the runs of a log one behind the other, the time between them cut out.
+
+const GAP = 0.018; // [share of all runs together] between two runs
+
+/** Where each run stands on the axis; places are seconds since the first run began. */
+export class Timeline {
+  constructor(runs) {
+    const total = runs.reduce((sum, run) => sum + lasts(run), 0) || 1;
+    const gap = GAP * total;
+    let at = 0;
+    this.runs = runs;
+    this.offsets = runs.map((run) => {
+      const begins = at;
+      at += lasts(run) + gap;
+      return begins;
+    });
+    this.end = Math.max(at - gap, 1e-3);
+  }
+
+  /** The place of a time of a run. */
+  placeOf(run, time) {
+    return this.offsets[run] + time - this.runs[run].time[0];
+  }
+
+  /** The run and the sample nearest to a place. */
+  sampleAt(place) {
+    let run = 0;
+    while (run + 1 < this.runs.length && middleOfGap(this, run) < place) run++;
+    const { time } = this.runs[run];
+    const when = place - this.offsets[run] + time[0];
+    const after = Math.min(firstNotBefore(time, when), time.length - 1);
+    const before = Math.max(after - 1, 0);
+    return { run, sample: when - time[before] < time[after] - when ? before : after };
+  }
+
+  /** The first and last place of a run. */
+  spanOf(run) {
+    return [this.offsets[run], this.offsets[run] + lasts(this.runs[run])];
+  }
+}
+
+/** The first place in a rising array whose value is not below another. */
+export function firstNotBefore(values, value) {
+  let [low, high] = [0, values.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (values[middle] < value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** Round numbers between two values, about so many. */
+export function roundTicks(low, high, count) {
+  const raw = (high - low) / Math.max(count, 1);
+  const power = 10 ** Math.floor(Math.log10(raw || 1));
+  const step = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= 0.7 * raw) ?? power;
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) ticks.push(k * step);
+  return ticks;
+}
+
+function lasts(run) {
+  return run.time.length ? run.time[run.time.length - 1] - run.time[0] : 0;
+}
+
+function middleOfGap(timeline, run) {
+  return 0.5 * (timeline.spanOf(run)[1] + timeline.offsets[run + 1]);
+}

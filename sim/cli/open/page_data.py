@@ -1,0 +1,207 @@
+"""What the page is told of a log, as plain data: runs, faults, gains with their doubts.
+
+Samples are in SI; gains and their unit are those of the log, with the factor between both.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest, Refusal
+from sim.core.units import find_unit
+from sim.io.entries.entry import NUMBERS, STRING
+
+if TYPE_CHECKING:
+    from sim.cli.open.session import OpenLog, Reading
+    from sim.core.log import Array, Log
+    from sim.fit import Fit
+    from sim.inspect.detect_faults import Inspection
+    from sim.io.entries.entry import Entry
+
+SIGNALS = ("time", "voltage", "position", "velocity")
+MOST_ENTRIES = 400  # that are listed to choose from
+PICTURE = 120  # points of an entry's picture
+LONGEST_UNIT = 40  # [characters] longer metadata is no unit
+LAGS = 1e-5  # [s] a shorter lag is none
+FEWEST = 4  # [samples] a shorter run is no test, and is not simulated
+
+
+def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
+    """Name, unit, type, runs and doubts of a log.
+
+    Raises:
+        Refusal: it cannot be read in this way.
+    """
+    from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - once needed
+
+    log = one.log(reading)
+    unit = find_unit(log.units)
+    runs = [
+        {
+            "part": name,
+            "test": run.test,
+            "samples": len(run),
+            "start": float(run.time[0]) if len(run) else 0.0,
+            "end": float(run.time[-1]) if len(run) else 0.0,
+        }
+        for name, part in one.parts(reading).items()
+        for run in part.runs
+    ]
+    return {
+        "id": one.number,
+        "name": one.name,
+        "type": log.type or "simple",
+        "units": {"name": unit.name, "symbol": unit.symbol, "si": unit.si, "angular": unit.angular},
+        "mechanism": log.mechanism,
+        "runs": runs,
+        "samples": sum(run["samples"] for run in runs),
+        "doubts": _doubts(log.doubts, one),
+        "compiles": not engine_is_cached(),
+        "compiled": engine_can_compile(),
+    }
+
+
+def pack_samples(log: "Log") -> bytes:
+    """Time, voltage, position and velocity of every run, one after another, as doubles in SI.
+
+    The least significant byte comes first.
+    """
+    signals = [getattr(run, signal) for run in log.runs for signal in SIGNALS]
+    return b"".join(np.asarray(one, dtype="<f8").tobytes() for one in signals)
+
+
+def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
+    """Faults with their places, and what else is odd."""
+    data = found.to_json()
+    for fault in data["faults"]:
+        fault["evidence"] = _without_path(fault["evidence"], one)
+    return {"faults": data["faults"], "doubts": _doubts(found.doubts, one), "clean": data["clean"]}
+
+
+def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
+    """Gains, what they rest on, and where each run begins in simulation.
+
+    Raises:
+        Refusal: the log cannot be read or fitted.
+    """
+    from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - only for people
+    from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
+
+    pooled, log = one.fit(reading), one.log(reading)
+    found = pooled.found.in_log_units()
+    rows = {row.name: row for row in make_gain_rows(found)}
+    gains = [
+        {
+            "name": name,
+            "value": value,
+            "error": _finite(found.errors.get(name, math.nan)),
+            "error_text": rows["angle" if name == "offset_rad" else name].error,
+            "unit": rows["angle" if name == "offset_rad" else name].unit,
+            "means": rows["angle" if name == "offset_rad" else name].means,
+        }
+        for name, value in found.gains.items()
+    ]
+    return {
+        "type": found.type,
+        "gains": gains,
+        "verdict": gain_verdict(found, log),
+        "doubts": _doubts(found.all_doubts(), one),
+        "notes": list(pooled.notes),
+        "parts": sorted(part.effect for part in found.parts),
+        "lag": found.position_delay if found.position_delay > LAGS else 0.0,
+        "window": max(2.0 * (found.velocity_delay - found.position_delay), 0.0),
+        "r2": _finite(found.simulated_velocity_r2),
+        "feedback": {
+            loop: {"kP": gains.kp, "kD": gains.kd} for loop, gains in found.feedback().items()
+        },
+        **_describe_starts(found, log),
+    }
+
+
+def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
+    """What forward and reverse runs, each fitted alone, say against the fit.
+
+    Raises:
+        Refusal: the log cannot be read or fitted.
+    """
+    from sim.cli.fit.against import compare_directions_alone  # noqa: PLC0415 - once it is needed
+
+    found = one.fit(reading).found
+    doubted, notes = compare_directions_alone(found, one.log(reading), patient=False)
+    more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
+    return {"doubts": _doubts(more, one), "notes": list(notes)}
+
+
+def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
+    """Where and how fast each run begins in simulation, and the noise of the velocity [SI]."""
+    from sim.fit.replay import replay_fit  # noqa: PLC0415 - simulates
+
+    try:
+        replays = iter(replay_fit(found, log))
+    except BadRequest:  # the doubts say which gain is below zero
+        return {"starts": [], "noise": None}
+    starts: list[dict[str, float] | None] = []
+    noise = None
+    for run in log.runs:
+        again = next(replays, None) if len(run) >= FEWEST else None
+        noise = again.velocity_noise if again is not None else noise
+        starts.append(
+            None
+            if again is None
+            else {
+                "first": len(run) - len(again.run),
+                "position": float(again.position[0]),
+                "velocity": float(again.velocity[0]),
+            }
+        )
+    return {"starts": starts, "noise": noise}
+
+
+def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
+    """Entries that can be signals, each with a small picture: numbers first, then texts."""
+    found = [one for one in entries if one.type in (*NUMBERS, STRING) and len(one)]
+    found.sort(key=lambda one: (one.type == STRING, one.name))
+    return [
+        {
+            "name": one.name,
+            "text": one.type == STRING,
+            "unit": one.metadata if len(one.metadata) <= LONGEST_UNIT else "",
+            "samples": len(one),
+            "picture": [] if one.type == STRING else _thin(one.numbers()),
+        }
+        for one in found[:MOST_ENTRIES]
+    ]
+
+
+def _thin(values: "Array") -> list[float]:
+    """Some of the values, from first to last; what is no number is left out."""
+    step = max(1, values.size // PICTURE)
+    return [float(f"{value:.4g}") for value in values[::step].tolist() if math.isfinite(value)]
+
+
+def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
+    """What went wrong, where, and what to do; the folder of dropped files is left out."""
+    where = refusal.where.partition(folder)[2] or refusal.where
+    place = where.replace("\\", "/").rpartition("/")[2]
+    kind = type(refusal).__name__
+    return {"what": refusal.what, "where": place, "advice": refusal.advice, "kind": kind}
+
+
+def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:
+    return [
+        {"code": doubt.code, "message": _without_path(doubt.message, one), "grave": doubt.grave}
+        for doubt in doubts
+    ]
+
+
+def _without_path(text: str, one: "OpenLog") -> str:
+    """A message that names the file as the page shows it."""
+    return text.replace(str(one.path), one.name)
+
+
+def _finite(value: float) -> float | None:
+    """A number that JSON knows."""
+    return value if math.isfinite(value) else None

@@ -1,0 +1,114 @@
+"""A search for missing effects that runs while the page waits: how far it is, and the story."""
+
+import math
+import threading
+from typing import TYPE_CHECKING, Any
+
+from sim.core.errors import Refusal
+
+if TYPE_CHECKING:
+    from sim.cli.open.session import OpenLog, Reading
+    from sim.reconcile import Story
+
+PLACES = 5  # where the base model disagrees most, that are told
+
+
+class ReconcileJob:
+    """One search, in a thread of its own.
+
+    Args:
+        one: the log.
+        reading: how it is read.
+    """
+
+    def __init__(self, one: "OpenLog", reading: "Reading") -> None:
+        self._one, self._reading = one, reading
+        self._words, self._share = "looking for damage", 0.0
+        self._story: dict[str, Any] | None = None
+        self._refusal: Refusal | None = None
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def to_json(self) -> dict[str, Any]:
+        """How far it is, and what was found once it is done.
+
+        Raises:
+            Refusal: the log cannot be reconciled.
+        """
+        if self._refusal is not None:
+            raise self._refusal
+        return {"words": self._words, "share": self._share, "story": self._story}
+
+    def _run(self) -> None:
+        """Search; whatever goes wrong is told with the next question."""
+        from sim.cli.reconcile import inspect_damage  # noqa: PLC0415 - once it is needed
+        from sim.io import read  # noqa: PLC0415 - the same
+        from sim.reconcile import reconcile  # noqa: PLC0415 - the same
+
+        try:
+            one, reading = self._one, self._reading
+            log = read(
+                one.path, units=reading.units, type=reading.type, entries=dict(reading.entries)
+            )
+            story = reconcile(
+                log,
+                type=reading.type or log.type or "simple",
+                damages={"log": inspect_damage(log)},
+                progress=self._note,
+            )
+            self._story = describe_story(story)
+        except Refusal as refusal:
+            self._refusal = refusal
+        except Exception as error:  # noqa: BLE001 - a mistake of ours must not leave the page waiting
+            self._refusal = Refusal(
+                f"our mistake, not yours ({type(error).__name__}: {error})",
+                where=self._one.name,
+                advice="Try sysid reconcile, which says more.",
+            )
+
+    def _note(self, words: str, share: float) -> None:
+        self._words, self._share = words, share
+
+
+def describe_story(story: "Story") -> dict[str, Any]:
+    """A story as plain data: sentences, and gaps in times the noise of the velocity."""
+    from sim.reconcile.story_text import (  # noqa: PLC0415 - once it is needed
+        format_gap,
+        format_parameter,
+        list_inspections,
+        list_next_tests,
+        list_remarks,
+        write_headline,
+    )
+
+    names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
+    findings = [
+        {
+            "name": " or ".join([one.effect, *one.ambiguous_with]),
+            "kind": one.kind,
+            "size": one.size,
+            "sentence": one.sentence,
+            "parameters": [format_parameter(*pair) for pair in one.parameters.items()],
+            "look": [list(pair) for pair in list_inspections(one)],
+        }
+        for one in story.findings
+    ]
+    gaps = [
+        {
+            "name": name,
+            "text": format_gap(chapter.gap, story),
+            "gap": chapter.gap / story.noise_floor
+            if math.isfinite(chapter.gap) and story.noise_floor > 0.0
+            else None,
+        }
+        for name, chapter in zip(names, story.chapters, strict=True)
+    ]
+    return {
+        "headline": write_headline(story),
+        "verdict": story.verdict,
+        "findings": findings,
+        "gaps": gaps,
+        "places": [place.sentence for place in story.where[:PLACES]],
+        "next": list(list_next_tests(story)),
+        "remarks": list(list_remarks(story)),
+        "how": story.how,
+    }

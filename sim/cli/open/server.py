@@ -1,0 +1,322 @@
+"""The server of the page: on this machine alone, for this session alone.
+
+It listens on 127.0.0.1. A request that names another host, or that a page of elsewhere makes, is
+refused, so that no site can reach it through the browser (DNS rebinding, cross-site requests). Its
+address holds a random word, so that other users of the machine cannot read the logs.
+
+Python's own ``http.server`` is enough for one person's browser, and adds nothing to the install.
+"""
+
+import json
+import math
+import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from sim.cli.open import page_data
+from sim.cli.open.session import OpenLog, Reading, Session
+from sim.core.errors import BadRequest, Refusal
+from sim.io import LARGEST_FILE
+from sim.io.entries.entry import NEEDED
+
+PAGE = Path(__file__).with_name("page")
+KINDS = {
+    ".html": "text/html; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".svg": "image/svg+xml",
+}
+HEADERS = {
+    "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'self'; img-src 'self' data:; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'; object-src 'none'",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+PIECE = 2**20  # [bytes] that are read at a time
+PATIENCE = 30.0  # [s] for the rest of a request that has begun
+
+
+class PageServer(ThreadingHTTPServer):
+    """Serves the page and what it asks about the logs of a session.
+
+    Args:
+        session: the logs that are open.
+        port: on this machine; 0 takes a free one.
+
+    Raises:
+        BadRequest: the port is taken.
+    """
+
+    daemon_threads = True
+
+    def __init__(self, session: Session, *, port: int = 0) -> None:
+        self.session = session
+        self.word = secrets.token_urlsafe(12)
+        try:
+            super().__init__(("127.0.0.1", port), PageRequest)
+        except OSError as error:
+            raise BadRequest(
+                f"port {port} cannot be used ({error.strerror or error})",
+                advice="Leave out --port; a free one is taken.",
+            ) from None
+
+    @property
+    def hosts(self) -> tuple[str, ...]:
+        """How a request of our own page names this server."""
+        port = self.server_address[1]
+        return (f"127.0.0.1:{port}", f"localhost:{port}")
+
+    @property
+    def address(self) -> str:
+        """What to open in a browser."""
+        return f"http://{self.hosts[0]}/{self.word}/"
+
+    def handle_error(self, request: object, client_address: object) -> None:
+        """Say nothing about a browser that hung up."""
+
+
+class PageRequest(BaseHTTPRequestHandler):
+    """One request."""
+
+    server: PageServer
+    protocol_version = "HTTP/1.1"
+    server_version = "sysid"
+    sys_version = ""
+    timeout = PATIENCE
+
+    def do_GET(self) -> None:
+        """A file of the page, or what is known of a log."""
+        self._answer(self._get)
+
+    def do_POST(self) -> None:
+        """A dropped file, or the example."""
+        self._answer(self._post)
+
+    def do_DELETE(self) -> None:
+        """Close a log."""
+        self._answer(self._delete)
+
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name in http.server
+        """Print nothing: the terminal is for the address."""
+
+    def _answer(self, method: Callable[[list[str], Mapping[str, str]], None]) -> None:
+        """Answer a request; whatever goes wrong is said to the page, and the server goes on."""
+        try:
+            address = urlsplit(self.path)
+            steps = address.path.strip("/").split("/")
+            if not self._is_ours():
+                self._refuse(HTTPStatus.FORBIDDEN, "this page answers only to itself")
+            elif not secrets.compare_digest(steps[0].encode(), self.server.word.encode()):
+                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+            else:
+                query = {name: values[-1] for name, values in parse_qs(address.query).items()}
+                method(steps[1:], query)
+        except Refusal as refusal:
+            folder = str(self.server.session.folder)
+            said = page_data.describe_refusal(refusal, folder)
+            self._send_json({"refusal": said}, HTTPStatus.UNPROCESSABLE_ENTITY)
+        except (ConnectionError, TimeoutError):
+            self.close_connection = True
+        except Exception as error:  # noqa: BLE001 - one broken log must not end the others
+            what = f"our mistake, not yours ({type(error).__name__}: {error})"
+            said = {"what": what, "where": "", "advice": "Try sysid fit, which says more."}
+            self._send_json({"refusal": said}, HTTPStatus.INTERNAL_SERVER_ERROR)
+
+    def _is_ours(self) -> bool:
+        """Whether our own page asks, by our own name."""
+        hosts = self.server.hosts
+        origin = self.headers.get("Origin")
+        return self.headers.get("Host") in hosts and (
+            origin is None or origin in {f"http://{host}" for host in hosts}
+        )
+
+    def _get(self, steps: list[str], query: Mapping[str, str]) -> None:
+        match steps:
+            case [] | [""]:
+                self._send_file("index.html")
+            case ["logs"]:
+                self._send_json([_name(one) for one in self.server.session.logs])
+            case ["logs", number, what]:
+                self._send_of_log(self._log(number), what, query)
+            case [name]:
+                self._send_file(name)
+            case _:
+                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _post(self, steps: list[str], query: Mapping[str, str]) -> None:
+        match steps:
+            case ["logs"]:
+                name, path = self.server.session.place_for(query.get("name", "log"))
+                self._receive(path)
+                self._send_json(_name(self.server.session.add(name, path)))
+            case ["example"]:
+                self._drain()
+                self.server.session.import_everything()
+                self._send_json(_name(self.server.session.add_example()))
+            case _:
+                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _delete(self, steps: list[str], _query: Mapping[str, str]) -> None:
+        self._drain()
+        match steps:
+            case ["logs", number]:
+                self.server.session.close(self._log(number).number)
+                self._send_json({})
+            case _:
+                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _log(self, number: str) -> OpenLog:
+        return self.server.session.find(int(number) if number.isdecimal() else 0)
+
+    def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
+        """What the page asks about one log."""
+        self.server.session.import_everything()
+        chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
+        reading = Reading(query.get("units") or None, query.get("type") or None, chosen)
+        match what:
+            case "summary":
+                self._send_json(page_data.describe_log(one, reading))
+            case "entries":
+                self._send_json(page_data.describe_entries(one.entries()))
+            case "samples":
+                content = page_data.pack_samples(one.log(reading))
+                self._send(content, "application/octet-stream")
+            case "faults":
+                found = page_data.describe_faults(one.inspection(reading), one)
+                self._send_json(found)
+            case "fit":
+                self._send_json(page_data.describe_fit(one, reading))
+            case "directions":
+                self._send_json(page_data.describe_directions(one, reading))
+            case "reconcile":
+                self._send_json(one.reconcile(reading).to_json())
+            case "code":
+                self._send_json(_write_code(one, reading, query))
+            case "report.html":
+                self._send(_write_report(one, reading).encode(), KINDS[".html"], page=True)
+            case _:
+                self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _receive(self, path: Path) -> None:
+        """Write the body of a request into a file.
+
+        Raises:
+            BadRequest: it has no length, or is too large.
+        """
+        length = self.headers.get("Content-Length", "")
+        if not length.isdecimal():
+            self.close_connection = True
+            raise BadRequest("the file has no length", advice="Drop it again.")
+        left = int(length)
+        if left > LARGEST_FILE:
+            self.close_connection = True
+            raise BadRequest(
+                f"the file has {left / 2**30:.1f} GiB, the most that is read is "
+                f"{LARGEST_FILE / 2**30:.0f} GiB",
+                advice="Export only the four tests from it, with AdvantageScope for example.",
+            )
+        with path.open("wb") as stream:
+            while left:
+                piece = self.rfile.read(min(left, PIECE))
+                if not piece:
+                    raise ConnectionAbortedError
+                stream.write(piece)
+                left -= len(piece)
+
+    def _drain(self) -> None:
+        """Read a body that is not needed, so that the next request of this connection is found."""
+        length = self.headers.get("Content-Length", "0")
+        if length.isdecimal() and int(length) <= PIECE:
+            self.rfile.read(int(length))
+        else:
+            self.close_connection = True
+
+    def _send_file(self, name: str) -> None:
+        """A file of the page; the folder is listed, so no path leads out of it."""
+        files = {path.name: path for path in PAGE.iterdir() if path.suffix in KINDS}
+        if name in files:
+            self._send(files[name].read_bytes(), KINDS[files[name].suffix])
+        else:
+            self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
+
+    def _send_json(self, data: object, status: HTTPStatus = HTTPStatus.OK) -> None:
+        content = json.dumps(data, allow_nan=False).encode()
+        self._send(content, "application/json", status=status)
+
+    def _refuse(self, status: HTTPStatus, what: str) -> None:
+        self.close_connection = True  # a body that came along is not read
+        said = {"what": what, "where": "", "advice": "Open the address that sysid open printed."}
+        self._send_json({"refusal": said}, status)
+
+    def _send(
+        self, content: bytes, kind: str, *, status: HTTPStatus = HTTPStatus.OK, page: bool = False
+    ) -> None:
+        """Send a whole answer; ``page`` is one of our reports, which brings a policy of its own."""
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(content)))
+        for name, value in HEADERS.items():
+            if not (page and name == "Content-Security-Policy"):
+                self.send_header(name, value)
+        if self.close_connection:
+            self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(content)
+
+
+def _name(one: OpenLog) -> dict[str, Any]:
+    return {"id": one.number, "name": one.name}
+
+
+def _write_code(one: OpenLog, reading: Reading, query: Mapping[str, str]) -> dict[str, str]:
+    """Robot code for the gains of a log, or for those that a person moved away from them.
+
+    Raises:
+        Refusal: the log cannot be fitted, or its gains cannot be written as code.
+    """
+    from sim.report.robot_code_snippet import LANGUAGES, SEASONS, write_robot_code  # noqa: PLC0415 - once needed
+
+    language, season = query.get("language", "java"), query.get("season", "2026")
+    if language not in LANGUAGES or season not in map(str, SEASONS):
+        raise BadRequest("there is no such language or season", advice="Choose java and 2026.")
+    found = one.fit(reading).found.in_log_units()
+    moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
+    errors = {name: error for name, error in found.errors.items() if name not in moved}
+    found = replace(found, gains={**found.gains, **moved}, errors=errors)  # a hand has no error
+    code = write_robot_code(found, language=language, season=int(season))
+    if moved:
+        code = (
+            f"{LANGUAGES[language].comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
+        )
+    return {"code": code}
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is a finite number."""
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _write_report(one: OpenLog, reading: Reading) -> str:
+    """The page that ``sysid fit --html`` writes.
+
+    Raises:
+        Refusal: the log cannot be fitted.
+    """
+    from sim.feedback import PRESETS  # noqa: PLC0415 - once it is needed
+    from sim.fit.feedback_trial import try_feedback_gains  # noqa: PLC0415 - the same
+    from sim.report import Report, render_page  # noqa: PLC0415 - draws
+
+    pooled, preset = one.fit(reading), PRESETS["default"]
+    found = pooled.found.in_log_units()
+    tried = try_feedback_gains(found, preset)
+    return render_page(Report(one.name, found, one.log(reading), preset, tried, pooled.notes))

@@ -1,0 +1,271 @@
+"""The logs that are open on the page: read, inspected and fitted, each once."""
+
+import re
+import shutil
+import threading
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from sim.core.errors import BadRequest, Refusal
+
+if TYPE_CHECKING:
+    from sim.cli.fit.parts import PooledParts
+    from sim.cli.open.reconcile_job import ReconcileJob
+    from sim.core.log import Log
+    from sim.inspect.detect_faults import Inspection
+    from sim.io.entries.entry import Entry
+
+Result = TypeVar("Result")
+
+MOST_LOGS = 64  # open at a time: more of them nobody compares
+LONGEST_NAME = 120  # [characters] of a file's name
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a log is to be read.
+
+    Args:
+        units: of its positions; None believes the file.
+        type: of the mechanism; None believes the file.
+        entries: signal and the entry that a person chose for it; others are looked for by name.
+    """
+
+    units: str | None = None
+    type: str | None = None
+    entries: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def needs_slope(self) -> bool:
+        """Whether a position was chosen and no velocity: its slope is the velocity."""
+        chosen = dict(self.entries)
+        return "position" in chosen and "velocity" not in chosen
+
+
+@dataclass(eq=False)
+class OpenLog:
+    """One file that is open on the page.
+
+    What is computed is kept, and computed once even where several requests ask at a time.
+
+    Args:
+        number: from 1.
+        name: of the file, as it is shown.
+        path: where it lies.
+    """
+
+    number: int
+    name: str
+    path: Path
+    _kept: dict[Hashable, Any] = field(default_factory=dict)
+    _locks: dict[Hashable, threading.Lock] = field(default_factory=dict)
+
+    def parts(self, reading: Reading) -> "dict[str, Log]":
+        """The log of each motor or side by its name.
+
+        Raises:
+            Refusal: the file cannot be read in this way.
+        """
+
+        def read() -> "dict[str, Log]":
+            from sim.cli.options import read_parts  # noqa: PLC0415 - reads formats
+
+            return dict(
+                read_parts(
+                    [self.path], units=reading.units, type=reading.type, motor=None,
+                    entries=dict(reading.entries),
+                    velocity=None if reading.needs_slope else 1.0, pick=None,
+                )
+            )  # fmt: skip
+
+        return self._once(("parts", reading), read)
+
+    def log(self, reading: Reading) -> "Log":
+        """All runs of all parts as one log.
+
+        Raises:
+            Refusal: as ``parts``.
+        """
+        from sim.cli.fit.parts import joined_log  # noqa: PLC0415 - with the formats
+
+        return self._once(("log", reading), lambda: joined_log(self.parts(reading)))
+
+    def entries(self) -> "list[Entry]":
+        """The entries of the file, for a person who chooses signals.
+
+        Raises:
+            Refusal: it cannot be read, or has no entries with names.
+        """
+        from sim.io import list_entries  # noqa: PLC0415 - reads formats
+
+        return self._once("entries", lambda: list_entries(self.path))
+
+    def inspection(self, reading: Reading) -> "Inspection":
+        """What is wrong with the record.
+
+        Raises:
+            Refusal: as ``parts``.
+        """
+        from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - once it is needed
+
+        return self._once(("faults", reading), lambda: inspect(self.log(reading)))
+
+    def fit(self, reading: Reading) -> "PooledParts":
+        """The gains, in the unit of the log.
+
+        Raises:
+            Refusal: as ``parts``, or the log cannot be fitted.
+        """
+
+        def find() -> "PooledParts":
+            from sim.cli.fit.parts import fit_parts, kind_of_parts  # noqa: PLC0415 - once needed
+            from sim.fit import fit  # noqa: PLC0415 - the same
+
+            parts = self.parts(reading)
+            return fit_parts(
+                parts, lambda log: fit(log, type=reading.type or ""), kind=kind_of_parts(parts, 1)
+            )
+
+        return self._once(("fit", reading), find)
+
+    def reconcile(self, reading: Reading) -> "ReconcileJob":
+        """The search for missing effects, begun when it is first asked for."""
+        from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
+
+        return self._once(("reconcile", reading), lambda: ReconcileJob(self, reading))
+
+    def _once(self, key: Hashable, make: Callable[[], Result]) -> Result:
+        """What was made before under this key, or what is made now; a refusal is kept, too."""
+        with self._locks.setdefault(key, threading.Lock()):
+            if key not in self._kept:
+                try:
+                    self._kept[key] = make()
+                except Refusal as refusal:
+                    self._kept[key] = refusal
+            found = self._kept[key]
+        if isinstance(found, Refusal):
+            raise found
+        kept: Result = found
+        return kept
+
+
+class Session:
+    """All files that are open, those named on the command line first.
+
+    Args:
+        folder: of this session alone, where dropped files are written.
+        files: named on the command line.
+    """
+
+    def __init__(self, folder: Path, files: Sequence[Path] = ()) -> None:
+        self.folder = folder
+        self._numbers = count(1)
+        self._logs: dict[int, OpenLog] = {}
+        self._lock = threading.Lock()
+        self._imports = threading.Lock()
+        for file in files:
+            self.add(file.name, file)
+
+    @property
+    def logs(self) -> tuple[OpenLog, ...]:
+        """Those that are open, in the order in which they came."""
+        with self._lock:
+            return tuple(self._logs.values())
+
+    def add(self, name: str, path: Path) -> OpenLog:
+        """Open a file.
+
+        Args:
+            name: to show.
+            path: where it lies.
+
+        Raises:
+            BadRequest: too many are open.
+        """
+        with self._lock:
+            if len(self._logs) >= MOST_LOGS:
+                raise BadRequest(f"{MOST_LOGS} logs are open", advice="Close some of them.")
+            one = OpenLog(next(self._numbers), name, path)
+            self._logs[one.number] = one
+            return one
+
+    def place_for(self, name: str) -> tuple[str, Path]:
+        """A name that any system can write, and a new path for a dropped file of that name."""
+        plain = re.sub(r"[^\w. ()+-]", "_", Path(name.replace("\\", "/")).name).strip(". ")
+        plain = plain[-LONGEST_NAME:] or "log"
+        folder = self.folder / str(next(self._numbers))
+        folder.mkdir()
+        return plain, folder / plain
+
+    def find(self, number: int) -> OpenLog:
+        """An open log.
+
+        Raises:
+            BadRequest: it is not open.
+        """
+        with self._lock:
+            found = self._logs.get(number)
+        if found is None:
+            raise BadRequest("this log is not open any more", advice="Drop its file again.")
+        return found
+
+    def close(self, number: int) -> None:
+        """Forget a log, and remove its file if it was dropped."""
+        with self._lock:
+            one = self._logs.pop(number, None)
+        if one is not None and one.path.is_relative_to(self.folder):
+            shutil.rmtree(one.path.parent, ignore_errors=True)
+
+    def add_example(self) -> OpenLog:
+        """Open a simulated drivetrain's log in which the encoder slipped."""
+        import numpy as np  # noqa: PLC0415 - once it is needed
+
+        from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+        from sim.bench.routine import Routine  # noqa: PLC0415 - the same
+        from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
+        from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - the same
+        from sim.io import write  # noqa: PLC0415 - the same
+
+        rng = np.random.default_rng(4)
+        log = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng)
+        spoiled = contaminate(
+            log, "encoder-slip", severity=1.0, test="quasistatic-forward", at=5.5, rng=rng
+        )
+        name, path = self.place_for("example drivetrain.wpilog")
+        write(spoiled.log, path)
+        return self.add(name, path)
+
+    def import_everything(self) -> None:
+        """Import what requests need, once and in one thread.
+
+        Requests run in threads, and two threads that import modules which import one another can
+        find one of them half made.
+        """
+        with self._imports:
+            import sim.bench.mechanisms  # noqa: PLC0415 - so that the address is printed at once
+            import sim.bench.simulate  # noqa: PLC0415 - the same
+            import sim.cli.fit.against  # noqa: PLC0415 - the same
+            import sim.cli.fit.parts  # noqa: PLC0415 - the same
+            import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
+            import sim.cli.options  # noqa: PLC0415 - the same
+            import sim.cli.reconcile  # noqa: PLC0415 - the same
+            import sim.fit.physics  # noqa: PLC0415 - the same
+            import sim.fit.pooled  # noqa: PLC0415 - the same
+            import sim.inspect.contaminate  # noqa: PLC0415 - the same
+            import sim.inspect.detect_faults  # noqa: PLC0415 - the same
+            import sim.io.formats.csv  # noqa: PLC0415 - the same
+            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
+            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
+            import sim.reconcile.dropout_intervals  # noqa: PLC0415 - the same
+            import sim.reconcile.story_text  # noqa: PLC0415 - the same
+            import sim.report  # noqa: F401, PLC0415 - the same
+
+    def warm_up(self) -> None:
+        """Load what the first log needs, so that it need not wait for it."""
+        self.import_everything()
+        from sim.physics.engine import load_engine  # noqa: PLC0415 - that is the point of it
+
+        load_engine()

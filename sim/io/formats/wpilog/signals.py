@@ -1,0 +1,97 @@
+"""Writing any signals as a WPILOG file, to be looked at side by side in another tool.
+
+Every signal is an entry of doubles; a text, such as the name of a test, is an entry of strings that
+is written when it changes.
+"""
+
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from sim.core.errors import BadRequest
+from sim.core.log import Array
+from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.records import MAGIC, MAJOR
+from sim.support.atomic_file import write_atomically
+
+SECOND = 1e6  # [µs]
+MOST = 255  # [entries] whose number takes one byte
+
+
+@dataclass(frozen=True, eq=False)
+class SignalGroup:
+    """Signals that share their times.
+
+    Args:
+        time: (n,) [s], from 0 up.
+        signals: name of the entry -> (n,) values.
+        texts: name of the entry -> when [s] and what, in the order of time.
+    """
+
+    time: Array
+    signals: Mapping[str, Array]
+    texts: Mapping[str, Sequence[tuple[float, str]]] = field(default_factory=dict)
+
+
+def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[str, str]) -> None:
+    """Write groups of signals as one file, in the order of time, whole or not at all.
+
+    Args:
+        groups: entries of the same name go on in the next group.
+        path: the file, ending in .wpilog.
+        units: name of an entry -> its unit, for the entry's metadata.
+
+    Raises:
+        BadRequest: the name does not end in .wpilog, there are too many entries, or the file
+            cannot be written.
+    """
+    if path.suffix.lower() != ".wpilog":
+        raise BadRequest(
+            f"no WPILOG ends in {path.suffix or 'nothing'!r}",
+            where=str(path),
+            advice="End its name in .wpilog.",
+        )
+    kinds: dict[str, str] = {}
+    for group in groups:
+        kinds |= dict.fromkeys(group.signals, "double") | dict.fromkeys(group.texts, "string")
+    if len(kinds) > MOST:
+        raise BadRequest(
+            f"{len(kinds)} entries are more than the {MOST} that are written",
+            where=str(path),
+            advice="Fit fewer motors at a time.",
+        )
+    ids = {name: number for number, name in enumerate(kinds, start=1)}
+    starts = [
+        (0, 0, start_payload(Start(number, name, kinds[name], units.get(name, ""))))
+        for name, number in ids.items()
+    ]
+    records = sorted(
+        (record for group in groups for record in _list_records(group, ids)),
+        key=lambda record: record[0],
+    )
+    head = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
+    try:
+        write_atomically(path, head + b"".join(_pack(*one) for one in (*starts, *records)))
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be written ({error.strerror or error})",
+            where=str(path),
+            advice="Choose a folder that exists and that you may write to.",
+        ) from None
+
+
+def _list_records(group: SignalGroup, ids: Mapping[str, int]) -> Iterator[tuple[int, int, bytes]]:
+    """Time [µs], number of the entry, and payload of each record."""
+    times = [round(SECOND * time) for time in group.time.tolist()]
+    for name, values in group.signals.items():
+        for time, value in zip(times, values.tolist(), strict=True):
+            yield max(time, 0), ids[name], struct.pack("<d", value)
+    for name, changes in group.texts.items():
+        for when, text in changes:
+            yield max(round(SECOND * when), 0), ids[name], text.encode()
+
+
+def _pack(time: int, number: int, payload: bytes) -> bytes:
+    """One record: four bytes for its size, eight for its time, one for the entry's number."""
+    return struct.pack("<BBIQ", 0b01111100, number, len(payload), time) + payload

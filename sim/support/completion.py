@@ -1,0 +1,47 @@
+"""Completion of names in a shell: what a person may type, without importing any of it."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+from click.shell_completion import CompletionItem
+
+NAME = re.compile(r'^    name="([\w-]+)"', re.MULTILINE)
+Completion = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
+
+
+def complete_members(folder: Path) -> Completion:
+    """A completion of the members of a catalogue, by the name that each file gives itself.
+
+    Args:
+        folder: of the catalogue.
+    """
+
+    def complete(
+        _context: click.Context, _parameter: click.Parameter, begun: str
+    ) -> list[CompletionItem]:
+        names = sorted(map(_read_name, folder.glob("[!_]*.py")))
+        return [CompletionItem(name) for name in names if name.startswith(begun)]
+
+    return complete
+
+
+def _read_name(path: Path) -> str:
+    """The name of a member, read from its text: an import would take longer than one waits."""
+    found = NAME.search(path.read_text(encoding="utf-8"))
+    return found[1] if found else path.stem.replace("_", "-")
+
+
+def explain_completion(command: str) -> str:
+    """How to switch completion on, for the end of a command's help.
+
+    Args:
+        command: as it is typed.
+    """
+    variable = f"_{command.upper()}_COMPLETE"
+    return (
+        f'Names are completed with Tab after, in bash: eval "$({variable}=bash_source {command})"; '
+        f'in zsh: eval "$({variable}=zsh_source {command})"; '
+        f"in fish: {variable}=fish_source {command} | source"
+    )

@@ -1,0 +1,71 @@
+"""Tab completes what a person types: commands, options, mechanisms, effects, faults, exercises."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from grader.exercise import list_exercises
+from sim.bench.mechanisms import MECHANISMS
+from sim.inspect.faults import FAULTS
+from sim.physics.effects import EFFECTS
+
+ROOT = Path(__file__).resolve().parents[1]
+PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
+
+
+def complete(line, cwd=ROOT):
+    """What bash would offer at the end of a line."""
+    words = line.split(" ")
+    told = {
+        "COMP_WORDS": line,
+        "COMP_CWORD": str(len(words) - 1),
+        f"_{words[0].upper()}_COMPLETE": "bash_complete",
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", f"from {PROGRAMS[words[0]]} import main; main()"],
+        cwd=cwd, env={**os.environ, **told}, capture_output=True, encoding="utf-8", check=False,
+    )  # fmt: skip
+    assert done.stderr == ""
+    return {row.partition(",")[2] for row in done.stdout.splitlines()}
+
+
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("sysid f", {"fit", "faults"}),
+        ("sysid simulate ", set(MECHANISMS)),
+        ("sysid simulate arm --hide ", set(EFFECTS)),
+        ("sysid simulate arm --fault ", set(FAULTS)),
+        ("sysid contaminate a.csv --fault enc", {"encoder-slip"}),
+        ("sysid fit --met", {"--method"}),
+        ("sysid fit --type ", {"simple", "elevator", "arm"}),
+        ("grade exercise1", {"exercise1", "exercise10", "exercise11", "exercise12"}),
+        ("grade watch pr", {"practice"}),
+        ("grade rel", {"release"}),
+    ],
+)
+def test_tab_offers(line, offered):
+    assert complete(line) == offered
+
+
+def test_every_exercise_is_offered():
+    assert {one.name for one in list_exercises(ROOT)} <= complete("grade ")
+
+
+def test_outside_of_a_course_nothing_is_wrong(tmp_path):
+    assert "start" in complete("grade ", cwd=tmp_path)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_help_says_how_to_switch_it_on(name):
+    done = subprocess.run(
+        [sys.executable, "-c", f"from {PROGRAMS[name]} import main; main()", "--help"],
+        cwd=ROOT, capture_output=True, encoding="utf-8", check=False,
+    )  # fmt: skip
+    said = " ".join(done.stdout.split())
+
+    for shell in ("bash", "zsh", "fish"):
+        assert f"_{name.upper()}_COMPLETE={shell}_source {name}" in said

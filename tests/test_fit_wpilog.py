@@ -1,0 +1,96 @@
+"""`sysid fit --wpilog`: measured, simulated and residual as a log, which reads back as written."""
+
+import json
+
+import numpy as np
+import pytest
+from old_tools import sysid as sysid_file
+from open_page import drive_log, slipped_log, write_log
+
+from sim.cli import sysid
+from sim.cli.fit.wpilog import write_replay
+from sim.core.errors import BadRequest
+from sim.fit import fit
+from sim.fit.replay import replay_fit
+from sim.io import list_entries, read, read_motors
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
+from sim.support.command_line import run_command
+
+RESIDUAL = 1e-9  # [m/s] of a double after a division and a difference
+
+
+def run(*words):
+    """The exit code of the command."""
+    return run_command(sysid, name="sysid", arguments=[str(word) for word in words])
+
+
+def signal_of(path, kind, *, units="meters", top="/sysid"):
+    """One kind of signals in such a file, read as a log of its own."""
+    entries = {
+        "voltage": f"{top}/voltage",
+        "position": f"{top}/{kind}/position",
+        "velocity": f"{top}/{kind}/velocity",
+        "state": f"{top}/test",
+    }
+    return read(path, units=units, entries=entries)
+
+
+@pytest.mark.parametrize("name", ["drive.csv", "drive.wpilog"])
+def test_measured_and_simulated_stand_beside_each_other(tmp_path, name):
+    file, out = write_log(drive_log(), tmp_path / name), tmp_path / "out.wpilog"
+    assert run("fit", file, "--wpilog", out) == 0
+    log = read(file)
+    replays = replay_fit(fit(log), log)
+    measured, simulated, residual = (
+        signal_of(out, kind) for kind in ("measured", "simulated", "residual")
+    )
+
+    for k, replay in enumerate(replays):
+        assert measured.runs[k].test == replay.run.test
+        np.testing.assert_allclose(measured.runs[k].time, replay.run.time, atol=1e-6)
+        np.testing.assert_array_equal(measured.runs[k].velocity, replay.run.velocity)
+        np.testing.assert_allclose(simulated.runs[k].velocity, replay.velocity, atol=RESIDUAL)
+        np.testing.assert_allclose(simulated.runs[k].position, replay.position, atol=RESIDUAL)
+        np.testing.assert_allclose(
+            residual.runs[k].velocity,
+            measured.runs[k].velocity - simulated.runs[k].velocity,
+            atol=RESIDUAL,
+        )
+
+
+def test_each_side_of_a_drivetrain_stands_below_its_name(tmp_path):
+    made = sysid_file(9, "Drivetrain")
+    (tmp_path / "sides.json").write_text(json.dumps(made), encoding="utf-8")
+    logs = read_motors(tmp_path / "sides.json")
+    found = fit(drive_log())
+    write_replay(found, logs, tmp_path / "out.wpilog")
+    names = {entry.name for entry in list_entries(tmp_path / "out.wpilog")}
+
+    assert {"/sysid/left/residual/velocity", "/sysid/right/residual/velocity"} <= names
+
+
+def test_faults_are_marked(tmp_path):
+    file, out = write_log(slipped_log(), tmp_path / "drive.csv"), tmp_path / "out.wpilog"
+    run("fit", file, "--wpilog", out)
+
+    assert "/sysid/fault" in {entry.name for entry in list_entries(out)}
+    assert b"encoder-slip" in out.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("name", "says"), [("out.csv", "End its name in .wpilog."), ("no/out.wpilog", "cannot be")]
+)
+def test_a_place_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys, name, says):
+    file = write_log(drive_log(), tmp_path / "drive.csv")
+
+    assert run("fit", file, "--wpilog", tmp_path / name) == 2
+    said = capsys.readouterr().err
+    assert says in said
+    assert said.count("\n") == 1
+
+
+def test_too_many_entries_are_refused(tmp_path):
+    group = SignalGroup(np.zeros(1), {f"/sysid/{k}": np.zeros(1) for k in range(300)})
+
+    with pytest.raises(BadRequest, match="300 entries are more"):
+        write_signals([group], tmp_path / "out.wpilog", units={})

@@ -1,0 +1,430 @@
+"""The page of `sysid open` in a real browser: drop logs, move gains, nothing asked of elsewhere."""
+
+import base64
+import re
+import shutil
+import time
+
+import numpy as np
+import pytest
+from open_page import BROKEN, drive_log, served, slipped_log, write_log, write_old_json
+
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.fit import fit
+from sim.fit.replay import replay_fit
+from sim.io import read
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = ["--no-sandbox", "--disable-gpu"]  # a container runs as root, where no sandbox can start
+LEAST_PICTURES = 20.0  # [1/s] while a gain is dragged
+FIRST_PICTURE, GAINS = 1.0, 2.0  # [s] from the drop; twice as long is let pass on a busy machine
+BUSY = 2.0
+DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
+PATIENCE = 30_000  # [ms]
+DROP = """(files) => {
+    const given = new DataTransfer();
+    for (const {name, content} of files) {
+        const bytes = Uint8Array.from(atob(content), one => one.charCodeAt(0));
+        given.items.add(new File([bytes], name));
+    }
+    window.dispatchEvent(new DragEvent('drop', {dataTransfer: given, bubbles: true}));
+}"""
+DROP_AND_TIME = """(file) => {
+    const began = performance.now();
+    const seen = {};
+    return new Promise((done) => {
+        const look = () => {
+            if (!seen.picture && sysid.chart.runs.length && sysid.chart.pictures) {
+                seen.picture = (performance.now() - began) / 1000;
+            }
+            if (document.querySelector('.gain')) {
+                done({...seen, gains: (performance.now() - began) / 1000});
+            } else requestAnimationFrame(look);
+        };
+        (DROP)([file]);
+        look();
+    });
+}""".replace("(DROP)", f"({DROP})")
+DRAG = """async ({id, seconds}) => {
+    const slider = document.getElementById(id);
+    const [low, high] = [Number(slider.min), Number(slider.max)];
+    const [began, before] = [performance.now(), sysid.chart.pictures];
+    while (performance.now() - began < 1000 * seconds) {
+        const share = 0.5 + 0.4 * Math.sin((performance.now() - began) / 90);
+        slider.value = low + share * (high - low);
+        slider.dispatchEvent(new Event('input', {bubbles: true}));
+        await new Promise(requestAnimationFrame);
+    }
+    return (sysid.chart.pictures - before) / seconds;
+}"""
+SET = """(slider, value) => {
+    slider.value = value;
+    slider.dispatchEvent(new Event('input', {bubbles: true}));
+}"""
+CURVE = "[...sysid.logs.values()][0].simulated.map(one => one && [...one.velocity])"
+
+LEAST_CONTRAST = 4.5  # of text against its ground: WCAG 2.2, level AA
+FAINTEST = """() => {
+    const canvas = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});
+    const light = ground => color => {
+        canvas.fillStyle = ground;
+        canvas.fillRect(0, 0, 1, 1);
+        canvas.fillStyle = color;
+        canvas.fillRect(0, 0, 1, 1);
+        return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3).map(c => c / 255)
+            .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+            .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+    };
+    const groundOf = node => {
+        for (; node; node = node.parentElement) {
+            const color = getComputedStyle(node).backgroundColor;
+            if (!/, 0\\)|\\/ 0|transparent|0\\.0/.test(color)) return color;
+        }
+        return 'white';
+    };
+    const texts = document.querySelectorAll(
+        '#work h1, #work h2, #work h3, #work p, #work dt, #work dd, #work label, #work li, kbd,'
+        + '.tab button.name, #work .button:not([hidden]):not(:disabled), .chip');
+    return Math.min(...[...texts].filter(node => node.checkVisibility()).map(node => {
+        const ground = groundOf(node);
+        const [a, b] = [getComputedStyle(node).color, ground].map(light(ground));
+        return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    }));
+}"""
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A Chromium without a window."""
+    playwright = pytest.importorskip(
+        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
+    )
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
+    with playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
+        yield chromium
+        chromium.close()
+
+
+@pytest.fixture
+def server(tmp_path):
+    """A page without logs."""
+    (tmp_path / "session").mkdir()
+    with served(tmp_path / "session") as running:
+        running.session.warm_up()
+        yield running
+
+
+@pytest.fixture
+def page(browser, server):
+    """The page on a desktop; what it asks for and complains of is noted."""
+    with opened(browser, server.address) as one:
+        yield one
+
+
+class opened:  # noqa: N801 - used as a function
+    """A tab with the page."""
+
+    def __init__(self, browser, address, viewport=DESKTOP, theme="light"):
+        self.page = browser.new_page(viewport=viewport, color_scheme=theme)
+        self.page.set_default_timeout(PATIENCE)
+        self.page.asked, self.page.complaints = [], []
+        self.page.on("request", lambda one: self.page.asked.append(one.url))
+        self.page.on("pageerror", lambda one: self.page.complaints.append(str(one)))
+        self.page.goto(address)
+
+    def __enter__(self):
+        return self.page
+
+    def __exit__(self, *_):
+        self.page.close()
+
+
+def drop(page, *files):
+    """Drop files on the page, as a hand does."""
+    page.evaluate(DROP, [as_dropped(file.name, file.read_bytes()) for file in files])
+
+
+def as_dropped(name, content):
+    return {"name": name, "content": base64.b64encode(content).decode()}
+
+
+def wait_until(page, expression):
+    """Wait until something is so; the page's policy forbids what Playwright has for it."""
+    last = time.monotonic() + PATIENCE / 1000
+    while not page.evaluate(expression):
+        assert time.monotonic() < last, expression
+        page.wait_for_timeout(50)
+
+
+def error_shown(page):
+    """The simulation error on the page, in the log's unit per second."""
+    return float(re.match(r"[\d.]+", page.locator("#meter .big").inner_text())[0])
+
+
+def write_each(folder):
+    """The same log in every format."""
+    log = drive_log()
+    return [
+        write_log(log, folder / "drive.wpilog"),
+        write_log(log, folder / "drive.csv"),
+        write_old_json(log, folder / "drive.json"),
+    ]
+
+
+def test_each_format_is_shown_and_fitted_alike(page, tmp_path):
+    for file in write_each(tmp_path):
+        drop(page, file)
+        page.locator(".tab.now .name", has_text=file.name).or_(
+            page.locator(".tab .name", has_text=file.name)
+        ).click()
+        page.locator("h1#title", has_text=file.name).wait_for()
+        page.locator("#gain-kV").wait_for()
+
+        assert float(page.get_by_label("kV as a number").input_value()) == pytest.approx(
+            2.5238, rel=2e-3
+        )
+        assert page.locator(".chip").count() == 5
+        page.locator("#faults .well").wait_for()
+    assert page.locator(".tab").count() == 3
+    assert page.complaints == []
+
+
+def test_faults_are_listed_and_marked_and_shown_on_demand(page, tmp_path):
+    drop(page, write_log(slipped_log(), tmp_path / "slipped.csv"))
+    page.locator("li.fault h3", has_text="encoder slip").wait_for()
+    page.get_by_role("button", name="Show", exact=True).click()
+    view = page.evaluate("sysid.chart.view")
+
+    assert page.evaluate("sysid.chart.faults.length") == 1
+    assert view[1] - view[0] < 3.0
+    assert page.locator("#readout .run dd").inner_text() == "quasistatic-forward"
+
+
+def test_a_broken_file_is_explained_and_the_others_stay(page, tmp_path):
+    good = write_log(drive_log(), tmp_path / "good.csv")
+    broken = tmp_path / "garbage.wpilog"
+    broken.write_bytes(BROKEN["garbage.wpilog"])
+    drop(page, broken, good)
+    page.locator(".refusal h3", has_text="garbage.wpilog").wait_for()
+    page.locator("#gain-kV").wait_for()
+
+    assert page.locator(".tab").count() == 1
+    assert page.locator(".refusal .advice").inner_text()
+    page.get_by_label("Close this message").click()
+    assert page.locator(".refusal").count() == 0
+    assert page.complaints == []
+
+
+def test_ten_broken_files_do_not_end_the_page(page, tmp_path):
+    page.evaluate(DROP, [as_dropped(*one) for one in BROKEN.items()])
+    wait_until(
+        page,
+        "document.querySelectorAll('.refusal').length + document.querySelectorAll('.tab').length"
+        f" === {len(BROKEN)}",
+    )
+    drop(page, write_log(drive_log(), tmp_path / "good.csv"))
+    page.locator(".tab .name", has_text="good.csv").click()
+    page.locator("#gain-kV").wait_for()
+
+    assert page.complaints == []
+
+
+def test_a_dragged_gain_moves_the_curve_and_the_error_in_time(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
+    page.locator("#gain-kV").wait_for()
+    before, curve = error_shown(page), page.evaluate(CURVE)
+    page.locator("#gain-kV").evaluate(SET, 3.2)
+    page.get_by_text("× that of the fit").wait_for()
+    moved = page.evaluate(CURVE)
+    pictures = page.evaluate(DRAG, {"id": "gain-kA", "seconds": 2.0})
+
+    assert error_shown(page) > 10 * before
+    assert abs(moved[0][-1] / curve[0][-1]) == pytest.approx(2.5238 / 3.2, rel=0.01)
+    assert pictures >= LEAST_PICTURES, f"{pictures:.0f} pictures a second"
+    page.get_by_role("button", name="Reset to the fit").click()
+    page.get_by_text("simulation error of the fit").wait_for()
+    assert error_shown(page) == before
+
+
+@pytest.mark.parametrize("mechanism", ["drivetrain", "elevator", "arm"])
+def test_the_page_simulates_as_the_engine_does(page, tmp_path, mechanism):
+    file = write_log(drive_log(3, mechanism), tmp_path / f"{mechanism}.wpilog")
+    log = read(file)
+    drop(page, file)
+    page.locator("#gain-kV").wait_for()
+    curves = page.evaluate(CURVE)
+    if page.evaluate("[...sysid.logs.values()][0].fit.parts.length"):
+        pytest.skip("this fit has small effects beside its gains, which the page leaves out")
+    found = fit(log)
+
+    for replay, curve in zip(replay_fit(found, log), curves, strict=True):
+        gap = np.abs(np.array(curve) - replay.velocity)
+        assert gap.max() < 2e-3 * log.runs[0].top_speed
+
+
+def test_gains_are_there_soon_after_a_drop(page, tmp_path):
+    file = write_log(drive_log(), tmp_path / "drive.wpilog")
+    took = page.evaluate(DROP_AND_TIME, as_dropped(file.name, file.read_bytes()))
+
+    assert took["picture"] < BUSY * FIRST_PICTURE
+    assert took["gains"] < BUSY * GAINS
+
+
+def test_only_this_machine_is_asked(page, server, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
+    page.locator("#gain-kV").wait_for()
+    page.locator("#paste").click()
+    page.locator("#code-text", has_text="kV = 2.52").wait_for()
+
+    assert page.asked
+    assert {url for url in page.asked if not url.startswith(server.address)} == set()
+
+
+def test_the_robot_code_has_the_gains_that_were_moved(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
+    page.get_by_label("kV as a number").fill("2.75")
+    page.locator("#paste").click()
+    page.locator("#code-text", has_text="kV = 2.75").wait_for()
+    page.get_by_label("Language").select_option("python")
+    page.locator("#code-text", has_text="import").wait_for()
+
+    assert (
+        "±" not in page.locator("#code-text").inner_text().partition("2.75")[2].partition("\n")[0]
+    )
+
+
+def test_the_chart_is_moved_by_wheel_hand_and_keyboard(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "drive.wpilog"))
+    page.locator("#gain-kV").wait_for()
+    chart = page.locator("#moving")
+    box = chart.bounding_box()
+    middle = (box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
+
+    def width():
+        view = page.evaluate("sysid.chart.view")
+        return view[1] - view[0]
+
+    whole = width()
+    page.mouse.move(*middle)
+    page.mouse.wheel(0, -600)
+    wait_until(page, f"sysid.chart.view[1] - sysid.chart.view[0] < {0.6 * whole}")
+    assert page.locator("#readout .measured dd").inner_text().endswith("m/s")
+    before = page.evaluate("sysid.chart.view[0]")
+    page.mouse.down()
+    page.mouse.move(middle[0] - 80, middle[1], steps=4)
+    page.mouse.up()
+    assert page.evaluate("sysid.chart.view[0]") > before
+    chart.focus()
+    page.keyboard.press("0")
+    assert width() == pytest.approx(whole)
+    page.keyboard.press("PageDown")
+    assert width() < 0.5 * whole
+    before = page.locator("#readout dd").nth(1).inner_text()
+    page.keyboard.press("Shift+ArrowRight")
+    assert page.locator("#readout dd").nth(1).inner_text() != before
+    page.keyboard.press("+")
+    assert page.complaints == []
+
+
+def test_a_second_log_is_laid_over_the_first(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "first.csv"))
+    page.locator("#gain-kV").wait_for()
+    drop(page, write_log(drive_log(2, step=5.0), tmp_path / "second.csv"))
+    page.get_by_label("Lay second.csv over the log that is seen").click()
+
+    wait_until(page, "sysid.chart.others.length === 4")
+    assert page.locator(".legend .other").is_visible()
+
+
+def test_another_unit_is_read_anew(page, tmp_path):
+    drop(page, write_log(drive_log(), tmp_path / "drive.csv"))
+    page.locator("#gain-kV").wait_for()
+    before = error_shown(page)
+    page.get_by_label("Units").select_option("feet")
+    page.locator("#meter .big", has_text="ft/s").wait_for()
+
+    assert error_shown(page) == pytest.approx(before, rel=0.01)  # the numbers are feet now
+    page.get_by_label("Type").select_option("arm")
+    page.locator("#verdict-card.wrong, .refusal").first.wait_for()
+
+
+def test_logs_named_on_the_command_line_are_open(browser, tmp_path):
+    good = write_log(drive_log(), tmp_path / "good.csv")
+    with (
+        served(tmp_path / "session", good, tmp_path / "absent.csv") as server,
+        opened(browser, server.address) as page,
+    ):
+        page.locator("#gain-kV").wait_for()
+        page.locator(".refusal", has_text="there is no such file").wait_for()
+        assert good.is_file()
+        page.get_by_label("Close good.csv").click()
+        page.get_by_text("Drop a log.").wait_for()
+        assert good.is_file()  # only dropped files are removed
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [DESKTOP, PHONE], ids=["desktop", "phone"])
+def test_nothing_lies_beside_the_screen_in_either_theme(browser, server, tmp_path, viewport, theme):
+    with opened(browser, server.address, viewport, theme) as page:
+        wide = "document.documentElement.scrollWidth"
+        assert page.evaluate(wide) <= viewport["width"]
+        drop(page, write_log(slipped_log(), tmp_path / "a log with a rather long name indeed.csv"))
+        page.locator("#gain-kV").wait_for()
+        page.locator("li.fault h3").wait_for()
+        assert page.evaluate(wide) <= viewport["width"]
+        assert page.evaluate(FAINTEST) >= LEAST_CONTRAST
+        paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, re.findall(r"\d+", paper))) < 150) == (theme == "dark")
+        page.locator("#theme").click()
+        page.locator("#theme").click()
+        assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(page, tmp_path):
+    arm = MECHANISMS["arm"].hide("drag", 1.0)
+    log = simulate(arm, Routine(step=5.0), rng=np.random.default_rng(5))
+    drop(page, write_log(log, tmp_path / "arm.wpilog"))
+    page.locator("#gain-kG").wait_for()
+    page.get_by_role("button", name="Look for what is missing").click()
+    page.locator("#story progress").wait_for()
+    page.locator("#story .finding h3", has_text="drag").wait_for()
+
+    assert page.locator("#story .headline").inner_text().startswith("Missing in the model is drag")
+    assert page.locator("#story .gaps > div").count() == 2
+    assert page.complaints == []
+
+
+def test_signals_of_unknown_names_are_chosen_with_a_picture_of_each(page, tmp_path):
+    log = drive_log()
+    groups = [
+        SignalGroup(
+            run.time,
+            {"/a/1": run.voltage, "/a/2": run.position, "/a/3": run.velocity, "/a/4": 0 * run.time},
+            {"/b": [(run.time[0], run.test), (run.time[-1] + 0.02, "none")]},
+        )
+        for run in log.runs
+    ]
+    write_signals(groups, tmp_path / "strange.wpilog", units={})
+    drop(page, tmp_path / "strange.wpilog")
+    page.get_by_text("Which entries are the signals?").wait_for()
+    for label, name in (
+        ("Voltage at the motor", "/a/1"),
+        ("Position", "/a/2"),
+        ("Velocity", "/a/3"),
+        ("Name of the running test", "/b"),
+    ):
+        page.get_by_label(label, exact=True).select_option(name)
+    assert page.locator(".spark svg path").count() == 3
+    page.get_by_role("button", name="Open the log").click()
+    page.locator("#gain-kV").wait_for()
+
+    assert float(page.get_by_label("kV as a number").input_value()) == pytest.approx(2.52, rel=0.01)
+    assert page.locator(".tab").count() == 1
+    assert page.complaints == []

@@ -1,0 +1,272 @@
+"""The server of `sysid open`: for its own page alone, and no log ends it."""
+
+import http.client
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from open_page import BROKEN, ask, ask_json, served, slipped_log, write_log
+
+from sim.cli.open.session import Session
+from sim.core.errors import BadRequest
+from sim.fit import fit
+from sim.io import read
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    """A server without logs, for requests that change nothing."""
+    with served(tmp_path_factory.mktemp("session")) as running:
+        yield running
+
+
+@pytest.fixture
+def drive(tmp_path):
+    """An ordinary log, whose encoder slipped once."""
+    return write_log(slipped_log(), tmp_path / "drive one.wpilog")
+
+
+def test_it_serves_the_page_to_this_machine_alone(server):
+    status, content = ask(server, "")
+
+    assert status == 200
+    assert b"Drop a log." in content
+    assert server.server_address[0] == "127.0.0.1"
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Host": "evil.example"},
+        {"Host": "evil.example:80"},
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Origin": "http://127.0.0.1:1"},
+        {"Origin": "https://localhost"},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("method", ["GET", "POST", "DELETE"])
+def test_a_foreign_host_or_origin_is_refused(server, headers, method):
+    body = b"x" if method == "POST" else None
+    status, said = ask_json(server, "logs", headers=headers, method=method, body=body)
+
+    assert status == 403
+    assert said["refusal"]["what"] == "this page answers only to itself"
+    assert server.session.logs == ()
+
+
+def test_its_own_origin_is_served(server):
+    origins = {f"http://{host}" for host in server.hosts}
+
+    assert {ask(server, "logs", headers={"Origin": one})[0] for one in origins} == {200}
+
+
+@pytest.mark.parametrize("word", ["", "wrong", "..", "%C3%A9"])
+def test_without_the_word_of_the_address_there_is_nothing(server, word):
+    connection = http.client.HTTPConnection("127.0.0.1", server.server_address[1], timeout=20)
+    connection.putrequest("GET", f"/{word}/logs", skip_host=True)
+    connection.putheader("Host", server.hosts[0])
+    connection.endheaders()
+    answer = connection.getresponse()
+
+    assert answer.status == 404
+    answer.read()
+    connection.close()
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["../server.py", "%2e%2e/server.py", "server.py", "logs/1/summary", "logs/x/fit", "a/b/c/d"],
+)
+def test_nothing_but_the_page_is_served(server, path):
+    assert ask(server, path)[0] in {404, 422}
+
+
+def test_nothing_is_loaded_from_elsewhere(server):
+    with_policy = http.client.HTTPConnection("127.0.0.1", server.server_address[1], timeout=20)
+    with_policy.request("GET", f"/{server.word}/")
+    answer = with_policy.getresponse()
+    policy = answer.getheader("Content-Security-Policy")
+    answer.read()
+    with_policy.close()
+
+    assert "default-src 'self'" in policy
+    assert "http" not in policy
+
+
+def test_a_dropped_log_is_read_inspected_and_fitted(server, drive):
+    status, opened = ask_json(server, "logs?name=drive%20one.wpilog", body=drive.read_bytes())
+    of_log = f"logs/{opened['id']}"
+    _, summary = ask_json(server, f"{of_log}/summary")
+    _, samples = ask(server, f"{of_log}/samples")
+    _, faults = ask_json(server, f"{of_log}/faults")
+    _, found = ask_json(server, f"{of_log}/fit")
+    log = read(drive)
+    expected = fit(log)
+
+    assert (status, opened["name"]) == (200, "drive one.wpilog")
+    assert [run["test"] for run in summary["runs"]] == [run.test for run in log.runs]
+    numbers = np.frombuffer(samples, dtype="<f8")
+    assert numbers.size == 4 * summary["samples"]
+    np.testing.assert_array_equal(numbers[: len(log.runs[0])], log.runs[0].time)
+    assert [one["fault"] for one in faults["faults"]] == ["encoder-slip"]
+    assert {one["name"]: one["value"] for one in found["gains"]} == dict(expected.gains)
+    assert len(found["starts"]) == len(log.runs)
+    assert ask(server, of_log, method="DELETE")[0] == 200
+    assert ask_json(server, f"{of_log}/summary")[1]["refusal"]["what"].startswith("this log is not")
+
+
+def test_another_type_and_other_units_are_read_anew(tmp_path, drive):
+    with served(tmp_path / "session", drive) as server:
+        (tmp_path / "session").mkdir()
+        _, feet = ask_json(server, "logs/1/summary?units=feet")
+        status, refused = ask_json(server, "logs/1/fit?type=arm")
+
+    assert feet["units"]["symbol"] == "ft"
+    assert status == 422
+    assert "must be an angle" in refused["refusal"]["what"]
+    assert refused["refusal"]["where"] == "drive one.wpilog"
+
+
+def test_code_holds_the_gains_and_those_that_were_moved_by_hand_have_no_error(tmp_path, drive):
+    with served(tmp_path / "session", drive) as server:
+        fitted = ask_json(server, "logs/1/code?language=java")[1]["code"]
+        moved = ask_json(server, "logs/1/code?language=python&season=2027&kV=3.25")[1]["code"]
+        wrong = ask_json(server, "logs/1/code?kV=inf&language=cobol")
+
+    assert "kV = 2.5" in fitted
+    assert "±" in fitted
+    assert "3.25" in moved
+    assert moved.startswith("# Moved by hand, not measured: kV\n")
+    assert wrong[0] == 422
+
+
+def test_the_report_is_that_of_the_fit(tmp_path, drive):
+    with served(tmp_path / "session", drive) as server:
+        status, content = ask(server, "logs/1/report.html")
+
+    assert status == 200
+    assert b"Gains of drive one.wpilog" in content
+
+
+def test_ten_broken_logs_do_not_end_it(tmp_path):
+    (tmp_path / "session").mkdir()
+    said = {}
+    with served(tmp_path / "session") as server:
+        for name, content in BROKEN.items():
+            status, opened = ask_json(server, f"logs?name={name}", body=content)
+            assert status == 200
+            said[name] = ask_json(server, f"logs/{opened['id']}/summary")
+            for what in ("faults", "fit", "directions", "code", "report.html"):
+                assert ask(server, f"logs/{opened['id']}/{what}")[0] in {200, 422}
+        assert ask(server, "")[0] == 200
+
+    assert {status for status, _ in said.values()} <= {200, 422}
+    assert said["empty.wpilog"][1]["refusal"]["where"] == "empty.wpilog"
+    for status, answer in said.values():
+        if status == 422:
+            assert answer["refusal"]["advice"]
+            assert str(tmp_path) not in json.dumps(answer)
+
+
+def test_a_mistake_of_ours_is_told_and_does_not_end_it(tmp_path, drive, monkeypatch):
+    with served(tmp_path, drive) as server:
+        monkeypatch.setattr(server.session.find(1), "log", lambda _reading: 1 / 0)
+        status, answer = ask_json(server, "logs/1/summary")
+        assert ask(server, "")[0] == 200
+
+    assert status == 500
+    assert "our mistake, not yours (ZeroDivisionError" in answer["refusal"]["what"]
+
+
+@pytest.mark.parametrize(
+    ("given", "name"),
+    [
+        ("../../etc/passwd", "passwd"),
+        ("C:\\logs\\a.csv", "a.csv"),
+        ("..", "log"),
+        ('a"<b>.wpilog', "a__b_.wpilog"),
+        ("x" * 500 + ".csv", "x" * 116 + ".csv"),
+        ("größe 1.csv", "größe 1.csv"),
+    ],
+)
+def test_a_dropped_name_becomes_a_file_in_the_sessions_folder(tmp_path, given, name):
+    plain, path = Session(tmp_path).place_for(given)
+
+    assert (plain, path.name) == (name, name)
+    assert path.parent.parent == tmp_path
+
+
+def test_too_many_logs_are_refused(tmp_path):
+    session = Session(tmp_path, [tmp_path / f"{k}.csv" for k in range(64)])
+
+    with pytest.raises(BadRequest, match="Close some of them"):
+        session.add("one more.csv", tmp_path / "one more.csv")
+
+
+def test_an_example_is_simulated(tmp_path):
+    with served(tmp_path) as server:
+        _, opened = ask_json(server, "example", body=b"")
+        _, faults = ask_json(server, f"logs/{opened['id']}/faults")
+
+    assert opened["name"] == "example drivetrain.wpilog"
+    assert "encoder-slip" in [one["fault"] for one in faults["faults"]]
+
+
+def test_a_taken_port_is_refused_in_one_line(server):
+    port = str(server.server_address[1])
+    done = subprocess.run(
+        [sys.executable, "-c", "from sim.cli import main; main()", "open", "--port", port],
+        capture_output=True, encoding="utf-8", check=False, timeout=60,
+    )  # fmt: skip
+
+    assert done.returncode == 2
+    assert f"port {port} cannot be used" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_the_command_prints_its_address_and_ends_with_ctrl_c(drive):
+    code = (
+        "import webbrowser, sim.cli.open.server as it\n"
+        "from sim.cli import main\n"
+        "def stop(server): raise KeyboardInterrupt\n"
+        "it.PageServer.serve_forever = stop\n"
+        "main()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "open", str(drive), "--no-browser"],
+        capture_output=True, encoding="utf-8", check=False, timeout=60,
+    )  # fmt: skip
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("The page is at http://127.0.0.1:")
+
+
+def test_the_first_requests_may_come_all_at_once(tmp_path, drive):
+    """In a process of its own: threads that import the same modules could find them half made."""
+    code = (
+        "import sys, threading, urllib.request, pathlib\n"
+        "from sim.cli.open.server import PageServer\n"
+        "from sim.cli.open.session import Session\n"
+        "server = PageServer(Session(pathlib.Path(sys.argv[1]), [pathlib.Path(sys.argv[2])]))\n"
+        "threading.Thread(target=server.serve_forever, daemon=True).start()\n"
+        "found = []\n"
+        "def ask(what):\n"
+        "    with urllib.request.urlopen(f'{server.address}logs/1/{what}') as answer:\n"
+        "        found.append(answer.status)\n"
+        "names = ['summary', 'samples', 'faults', 'fit', 'directions', 'code', 'report.html']\n"
+        "threads = [threading.Thread(target=ask, args=(name,)) for name in names]\n"
+        "threads.append(threading.Thread(target=server.session.warm_up))\n"
+        "[thread.start() for thread in threads]\n"
+        "[thread.join() for thread in threads]\n"
+        "print(found == [200] * len(names))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path), str(drive)],
+        capture_output=True, encoding="utf-8", check=False, timeout=120,
+    )  # fmt: skip
+
+    assert (done.stdout.strip(), done.stderr) == ("True", "")

@@ -1,0 +1,108 @@
+"""Without Numba, which the bare install leaves out, everything works, and with the same digits."""
+
+import json
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from sim.physics.engine import compose, ieee_math
+
+BLOCKED = """
+import importlib.abc, importlib.util, sys
+
+class Blocked(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path, target=None):
+        if name.partition(".")[0] in {"numba", "llvmlite"}:
+            raise ModuleNotFoundError(name)
+
+found = importlib.util.find_spec
+importlib.util.find_spec = lambda name: None if name in {"numba", "llvmlite"} else found(name)
+sys.meta_path.insert(0, Blocked())
+"""
+SYSID = "from sim.cli import main; main()"
+
+
+def run_sysid(*words, cwd, without_numba=False):
+    """Run the command in a process of its own; what it printed."""
+    code = (BLOCKED if without_numba else "") + SYSID
+    return subprocess.run(
+        [sys.executable, "-c", code, *words],
+        cwd=cwd, capture_output=True, encoding="utf-8", check=False, timeout=300,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with an ordinary log and one with an effect in it."""
+    place = tmp_path_factory.mktemp("logs")
+    run_sysid("simulate", "drivetrain", "--seed", "1", "-o", "drive.csv", cwd=place)
+    run_sysid("simulate", "arm", "--seed", "2", "--step", "5", "-o", "arm.wpilog", cwd=place)
+    return place
+
+
+@pytest.mark.parametrize("log", ["drive.csv", "arm.wpilog"])
+def test_a_fit_has_the_same_digits(folder, log):
+    slow, quick = (
+        run_sysid("fit", log, "--json", cwd=folder, without_numba=without)
+        for without in (True, False)
+    )
+
+    assert slow.stderr == ""
+    assert json.loads(slow.stdout) == json.loads(quick.stdout)
+    assert slow.returncode == quick.returncode
+
+
+def test_it_simulates_the_same_log(folder):
+    for name, without in (("slow.csv", True), ("quick.csv", False)):
+        words = ("simulate", "intake", "--seed", "3", "--timeout", "1", "-o", name)
+        assert run_sysid(*words, cwd=folder, without_numba=without).returncode == 0
+
+    assert (folder / "slow.csv").read_bytes() == (folder / "quick.csv").read_bytes()
+
+
+def test_a_numba_that_refuses_to_start_is_done_without(monkeypatch):
+    from sim.physics import engine  # noqa: PLC0415 - its private functions are replaced here
+
+    def refuse(_effects, *, compiled=True):
+        if compiled:
+            raise ImportError("Numba needs NumPy 2.2 or less")
+        return "plain"
+
+    monkeypatch.setattr(engine, "compose_engine", refuse)
+    monkeypatch.setattr(engine, "_plain_engine", lambda: "plain")
+
+    assert engine._build_engine.__wrapped__() == "plain"
+
+
+@pytest.mark.parametrize(
+    ("name", "argument", "expected"),
+    [
+        ("cos", math.inf, math.nan),
+        ("sin", -math.inf, math.nan),
+        ("sqrt", -1.0, math.nan),
+        ("exp", 1000.0, math.inf),
+        ("expm1", 1000.0, math.inf),
+        ("log1p", -1.0, -math.inf),
+        ("log1p", -2.0, math.nan),
+        ("ceil", math.nan, -(2.0**63)),
+        ("ceil", 1.2, 2.0),
+        ("cos", 0.0, 1.0),
+    ],
+)
+def test_mathematics_answers_as_compiled_code_does(name, argument, expected):
+    found = getattr(ieee_math, name)(argument)
+
+    assert found == expected or (math.isnan(found) and math.isnan(expected))
+
+
+def test_an_effect_without_numba_does_not_stop_at_what_is_undefined():
+    found = compose.use_ieee_math(_swing)(math.inf)
+
+    assert np.isnan(found)
+
+
+def _swing(x):
+    return math.cos(x)
