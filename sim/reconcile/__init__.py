@@ -26,7 +26,7 @@ from sim.estimation.run_records import ExcludedInterval, join_records, run_recor
 from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import DamageDecision, judge_damage
-from sim.reconcile.findings import list_remarks, make_findings
+from sim.reconcile.findings import list_remarks, make_findings, reported_rounds
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
@@ -117,8 +117,10 @@ def _make_story(
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
     findings = make_findings(
-        problem, done, faults, chapters, without=shown.gaps_without(done), left=left, per=per
-    )
+        problem, done, faults, chapters, without=shown.gaps_without(done),
+        held_out=shown.held_out, left=left, per=per,
+    )  # fmt: skip
+    chapters = chapters[: len(reported_rounds(done, findings))]
     verdict, remainder, remains = reach_verdict(findings, done, problem, left=left, per=per)
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,

@@ -45,13 +45,14 @@ BELIED = (
 def make_findings(
     problem: PredictionErrorProblem, done: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
-    without: Mapping[str, float], left: ResidualSummary, per: Unit,
+    without: Mapping[str, float], held_out: bool, left: ResidualSummary, per: Unit,
 ) -> tuple[Finding, ...]:  # fmt: skip
     """Findings: faults first, then effects, major ones first.
 
     What any robot has a little of stays in the model and is no finding, however much of a small gap
-    it takes; nor is an effect with which the shown log is missed by more. A fault that is cut out
-    for safety's sake, but may be physics, comes after the major effects.
+    it takes. Nor is an effect with which the shown log is missed by more, unless that log is held
+    out: then it decides nothing. A fault that is cut out for safety's sake, but may be physics,
+    comes after the major effects.
 
     Args:
         problem: the measurements.
@@ -59,6 +60,7 @@ def make_findings(
         damages: of the record.
         chapters: of the shown log, one for each round.
         without: effect -> [owner's unit/s] gap of the last model without it on the shown log.
+        held_out: whether the shown log decides nothing.
         left: what the last model leaves.
         per: the owner's unit.
     """
@@ -68,7 +70,9 @@ def make_findings(
     far = end > STRAYS or left.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
     effects = _classify_size(problem, done, gaps, far=far, per=per)
-    effects = [one for one in effects if not one.gap_after > SHOWN_WIDER * one.gap_before]
+    if not held_out:
+        effects = [_demote_unseen(one) for one in effects]
+        effects = [one for one in effects if not one.gap_after > SHOWN_WIDER * one.gap_before]
     if not missed_motion(end, problem) <= LOST:  # no number at all is lost, too
         effects = []
     effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]
@@ -92,7 +96,7 @@ def _classify_size(
     far: bool,
     per: Unit,
 ) -> list[Finding]:
-    """What each round added, major or minor: what is major visibly narrows the shown gap.
+    """What each round added, major or minor.
 
     Of effects that stand in for one another none is missed alone: if together they closed the gap,
     the one that closed most of it is major.
@@ -112,11 +116,17 @@ def _classify_size(
         for n in range(1, len(done))
     ]
     closed = done[-1].gap.velocity <= least * done[0].gap_before.velocity
-    if len(found) > 1 and closed and not far and all(one.size != "major" for one in found):
+    if closed and not far and all(one.size != "major" for one in found):
         most = min(range(len(found)), key=lambda n: _share_left(done[n + 1]), default=None)
         if most is not None:
             found[most] = replace(found[most], size="major")
     return found
+
+
+def _demote_unseen(one: Finding) -> Finding:
+    """The finding, minor where the shown gap does not visibly shrink with it."""
+    seen = one.gap_after <= NARROWER * one.gap_before
+    return one if seen else replace(one, size="minor")
 
 
 def _is_worth_a_name(one: Finding, done: Sequence[SelectionRound]) -> bool:
@@ -178,6 +188,15 @@ def is_contradicted(
     return onset + KNOCK * problem.period < moment.start < onset + AFTER
 
 
+def reported_rounds(
+    done: Sequence[SelectionRound], findings: Sequence[Finding]
+) -> Sequence[SelectionRound]:
+    """The rounds up to the last effect that is named: what came after narrows no gap."""
+    named = {one.effect for one in findings}
+    last = max(n for n, one in enumerate(done) if n == 0 or one.candidate.effect in named)
+    return done[: last + 1]
+
+
 def list_remarks(
     problem: PredictionErrorProblem,
     done: Sequence[SelectionRound],
@@ -190,11 +209,15 @@ def list_remarks(
     named = {one.effect for one in findings}
     unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
     rest = [name for name in structure.effects if name not in {*named, *unsure}]
+    kept = reported_rounds(done, findings)[-1].candidate.estimate.structure.effects
     said = []
-    if rest:
-        what = " and ".join(rest)
+    if inside := [name for name in rest if name in kept]:
+        what = " and ".join(inside)
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
+    if outside := [name for name in rest if name not in kept]:
+        what = " and ".join(outside)
+        said.append(f"A little {what} would make the log likelier, but narrows no gap: left out.")
     said += [BELIED.format(name) for name in unsure]
     if structure.has_backlash and not _reverses_within_run(problem):
         said.append(TURNLESS)
@@ -227,7 +250,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     effect = EFFECTS[name]
     last = end.candidate.estimate
     with_, bare = gaps_with_and_without(now, end)
-    major = with_.velocity <= least * bare.velocity and gap_after <= NARROWER * gap_before
+    major = with_.velocity <= least * bare.velocity
     score = (
         before.candidate.score - now.candidate.score
         if math.isnan(now.removal_cost)

@@ -1,5 +1,6 @@
 """The held-out log and each model's simulation of it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -120,13 +121,16 @@ class HeldOutLog:
         return tuple(map(self._chapter, done))
 
     def gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
-        """[owner's unit/s] effect -> the gap of the last model without it."""
-        return {
-            one.candidate.effect: self._gap(
-                one.without.estimate if one.without else reported_estimate(before)
-            )
-            for before, one in pairwise(done)
-        }
+        """[owner's unit/s] effect -> the gap of the last model without it.
+
+        Where the rest of the model runs away without an effect, that of the model before it.
+        """
+        found = {}
+        for before, one in pairwise(done):
+            gap = self._gap(one.without.estimate) if one.without else math.inf
+            gap = gap if math.isfinite(gap) else self._gap(reported_estimate(before))
+            found[one.candidate.effect] = gap
+        return found
 
     def _gap(self, point: Estimate, nuisance: RunNuisance | None = None) -> float:
         nuisance = self._initial_nuisance(point) if nuisance is None else nuisance
