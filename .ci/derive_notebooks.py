@@ -7,6 +7,7 @@ The text is what people edit. A notebook holds no outputs, and deriving it again
 """
 
 import hashlib
+import re
 import sys
 from collections import Counter
 from pathlib import Path
@@ -15,11 +16,13 @@ import jupytext
 import nbformat
 
 LESSONS = Path(__file__).resolve().parents[1] / "lessons"
+# A cell that only asks: its code repeats the question, and a quick check's holds the answer.
+ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def derive(text: Path) -> nbformat.NotebookNode:
-    """The notebook of a lesson's text, without outputs and with cell names that stay."""
+    """The notebook of a lesson's text, without outputs; the code of questions is collapsed."""
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.metadata = nbformat.from_dict(
         {"kernelspec": KERNEL, "language_info": {"name": "python"}}
@@ -30,7 +33,8 @@ def derive(text: Path) -> nbformat.NotebookNode:
         name = hashlib.sha256(cell.source.encode("utf-8")).hexdigest()[:12]
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
-        cell.metadata = nbformat.from_dict({})
+        hidden = cell.cell_type == "code" and ASKS.search(cell.source)
+        cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}} if hidden else {})
     nbformat.validate(notebook)
     return notebook
 

@@ -52,7 +52,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "A duty cycle is a share of whatever the battery gives at that moment; a voltage is the "
         "same with a full battery and with a tired one.",
         lesson="04_wire_sysidroutine",
-        section="The virtual robot: one slip at a time",
+        section="The virtual robot: one mistake at a time",
     ),
     "M-KS-INTERCEPT": Misconception(
         "The straight line through a slow ramp crosses v = 0 above kS: the ramp accelerates the "
@@ -72,7 +72,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "gravity: what gravity takes ends up in the other gains. With upward runs alone it is "
         "added to kS; with runs both ways kV may even come out negative.",
         lesson="02_gravity",
-        section="From a log: tell SysId what it looks at",
+        section="From a log: choose the analysis type",
     ),
     "M-NOISE-AVERAGES": Misconception(
         "Noise in a column you fit with does not average out: it pulls that column's coefficient "

@@ -172,12 +172,22 @@ def test_what_the_lesson_is_said_to_say_it_says(text, shared):
 
 
 @each_lesson
-def test_a_prediction_is_shown_again(text):
+def test_a_prediction_is_compared_with_the_answer(text):
     source = text.read_text(encoding="utf-8")
     guesses = re.findall(r"^(guess_\w+) = Prediction\(", source, re.MULTILINE)
     assert guesses
     for guess in guesses:
-        assert f"{{{guess}}}" in source
+        assert re.search(rf"print\(.*\b{guess}\.reveal\(", source), guess
+
+
+@each_lesson
+def test_the_code_of_a_question_is_collapsed_as_it_holds_the_answer(text):
+    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells:
+        asks = re.search(
+            r"^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck)\(", cell.source, re.MULTILINE
+        )
+        hidden = cell.metadata.get("jupyter", {}).get("source_hidden", False)
+        assert hidden == bool(cell.cell_type == "code" and asks), cell.source
 
 
 @each_lesson

@@ -73,6 +73,8 @@ def _render_markdown(text: str) -> str:
 
 def _render_code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
     shown = "".join(_render_output(one, widgets) for one in cell.get("outputs", []))
+    if cell.metadata.get("jupyter", {}).get("source_hidden"):
+        return shown  # the code of a quick check holds the answer
     source = highlight_python(cell.source)
     return f"<details><summary>Code</summary>{source}</details>{shown}"
 
