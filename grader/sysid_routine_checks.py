@@ -328,4 +328,4 @@ def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
 
 def explain_doubt(what: str, text: str) -> str:
     """A question instead of a guess."""
-    return f"I cannot tell {what} by reading{f' {text}' if text else ''}"
+    return f"the grader cannot see {what} by reading{f' {text}' if text else ''}"
