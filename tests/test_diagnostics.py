@@ -73,7 +73,7 @@ PLANTED = {
     ),
     "friction-differs": (
         lambda: each(drawn("drivetrain"), lambda run: replace(run, voltage=run.voltage + 0.15)),
-        "friction that differs",
+        "Friction differs",
     ),
     "back-emf-differs": (
         lambda: each(
@@ -85,7 +85,7 @@ PLANTED = {
     "fine-r2": (lambda: only(drawn("shooter"), "dynamic-forward", slowed), "dynamic-forward at"),
     "repeats-differ": (
         lambda: drawn("turret").join(each(drawn("turret"), lambda run: scaled(run, 0.85))),
-        "SysId reads only the first",
+        "SysId uses only the first",
     ),
     "little-motion": (
         lambda: only(drawn("shooter"), "dynamic-forward", lambda run: first(run, 8)),

@@ -48,7 +48,7 @@ def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys
     assert "got  1" in out
     assert "try  Count again ≈ ±1." in out
     assert "why  A number means something only with its unit." in out
-    assert "looked at once this is right: The size is 3" in out
+    assert "checked after this is right" in out
     assert "Hint 1 of 3: grade exercise1 --hint" in out
     assert max(map(len, out.splitlines())) <= 80
     assert "\x1b" not in out

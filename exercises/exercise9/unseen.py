@@ -10,7 +10,14 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import AnswerKey, AskedNumber, ask_gains, diagnose_number, judge_number
+from grader.answer import (
+    UNIT_ASSUMED,
+    AnswerKey,
+    AskedNumber,
+    ask_gains,
+    diagnose_number,
+    judge_number,
+)
 from grader.check import NotReachedError, NotRunError, WrongAnswer
 from grader.variant import derive_student_seed, make_student_rng
 
@@ -248,7 +255,7 @@ def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
     misses = (_judge_gain(name, log, answer) for name in log.key.asked)
     found = [miss for miss in misses if miss]
     for miss in found:
-        miss.why.seen = f"{where}: {miss.why.seen.removesuffix(' (no unit given: read as asked)')}"
+        miss.why.seen = f"{where}: {miss.why.seen.partition(UNIT_ASSUMED)[0]}"
     return found
 
 

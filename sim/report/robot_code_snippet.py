@@ -178,7 +178,7 @@ def _check(found: Fit) -> None:
         if doubt.grave:
             raise BadRequest(
                 f"no code for gains that cannot be right: {doubt.message}",
-                advice="Fit again when that is settled.",
+                advice="Fix this first, then fit again.",
             )
     for gain, value in found.gains.items():
         if not math.isfinite(value) or (gain in {"kV", "kA"} and value < 0.0):

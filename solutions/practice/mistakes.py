@@ -24,7 +24,11 @@ MISTAKES = (
         "M-DUTY",
     ),
     Mistake(
-        "a wrong verdict", ANSWERS, put_value("verdict", '"inspect"'), "theory-verdict", "with its sign"
+        "a wrong verdict",
+        ANSWERS,
+        put_value("verdict", '"inspect"'),
+        "theory-verdict",
+        "with its sign",
     ),
     Mistake(
         "a difference from nowhere",
