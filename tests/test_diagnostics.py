@@ -133,6 +133,12 @@ def test_a_delay_is_told_in_milliseconds():
     assert 50 <= int(message.split(" ms")[0].rsplit(" ", 1)[1]) <= 70
 
 
+def test_a_velocity_in_another_unit_is_not_called_late():
+    log = each(drawn("turret"), lambda run: scaled(run, 57.3, only_velocity=True))
+
+    assert "velocity-lags" not in said(log)
+
+
 def test_a_log_without_runs_is_looked_at_all_the_same():
     assert diagnose_log(LogFeatures(Log(()))) == ()
 

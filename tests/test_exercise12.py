@@ -170,6 +170,16 @@ def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypa
     assert "Where simulation and validation differ most" in alone
 
 
+def test_a_name_that_is_no_effect_is_one_line_with_a_proposal(copy, monkeypatch):
+    script = str(copy.folder / "try_it.py")
+    monkeypatch.setattr(sys, "argv", [script, "filter", "--student", "ann"])
+
+    with pytest.raises(SystemExit) as left:
+        runpy.run_path(script, run_name="__main__")
+
+    assert "Did you mean velocity-filter?" in str(left.value)
+
+
 def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
     """The example in the README and the hints is an effect that nobody gets."""
     everybody = {name for _, effects in DRAWN.HIDDEN for name, _ in effects}

@@ -172,6 +172,30 @@ def test_what_the_lesson_is_said_to_say_it_says(text, shared):
 
 
 @each_lesson
+def test_a_lesson_links_to_the_next_one_and_names_the_folder_of_each_exercise(text):
+    source = text.read_text(encoding="utf-8")
+    later = [other.with_suffix(".ipynb").name for other in TEXTS if other > text]
+    assert "**Next:**" in source
+    if later:
+        assert f"]({later[0]})" in source.partition("**Next:**")[2]
+    for number in re.findall(r"^grade exercise(\d+)$", source.replace("# ", ""), re.MULTILINE):
+        assert f"exercises/exercise{number}/" in source
+
+
+def test_lesson_6_names_the_faults_as_exercise_7_and_inspect_do():
+    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - only here
+
+    source = (ROOT / "lessons" / "06_read_the_data.py").read_text(encoding="utf-8")
+    gallery = source.partition("gallery = {")[2].partition("}\n")[0]
+    own = {"clean", "velocity-filter", "current-limit"}  # physics, and no fault of the record
+    names = {
+        name.replace(" ", "-") for name in re.findall(r'^    "([a-z ]+)":', gallery, re.MULTILINE)
+    }
+    assert names - own <= {*FAULTS}
+    assert len(names - own) >= 11
+
+
+@each_lesson
 def test_a_prediction_is_compared_with_the_answer(text):
     source = text.read_text(encoding="utf-8")
     guesses = re.findall(r"^(guess_\w+) = Prediction\(", source, re.MULTILINE)

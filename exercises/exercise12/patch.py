@@ -56,6 +56,7 @@ def _known(name: str) -> None:
         )
     if name not in EFFECTS:
         near = difflib.get_close_matches(name, EFFECTS, n=1)
+        near = near or [one for one in EFFECTS if name and name in one.split("-")]
         also = f"Did you mean {near[0]}? " if near else ""
         raise WrongAnswer(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
 

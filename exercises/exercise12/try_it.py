@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from grader.check import WrongAnswer
 from grader.course import find_course, load_progress
 from grader.exercise import find_exercise
 from sim import read
@@ -73,3 +74,5 @@ if __name__ == "__main__":
         sys.exit(main())
     except Refusal as refusal:
         sys.exit(str(refusal))
+    except WrongAnswer as wrong:
+        sys.exit(f"{wrong.seen}. {wrong.hint}")

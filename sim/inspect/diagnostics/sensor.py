@@ -26,6 +26,8 @@ FAR = 2.5  # [times] what is this far off is a fault, not a look
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     """Velocities that come later than the positions beside them, by matching integrals."""
     found = features.velocity_lag
+    if not 1.0 / FAR < _velocity_over_slope(features) < FAR:  # another unit, not another time
+        return []
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
         return []
@@ -47,7 +49,7 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
 
 def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     """Velocity and position that count the same motion a little differently."""
-    usual = float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
+    usual = _velocity_over_slope(features)
     if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
         return []
     return [
@@ -58,6 +60,11 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
             "mechanism by a known distance, and check whether the position agrees.",
         )
     ]
+
+
+def _velocity_over_slope(features: LogFeatures) -> float:
+    """How many times the slope of the position the velocity is, by the median of all runs."""
+    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
 
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
