@@ -73,6 +73,21 @@ def run(tmp_path_factory):
     return ran
 
 
+def test_what_people_read_is_spelled_right():
+    paths = ["lessons", "exercises", "grader", "sim", "README.md", "INSTRUCTORS.md"]
+
+    done = subprocess.run(
+        [sys.executable, "-m", "codespell_lib", *paths],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+    assert done.returncode == 0, done.stdout
+
+
 def test_there_are_lessons():
     assert [text.stem for text in TEXTS] == [
         notebook.stem for notebook in sorted((ROOT / "lessons").glob("*.ipynb"))
