@@ -18,11 +18,12 @@ import nbformat
 LESSONS = Path(__file__).resolve().parents[1] / "lessons"
 # A cell that only asks: its code repeats the question, and a quick check's holds the answer.
 ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
+KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def derive(text: Path) -> nbformat.NotebookNode:
-    """The notebook of a lesson's text, without outputs; the code of questions is collapsed."""
+    """The notebook of a lesson's text: no outputs; what holds an answer or repeats is collapsed."""
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.metadata = nbformat.from_dict(
         {"kernelspec": KERNEL, "language_info": {"name": "python"}}
@@ -33,8 +34,14 @@ def derive(text: Path) -> nbformat.NotebookNode:
         name = hashlib.sha256(cell.source.encode("utf-8")).hexdigest()[:12]
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
-        hidden = cell.cell_type == "code" and ASKS.search(cell.source)
-        cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}} if hidden else {})
+        cell.metadata = nbformat.from_dict({})
+        if cell.cell_type == "code" and ASKS.search(cell.source):
+            cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
+    for shown, words, code in zip(
+        notebook.cells, notebook.cells[1:], notebook.cells[2:], strict=False
+    ):
+        if KNOBS.search(shown.source) and words.source.startswith("No "):
+            code.metadata = nbformat.from_dict({"jupyter": {"outputs_hidden": True}})
     nbformat.validate(notebook)
     return notebook
 

@@ -309,7 +309,7 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         more = f" There are {len(errors)} such lines." if len(errors) > 1 else ""
         raise WrongAnswer(
             f"line {one.line}: {one.message}",
-            hint=f"Like this {stops}, and the robot runs none of it. Mend the name, its import or "
+            hint=f"Like this {stops}, and the robot runs none of it. Fix the name, its import or "
             f"its type.{more}",
             earned=earned,
         )

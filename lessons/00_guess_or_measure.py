@@ -30,8 +30,8 @@
 #
 # **If you see no buttons or sliders:** you can type an answer in a cell, for example
 # `guess_race.value = "the three lines"` for a prediction or `quick.answer("kS")` for a quick check.
-# Below each slider there is a line of code with the same numbers to change. This holds for all
-# lessons.
+# Below each slider there is a line of code with the same numbers to change; its picture is folded
+# to a bar, so click on the bar. This holds for all lessons.
 
 # %% [markdown]
 # ## 1 Why: somebody has to choose the numbers

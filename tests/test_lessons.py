@@ -187,6 +187,15 @@ def test_what_the_lesson_is_said_to_say_it_says(text, shared):
 
 
 @each_lesson
+def test_a_picture_that_repeats_its_sliders_is_collapsed(text):
+    cells = nbformat.read(text.with_suffix(".ipynb"), 4).cells
+    for cell, words, code in zip(cells, cells[1:], cells[2:], strict=False):
+        if re.search(r"^show_interactive\(", cell.source, re.MULTILINE):
+            assert words.source.startswith("No ")
+            assert code.metadata["jupyter"]["outputs_hidden"]
+
+
+@each_lesson
 def test_a_lesson_links_to_the_next_one_and_names_the_folder_of_each_exercise(text):
     source = text.read_text(encoding="utf-8")
     later = [other.with_suffix(".ipynb").name for other in TEXTS if other > text]

@@ -14,7 +14,11 @@ def constant_slip(value: float, gain: str, variant: Variant, *, text: str) -> Wr
     return _known(value, gain, variant, text=text) or (
         WrongNumber("rounded", "close, but rounded too much. Keep three digits or more")
         if near(value, shown, share=ROUNDED) or near(value, variant.needed(gain), share=ROUNDED)
-        else WrongNumber("other", "not the number that the analyzer shows. Check given.toml")
+        else WrongNumber(
+            "other",
+            "not a gain of this mechanism. In exercise 10 its gains are in given.toml; in practice "
+            "use the gains of your own fit, not those of exercise 10",
+        )
     )
 
 
@@ -126,4 +130,10 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
     found = INTEGER if value == 0 and "/" in text else _first(value, ways)
     if found is None and near(value, needed, share=ROUNDED):
         found = WrongNumber("rounded", "close, but rounded too much. Keep three digits or more")
-    return found or WrongNumber("other", "not the converted suggestion. Check given.toml")
+    return found or WrongNumber(
+        "other",
+        (
+            "not the suggested kP. In exercise 10 it is in given.toml; in practice use the kP of "
+            "your own fit"
+        ),
+    )

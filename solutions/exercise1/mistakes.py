@@ -168,7 +168,7 @@ MISTAKES = (
         ANSWERS,
         volts("forward", lambda s, v, _a, _: 1.08 * (s + v)),
         "forward",
-        "outside the accepted ±2 %, by a little",
+        "just outside the accepted ±2 %",
     ),
     Mistake(
         "nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward", "nothing"

@@ -115,7 +115,7 @@ MISTAKES = (
         ANSWERS,
         first_line(lambda name, value: f'{name} = "{value} m^7"'),
         "held-out",
-        "does not measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(

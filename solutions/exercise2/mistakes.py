@@ -79,7 +79,7 @@ MISTAKES = (
         ANSWERS,
         put_value("kV_theory", '"2 m/s"'),
         "kv-theory",
-        "does not measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(

@@ -84,7 +84,7 @@ MISTAKES = (
         ANSWERS,
         exchange_numbers("elevator_kG", "elevator_kS"),
         "elevator-kg",
-        "swapped?",
+        "did you swap them?",
         "M-ARGORDER",
     ),
     Mistake(
@@ -150,7 +150,7 @@ MISTAKES = (
         ANSWERS,
         replace_text(("arm_offset = ", 'arm_offset = "3 V" # ')),
         "arm-offset",
-        "does not measure",
+        "is not a unit of",
         UNITS,
     ),
     Mistake(

@@ -123,7 +123,7 @@ MISTAKES = (
         ANSWERS,
         put_value("drivetrain_release", '"3 m/s"'),
         "drivetrain",
-        "does not measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(

@@ -100,7 +100,7 @@ MISTAKES = (
         ANSWERS,
         put_value("threshold", '"0.2 V"'),
         "kept",
-        "measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(

@@ -69,7 +69,7 @@ MISTAKES = (
         ANSWERS,
         exchange_numbers("kS", "kV"),
         "kv",
-        "swapped?",
+        "did you swap them?",
         "M-ARGORDER",
     ),
     Mistake(
@@ -109,7 +109,7 @@ MISTAKES = (
         ANSWERS,
         replace_text(("kV = ", 'kV = "2 V/m/s" # ')),
         "kv",
-        "does not measure kV",
+        "is not a unit of kV",
         "M-UNITS",
     ),
     Mistake(
