@@ -76,7 +76,7 @@ class ConfigSetting:
             NotReachedError: there is no Config.
         """
         if facts.config_argument < 0:
-            raise NotReachedError("looked at once the SysIdRoutine gets a Config")
+            raise NotReachedError("checked after the SysIdRoutine gets a Config")
         if got.text == "None":
             raise WrongAnswer(
                 f"None for the {self.name}",

@@ -122,8 +122,8 @@ def _voltage(name: str, answers: Answers) -> None:
     if found and len(found[0]) > 1:
         hint = f"maybe there are two mistakes: {hint}"
     if not hint:
-        size = "little" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "lot"
-        hint = f"outside the accepted ±2 %, by a {size}. Write down the three terms one by one"
+        size = "just" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "far"
+        hint = f"{size} outside the accepted ±2 %. Write down the three terms one by one"
     if abs(value) > BATTERY:
         hint = f"no battery of a robot has more than {BATTERY:g} V: {hint}"
     raise WrongAnswer(
