@@ -257,8 +257,7 @@ Table(
 # robot speeds up and slows down. kS and kV alone cannot provide the voltage for acceleration. That
 # is the job of kA, and the three lines have it. So **round one could not be won**, by anybody.
 #
-# (Even the true gains have a tiny error: the program sets the voltage only once every 20 ms, and on
-# a ramp the target moves on in between.)
+# (Even the true gains have a tiny error, because the program sets the voltage only every 20 ms.)
 #
 # Was the race fair? Only partly.
 #

@@ -304,8 +304,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 #
 # Look for the mass m. It appears in kA and nowhere else, as you saw in week 3 of lesson 0.
 #
-# (This is simplified. We leave out losses in the gears, and the spinning rotors, gears and wheels,
-# which add a few percent to kA.)
+# (We leave out losses in the gears and the spinning parts.)
 #
 # Is that true? The next cell computes the gains by hand from the motor's data, and compares them
 # with a log:
@@ -462,8 +461,8 @@ Table(
 # | 8 to 20 % above | *watch* | compare again next week |
 # | more than 20 % above | *inspect* | look before you test on |
 #
-# (These limits are rules of thumb, not laws. Data sheets are rounded, so 1 or 2 % below paper
-# proves nothing yet.)
+# (These limits are rules of thumb. Data sheets are rounded, so 1 or 2 % below paper proves
+# nothing.)
 #
 # Here are seven robots. All have the same healthy drivetrain, but all except the first have one
 # fault. Which of them have a kV more than 20 % above paper?

@@ -379,7 +379,6 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # from commands2.sysid import SysIdRoutine
 # from wpilib.sysid import SysIdRoutineLog
 #
-#
 # class Drive(commands2.Subsystem):
 #     def __init__(self) -> None:
 #         super().__init__()
@@ -415,7 +414,6 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 #     def sysid_dynamic(self, direction: SysIdRoutine.Direction) -> commands2.Command:
 #         return self.routine.dynamic(direction)
-#
 #
 # class RobotContainer:
 #     def __init__(self) -> None:

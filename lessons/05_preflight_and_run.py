@@ -202,8 +202,7 @@ print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
 # Here kV is almost right (a real robot also has less friction on blocks). But kA is that of bare
-# wheels. You cannot use it for a robot on the floor. (A tenth of the inertia should give a tenth of
-# kA. The fit does not even find that, because the rise is over after three samples.)
+# wheels. You cannot use it for a robot on the floor.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
@@ -453,8 +452,7 @@ Table(
 # Without a brownout, the empty battery gives the same kA in both columns: this robot sets a
 # *voltage*, and its motor controllers compensate for the lower battery voltage. (A share of the
 # battery, as in lesson 4, does not.) A brownout damages both columns, and the commanded one far
-# more. So charge the battery anyway, begin with a small step, and log the applied voltage. (The
-# threshold of a Systemcore is the default in WPILib 2027, which is not released yet.)
+# more. So charge the battery anyway, begin with a small step, and log the applied voltage.
 #
 # ### Encoder
 #

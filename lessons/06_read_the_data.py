@@ -134,8 +134,7 @@ plot_voltage_velocity(sound)
 # > leaves standstill: that is near kS, not at it (lesson 7 says why).
 # </details>
 #
-# Now look at the rise of the dynamic test: acceleration over velocity. (SysId has a plot with the
-# same name. It shows all four tests, and subtracts the effect of voltage and friction first.)
+# Now look at the rise of the dynamic test: acceleration over velocity.
 
 # %%
 plot_acceleration_velocity(sound)
@@ -154,9 +153,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # The motor accelerates with the remaining voltage: V − kS − kV·v. The faster it goes, the less
 # remains. So the acceleration is **largest at the start** and fades, by the same share in each
-# equal piece of time: after each kA/kV, about 37 % remains. (Noise makes the printed share vary a
-# little.) Such a curve is called *exponential*. In the plot above it is a straight line that falls:
-# the faster, the less acceleration.
+# equal piece of time: after each kA/kV, about 37 % remains. Such a curve is called *exponential*.
+# In the plot above it is a straight line that falls: the faster, the less acceleration.
 #
 # **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test.
 # In section 3, choose *current limit*: that is what a constant acceleration looks like. It is a
@@ -408,7 +406,7 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 #   that either: **drop it**, by a *threshold* on the speed.
 # - A single wild reading is a sensor error. A **median filter** replaces it by the middle one of
 #   three neighboring values.
-# - A noisy part is only ugly. The equation still describes it: **keep it.**
+# - A noisy part is only ugly: **keep it.**
 #
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
 # (the median filter) and *Test Duration* (dynamic tests only). None of them sets the end of a ramp.
@@ -833,7 +831,7 @@ quick
 # grade exercise8
 # ```
 #
-# You may also answer from a notebook (these values are only examples):
+# Or answer from a notebook (with your own values):
 #
 # ```python
 # from grader import submit

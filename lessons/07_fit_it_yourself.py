@@ -30,8 +30,6 @@
 # SysId reads a log and prints gains. Often they are good. Sometimes they are nonsense that looks
 # just as good. When you have built the fit yourself, you know where it can go wrong.
 #
-# It is also short. By section 4 you have done most of it.
-#
 # Today's robot is our simulated drivetrain with a bit of play in the gears, so its velocity reading
 # is noisy. We know its true gains.
 
@@ -401,8 +399,7 @@ plot_curves(
 # Acceleration on the left is the better choice. SysId uses it for this reason: its source says that
 # least squares "performs best with the noisiest variable as the dependent variable". (The dependent
 # variable is the one on the left.) But it is not perfect: the velocity is still a column, and it is
-# noisy too. So α and β shrink, and kA, which is 1/β, grows. Remember that when somebody shows you
-# gains from a rattling gearbox.
+# noisy too. So α and β shrink, and kA, which is 1/β, grows.
 
 # %% [markdown]
 # ## 5 What SysId does before it fits
@@ -621,9 +618,6 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 #   standstill rows have a random sgn(v), and kA gets worse the longer the robot stands. (Try it:
 #   the last point of section 14.)
 # </details>
-#
-# Do not rely on luck: a filter makes kA smaller and noise makes it larger, so two errors may
-# cancel. On another robot they will not.
 
 # %% [markdown]
 # ## 7 Two errors, two R²
@@ -827,8 +821,7 @@ plot_curves(
 # and kA tends toward zero. ([Viewing
 # Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 #
-# A window of 3 to 5 helps with a rattling encoder on a *slow* mechanism. On a fast one, log faster,
-# or repair the encoder.
+# A window of 3 to 5 helps on a *slow* mechanism. On a fast one, log faster, or repair the encoder.
 
 # %% [markdown]
 # ## 10 From gains to a first kP
@@ -955,9 +948,8 @@ else:
 plot_time_series(own, dynamic_seconds=1.0)
 
 # %% [markdown]
-# Fit it with SysId's method, and with your own five lines. If your log is in rotations, gains per
-# radian (the unit of our program) become gains per rotation: times 2π. *One standard error*
-# estimates how far noise alone moves a gain from its true value.
+# Fit it with SysId's method, and with your own five lines. *One standard error* is the typical
+# error from noise alone.
 
 # %%
 best = fit(own, method="sysid").in_log_units()
