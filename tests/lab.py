@@ -77,7 +77,8 @@ def run_all(page, address):
     page.wait_for_function(
         """() => {
             const shown = '.jp-CodeCell .jp-InputPrompt:not(.jp-Placeholder-prompt)';
-            const prompts = [...document.querySelectorAll(shown)].map(prompt => prompt.textContent.trim());
+            const prompts = [...document.querySelectorAll(shown)]
+                .map(prompt => prompt.textContent.trim());
             return prompts.length && prompts.every(text => /^\\[\\d+\\]:$/.test(text));
         }""",
         polling=OFTEN,
