@@ -7,6 +7,7 @@ The text is what people edit. A notebook holds no outputs, and deriving it again
 """
 
 import hashlib
+import re
 import sys
 from collections import Counter
 from pathlib import Path
@@ -15,11 +16,14 @@ import jupytext
 import nbformat
 
 LESSONS = Path(__file__).resolve().parents[1] / "lessons"
+# A cell that only asks: its code repeats the question, and a quick check's holds the answer.
+ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
+KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def derive(text: Path) -> nbformat.NotebookNode:
-    """The notebook of a lesson's text, without outputs and with cell names that stay."""
+    """The notebook of a lesson's text: no outputs; what holds an answer or repeats is collapsed."""
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.metadata = nbformat.from_dict(
         {"kernelspec": KERNEL, "language_info": {"name": "python"}}
@@ -31,6 +35,13 @@ def derive(text: Path) -> nbformat.NotebookNode:
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
         cell.metadata = nbformat.from_dict({})
+        if cell.cell_type == "code" and ASKS.search(cell.source):
+            cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
+    for shown, words, code in zip(
+        notebook.cells, notebook.cells[1:], notebook.cells[2:], strict=False
+    ):
+        if KNOBS.search(shown.source) and words.source.startswith("No "):
+            code.metadata = nbformat.from_dict({"jupyter": {"outputs_hidden": True}})
     nbformat.validate(notebook)
     return notebook
 

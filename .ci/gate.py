@@ -1,4 +1,4 @@
-"""The gate: the README's two commands as printed, then slow tests, lint, types, contracts, pages.
+"""The gate: the README's two commands as printed, then slow tests, lint, types, spelling, pages.
 
 Everything runs in a virtual environment made for this run, so nothing that happens to be installed
 on the machine can help.
@@ -26,6 +26,10 @@ PATIENCE = 1080.0  # [s] for one command: the tests have to leave time for the r
 SCREEN_SAYS = "Next:"  # how the line begins that says what to do
 EVERYTHING = ("-n", "logical", "--dist", "loadscope", "--no-loadscope-reorder")
 INSTALLED_SAYS = "Installed"  # how the line begins that ends the install
+# what people read, and the code that prints it
+PROSE = (
+    "README.md INSTRUCTORS.md CONTRIBUTING.md CHANGELOG.md lessons exercises solutions grader sim"
+)
 OK = 200  # HTTP's word for it
 
 
@@ -49,6 +53,7 @@ def main() -> None:
             "ruff format --check .",
             "mypy",
             "lint-imports",
+            f"codespell {PROSE}",
             "mkdocs build --strict -f .ci/mkdocs.yml",
         ):
             say(step)

@@ -14,6 +14,7 @@ from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band
 LITTLE = 2.0  # [wider bands] up to here a number is outside by a little, beyond it by a lot
+UNIT_ASSUMED = " (no unit given, so I assumed "
 FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three samples of 20 ms
 
 
@@ -105,7 +106,7 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
     if raw is None or raw == "":
         raise WrongAnswer("nothing yet", hint=ask)
     if isinstance(raw, bool):
-        raise WrongAnswer(f"{str(raw).lower()}, which is yes or no and not a number", hint=ask)
+        raise WrongAnswer(f"{str(raw).lower()}, which is not a number", hint=ask)
     if isinstance(raw, int | float):
         return _require_finite(raw, asked)
     if not isinstance(raw, str):
@@ -140,8 +141,10 @@ def _find_scale(unit: str, asked: AskedNumber) -> float:
         ) from None
     if given.powers != wanted.powers:
         raise WrongAnswer(
-            f"the unit {unit!r}, which does not measure {asked.name}",
-            hint=f"Asked for: {asked.unit}. Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not.",
+            f"the unit {unit!r}, which is not a unit of {asked.name}",
+            hint=(
+                f"Write it in {asked.unit}. Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not."
+            ),
             misconception="M-UNITS",
         )
     return given.factor / wanted.factor
@@ -173,17 +176,18 @@ def judge_number(
     full, partial = asked.band.widths(asked.expected)
     away = abs(value - asked.expected)
     near = asked.describe_tolerance(full, asked.band.full)
-    earned, verdict = 0.0, f"outside the accepted {near}, by a lot"
+    earned, verdict = 0.0, f"far outside the accepted {near}"
     if away <= partial:
         wider = asked.describe_tolerance(partial, asked.band.partial)
         earned, verdict = HALF * points, f"close: within {wider}, not yet within {near}"
     elif away <= LITTLE * partial:
-        verdict = f"outside the accepted {near}, by a little"
+        verdict = f"just outside the accepted {near}"
     slips = diagnose_number(name, given, key)
     codes = {slip.misconception for slip in slips}
     said = _describe_wrong_number(name, value, slips)
+    assumed = f"{UNIT_ASSUMED}{asked.unit})" if asked.unit and not converted else ""
     raise WrongAnswer(
-        f"{shown}{'' if converted else ' (no unit given: read as asked)'}",
+        f"{shown}{assumed}",
         hint="; ".join(part for part in (said, "" if said and not earned else verdict) if part),
         misconception=codes.pop() if len(codes) == 1 else "",
         earned=earned,
@@ -215,7 +219,7 @@ def _find_wrong_numbers(
     for other, one in key.asked.items():
         theirs = _read_value(other, given, key)
         if other != name and theirs is not None and one.right(value) and asked.right(theirs):
-            says = f"it would be right for {other}, and yours for {other} for {name}: swapped?"
+            says = f"it would be right for {other}, and your {other} for {name}: did you swap them?"
             found += (WrongNumber("swapped", says, "M-ARGORDER"),)
     return found
 
@@ -231,5 +235,7 @@ def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ..
     if slips:
         return "; or ".join(slip.says for slip in slips)
     if value < 0:
-        return f"{name} cannot be negative. Is velocity or voltage turned around in your data?"
+        return (
+            f"{name} cannot be negative. Does velocity or voltage have the wrong sign in your data?"
+        )
     return ""

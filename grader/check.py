@@ -167,7 +167,7 @@ def run_checks(checks: Sequence[Check[Subject]], subject: Subject) -> tuple[Resu
         blocked = [first for first in one.after if results[first.id].status is not Status.PASSED]
         if blocked:
             first = blocked[0].description
-            results[one.id] = skip_check(one, f"looked at once this is right: {first}")
+            results[one.id] = skip_check(one, f"checked after this is right: {first}")
         else:
             results[one.id] = one.run(subject)
     return tuple(results.values())

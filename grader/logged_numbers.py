@@ -79,8 +79,8 @@ def _find_wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
                     f"{one.motor} {one.signal}",
                     f"{_locate(one)}: {one.motor} gets the {one.signal} of {one.device}",
                     (
-                        f"Copied and not changed? Under the name {one.motor} belongs what the "
-                        f"{named} motor did."
+                        "Did you copy a line and forget to change it? Under the name "
+                        f"{one.motor}, log the values of the {named} motor."
                     ),
                 )
 
@@ -113,8 +113,8 @@ def _find_shared_device(facts: RoutineFacts) -> Iterator[Fault]:
                         f"{before.motor}"
                     ),
                     (
-                        f"Copied and not changed? Log for {one.motor} what its own motor and its "
-                        "own encoder say."
+                        f"Did you copy a line and forget to change it? Log for {one.motor} the "
+                        "values of its own motor and its own encoder."
                     ),
                 )
     yield from _find_mixed_devices(facts)
@@ -136,7 +136,7 @@ def _find_mixed_devices(facts: RoutineFacts) -> Iterator[Fault]:
                         f"{_locate(other)}: the {later} of {name} comes from {other.device}, its "
                         f"{earlier} from {one.device}"
                     ),
-                    "All three signals of a motor have to come from the same side.",
+                    "All three signals of a motor must come from the same side.",
                 )
 
 
@@ -208,10 +208,11 @@ def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | 
         turned = call.motor in facts.inverted
         if turned:
             hint = (
-                "The code inverts this motor as well: twice is not at all. Leave one of them out."
+                "The code inverts this motor as well, and two inversions cancel. Leave one of "
+                "them out."
             )
         elif len(flipped) == len(facts.drive):
-            hint = "Then a forward test runs backward. Send the voltage as it comes."
+            hint = "Then a forward test runs backward. Send the voltage without changing its sign."
         else:
             hint = (
                 "Nothing here says that this motor is mounted the other way round. If it is, "
@@ -255,8 +256,8 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
                 f"{_locate(odd[0])}: "
                 f"the {odd[0].signal} of {name} has a sign of its own, unlike its "
                 f"{rest[0].signal}",
-                hint="A positive voltage has to go with a velocity and a position that grow. Log "
-                "all three with the same sign.",
+                hint="A positive voltage must give a positive velocity and a growing position. "
+                "Log all three with the same sign.",
                 misconception="",
             )
 
@@ -275,7 +276,7 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
         if DIVIDES_BY_ZERO.search(one.text):
             raise WrongAnswer(
                 f"{_locate(one)}: a number divided by 0",
-                hint="It has no end. Divide by the gear ratio, or not at all.",
+                hint="The result is infinite. Divide by the gear ratio, or not at all.",
                 misconception="M-UNITS",
             )
         if geared and one.native.startswith("rotation") and not geared & {one.device, "*"}:
@@ -464,12 +465,15 @@ def check_numbers(facts: RoutineFacts) -> None:
     for name, number in facts.impossible_numbers:
         raise WrongAnswer(
             f"{name} is made with {number:g}",
-            hint="That can be no port and no CAN ID of its own. Look at how it is wired.",
+            hint="That cannot be a port or a CAN ID. Check the wiring.",
         )
     for one, other in facts.same_numbers:
         raise WrongAnswer(
             f"{one} and {other} are made with the same number",
-            hint="Two devices cannot share a port or a CAN ID. Copied and not changed?",
+            hint=(
+                "Two devices cannot share a port or a CAN ID. Did you copy a line and forget "
+                "to change it?"
+            ),
         )
 
 

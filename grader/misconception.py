@@ -31,14 +31,13 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Units: per rotation, per radian, per meter",
     ),
     "M-ARGORDER": Misconception(
-        "Values that stand side by side are told apart only by their order. Look up which comes "
-        "first.",
+        "Only their order separates values in a list of arguments. Look up which comes first.",
         lesson="08_from_analyzer_to_robot",
         section="The class, and its slots",
     ),
     "M-CMDVOLT": Misconception(
-        "What was asked for is not what the motor got: a weak battery or a current limit takes "
-        "volts away, and a fit on asked-for volts puts the blame on kA.",
+        "The commanded voltage is not the applied voltage: an empty battery or a current limit "
+        "reduces it, and a fit on commanded volts gives a wrong kA.",
         lesson="04_wire_sysidroutine",
         section="Explain what you saw",
     ),
@@ -49,105 +48,105 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Mechanism, first callback: drive",
     ),
     "M-DUTY": Misconception(
-        "A duty cycle is a share of whatever the battery gives at that moment; a voltage is the "
-        "same with a full battery and with a tired one.",
+        "A duty cycle is a share of the present battery voltage; a voltage is the same with a "
+        "full battery and with an empty one.",
         lesson="04_wire_sysidroutine",
-        section="The virtual robot: one slip at a time",
+        section="The virtual robot: one mistake at a time",
     ),
     "M-KS-INTERCEPT": Misconception(
-        "The straight line through a slow ramp crosses v = 0 above kS: the ramp accelerates the "
-        "mechanism all the time, and that costs kA·a on top.",
+        "The straight line through a slow ramp meets v = 0 above kS: the ramp accelerates the "
+        "mechanism all the time, and that takes kA·a in addition.",
         lesson="03_test_design",
         section="Reading the ramp: the intercept drifts",
     ),
     "M-KG-EDGE": Misconception(
-        "The voltage at which a mechanism just does not fall is not gravity alone: friction "
-        "helps to hold it there, and is in the way where it just begins to rise. Gravity is the "
-        "middle of that band, friction half its width.",
+        "The voltage at which a mechanism just does not fall is not kG: friction helps to hold "
+        "it there, and acts against you where it just begins to rise. kG is the middle of that "
+        "band, kS is half its width.",
         lesson="02_gravity",
         section="Doing it: hold it still",
     ),
     "M-NO-KG-IN-SYSID": Misconception(
-        "SysId does find kG, once it is told that there is gravity. Simple has no place for "
-        "gravity: what gravity takes ends up in the other gains. With upward runs alone it is "
-        "added to kS; with runs both ways kV may even come out negative.",
+        "SysId does find kG, if you choose the type Elevator or Arm. Simple has no gravity "
+        "term, so gravity makes the other gains wrong. With upward runs alone kG is added to "
+        "kS; with runs both ways kV may even be negative.",
         lesson="02_gravity",
-        section="From a log: tell SysId what it looks at",
+        section="From a log: choose the analysis type",
     ),
     "M-NOISE-AVERAGES": Misconception(
-        "Noise in a column you fit with does not average out: it pulls that column's coefficient "
-        "toward zero. In SysId's regression the coefficient of the voltage is 1/kA, so kA comes "
-        "out too large. Let the noisiest column be the one you explain.",
+        "Noise in a column of a fit does not average out: it makes the coefficient of that "
+        "column too small. In SysId's regression the coefficient of the voltage is 1/kA, so kA "
+        "becomes too large. Put the noisiest quantity on the left side.",
         lesson="07_fit_it_yourself",
         section="Which side is noisy?",
     ),
     "M-REVERSE-WASTE": Misconception(
-        "The reverse runs show whether friction is the same both ways, and gravity or a slope "
-        "shows only as a difference between the two. SysId refuses to fit without them.",
+        "Only the reverse runs show whether friction is the same in both directions, and only "
+        "the difference between the directions shows gravity or a slope. SysId refuses to fit "
+        "without them.",
         lesson="03_test_design",
         section="Why reverse? Three reasons",
     ),
     "M-R2": Misconception(
-        "There is more than one R²: say of which quantity, and look up how it is computed. None "
-        "of them is a lie detector: it can be high on a damaged log, so look at the signals, "
+        "There is more than one R²: say which one, and look up how it is computed. A high R² "
+        "does not prove a good log: it can be high on a damaged log, so look at the signals, "
         "too.",
         lesson="06_read_the_data",
         section="R² is not a lie detector",
     ),
     "M-BIG-STEP": Misconception(
-        "A big step spins the wheels, meets the current limit and drains the battery. A smaller "
-        "one shows kA as well, as long as the motion stands out of the noise: 2 V does, 0.6 V "
-        "does not.",
+        "A big step spins the wheels, reaches the current limit and drains the battery. A "
+        "smaller one shows kA as well, as long as you see the motion above the noise: 2 V is "
+        "enough, 0.6 V is not.",
         lesson="03_test_design",
         section="Choose the step: hard enough, not too hard",
     ),
     "M-SLOW-SAFE": Misconception(
-        "A slower ramp is not the safer one: it covers more ground on its way to the same speed.",
+        "A slower ramp is not safer: it needs more room to reach the same speed.",
         lesson="03_test_design",
         section="Choose the ramp: how far will it go?",
     ),
     "M-LONG-DYN": Misconception(
-        "A step has told all about kA after a few times kA/kV. What comes later is nearly "
-        "steady speed: it costs room and tells only kV once more. SysId drops it; a fit that "
-        "does not trim is none the better for it.",
+        "A step shows everything about kA in the first few times kA/kV. After that the speed is"
+        " nearly steady: this needs room and shows only kV again. SysId drops it; a fit that "
+        "does not trim becomes worse.",
         lesson="03_test_design",
         section="Choose when to stop: mark and timeout",
     ),
     "M-CONST-ACCEL": Misconception(
-        "Under a constant voltage the acceleration dies away, with the timescale kA/kV: the "
-        "faster it goes, the more volts kV·v takes. One that stays the same is the sign of a "
-        "current limit or of wheels that slip.",
+        "With a constant voltage the acceleration fades, with the time constant kA/kV: the "
+        "faster it goes, the more volts kV·v takes. If it stays the same, a current limit acts "
+        "or the wheels slip.",
         lesson="03_test_design",
         section="The model: two tests, four runs",
     ),
     "M-KV-MASS": Misconception(
-        "kV is what the motor's own back-EMF takes at a speed; mass has no part in it. A "
-        "heavier robot gets up to speed more slowly, which is kA, and then needs the same "
-        "volts.",
+        "kV is the motor's own back-EMF; it does not depend on mass. A heavier robot reaches "
+        "its speed more slowly, which is kA, and then needs the same volts.",
         lesson="01_motor_model",
         section="Where the prices come from",
     ),
     "M-BELOW-THEORY-OK": Misconception(
-        "No mechanism is faster than its motor's free speed allows. A kV below theory is not a "
-        "good robot, but a mistake in what was written down.",
+        "No mechanism is faster than its motor's free speed allows. A kV below theory does not "
+        "mean a good robot; somebody wrote down a wrong number.",
         lesson="01_motor_model",
         section="Is this kV possible?",
     ),
     "M-LIMITS-BYPASSED": Misconception(
-        "A test takes the place of your own commands, and goes around the limits in them. "
-        "Limits set inside the motor controller go on acting, and then they are in your data.",
+        "A test replaces your own commands, and so it bypasses the limits in them. Limits set "
+        "inside the motor controller still act, and then your data show them.",
         lesson="05_preflight_and_run",
         section="Guard",
     ),
     "M-FF-EXACT": Misconception(
-        "A feedforward is as good as its model, its gains and the day: a few percent are always "
-        "left, and feedback is there for them.",
+        "A feedforward is only as good as its model and its gains. An error of a few percent "
+        "always remains, and feedback corrects it.",
         lesson="08_from_analyzer_to_robot",
         section="Droop: what kP can do, and what not",
     ),
     "M-KP-EXACT": Misconception(
-        "Proportional feedback makes its volts out of an error, so some of the error has to "
-        "stay. A larger kP leaves less of it, never none.",
+        "Proportional feedback needs an error to give a voltage, so a part of the error "
+        "remains. A larger kP leaves less, but never zero.",
         lesson="08_from_analyzer_to_robot",
         section="Droop: what kP can do, and what not",
     ),
@@ -158,21 +157,21 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Week 3: a brace",
     ),
     "M-SAG-ALWAYS-BAD": Misconception(
-        "A battery that sags does no harm to a fit on applied volts, as long as the volts asked "
-        "for can still be had.",
+        "A low battery voltage does no harm to a fit on applied volts, as long as the battery "
+        "can still give the commanded voltage.",
         lesson="05_preflight_and_run",
         section="Battery",
     ),
     "M-TRIM-PRETTY": Misconception(
-        "Trim where the physics of the test ends, not where the picture stops being pretty: "
-        "fast samples tell kV and the first rise of a step tells kA, however noisy they are.",
+        "Trim where the model is no longer true, not where the picture looks ugly: fast samples"
+        " determine kV and the first rise of a step determines kA, however noisy they are.",
         lesson="06_read_the_data",
         section="Do not trim for beauty",
     ),
     "M-FILTER-FREE": Misconception(
-        "A filter is not free: a long one bends whatever is quicker than itself. A long median "
-        "cuts away the start of a step, and kA comes out too small; an average makes the velocity "
-        "late, and kA comes out too large.",
+        "A filter has a price: a long one flattens everything that is faster than itself. A "
+        "long median cuts off the start of a step, and kA becomes too small; an average makes "
+        "the velocity late, and kA becomes too large.",
         lesson="07_fit_it_yourself",
         section="A filter is not free",
     ),

@@ -93,7 +93,7 @@ def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
 def _format_verdict(grade: Grade) -> Line:
     passed = grade.status == "passed"
     mark, style = MARKS[Status.PASSED if passed else Status.FAILED]
-    score = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points"
+    score = f"{grade.exercise}: {format_points(grade.score, grade.max_score)} points"
     said = "all right" if passed else "not all right yet"
     file = f"  ({grade.file.name})" if grade.file else ""
     return (StyledText(f"{mark} {score}, {said}", f"bold {style}"), StyledText(file, "dim"))
@@ -101,7 +101,7 @@ def _format_verdict(grade: Grade) -> Line:
 
 def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]:
     mark, style = MARKS[result.status]
-    points = f"{result.points:g} of {result.max_points:g}"
+    points = format_points(result.points, result.max_points)
     if plain:
         rows = [style_line(f"{mark} {result.description}, {points} points", style)]
     else:
@@ -112,6 +112,11 @@ def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]
         if word in ONCE:
             said.add(text)
     return rows
+
+
+def format_points(earned: float, most: float) -> str:
+    """Points to two decimals at most, as in ``1.08 of 10``."""
+    return f"{round(earned, 2):g} of {round(most, 2):g}"
 
 
 def _format_row(description: str, points: str, mark: str, style: str) -> list[Line]:
@@ -181,7 +186,7 @@ def format_overview(
             Status.PASSED if standing.is_done else Status.FAILED if tried else Status.NOT_REACHED
         )
         mark, style = MARKS[status]
-        score = f"{standing.score:g} of {standing.max_score:g}" if tried else "not tried yet"
+        score = format_points(standing.score, standing.max_score) if tried else "not tried yet"
         room = find_width() - len(score) - 1
         said = f"{one.name}  {one.title}"[: room - 3]
         if plain:

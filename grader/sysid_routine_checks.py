@@ -76,7 +76,7 @@ class ConfigSetting:
             NotReachedError: there is no Config.
         """
         if facts.config_argument < 0:
-            raise NotReachedError("looked at once the SysIdRoutine gets a Config")
+            raise NotReachedError("checked after the SysIdRoutine gets a Config")
         if got.text == "None":
             raise WrongAnswer(
                 f"None for the {self.name}",
@@ -315,7 +315,7 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         more = f" There are {len(errors)} such lines." if len(errors) > 1 else ""
         raise WrongAnswer(
             f"line {one.line}: {one.message}",
-            hint=f"Like this {stops}, and the robot runs none of it. Mend the name, its import or "
+            hint=f"Like this {stops}, and the robot runs none of it. Fix the name, its import or "
             f"its type.{more}",
             earned=earned,
         )
@@ -334,4 +334,4 @@ def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
 
 def explain_doubt(what: str, text: str) -> str:
     """A question instead of a guess."""
-    return f"I cannot tell {what} by reading{f' {text}' if text else ''}"
+    return f"the grader cannot see {what} by reading{f' {text}' if text else ''}"

@@ -25,23 +25,31 @@
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
 # and its answer appears below. Go from top to bottom, and leave none out. You do not have to
-# understand every line of code.
+# understand every line of code. Some cells are folded to a bar with three dots, because their code
+# would give away an answer; run them like the others.
+#
+# **If you see no buttons or sliders:** you can type an answer in a cell, for example
+# `guess_race.value = "the three lines"` for a prediction or `quick.answer("kS")` for a quick check.
+# Below each slider there is a line of code with the same numbers to change; its picture is folded
+# to a bar, so click on the bar. This holds for all lessons.
 
 # %% [markdown]
 # ## 1 Why: somebody has to choose the numbers
 #
-# A robot program wants the drivetrain to move at 2 m/s. What it can give is a **voltage**. How many
-# volts are 2 m/s? A **feedforward** answers that: it is a formula that turns the motion you want
-# into the voltage it takes, before anything has gone wrong.
+# Your robot program wants the drivetrain to move at 2 m/s. But all it can control is a **voltage**.
+# How many volts give 2 m/s? A **feedforward** answers that: it is a formula that computes the
+# voltage for the motion you want. It does not wait for an error and then correct it; it gives the
+# right voltage from the start.
 #
-# The formula has three numbers in it, called **gains**:
+# The formula contains three numbers, called **gains**:
 #
-# - **kS**: volts to overcome friction, needed as soon as anything moves;
+# - **kS**: the volts that overcome friction whenever the robot moves;
 # - **kV**: volts for each m/s of velocity;
 # - **kA**: volts for each m/s² of acceleration. (An acceleration of 1 m/s² means: each second, the
 #   velocity grows by 1 m/s.)
 #
-# Lesson 1 explains where they come from. Today there is one question: **who chooses them?**
+# Lesson 1 explains where they come from. Today there is one question: **how do you find these
+# numbers?**
 #
 # - You can **guess**: try 0.1, load the code onto the robot (*deploy*), watch, try 0.2.
 # - You can **measure**: let the robot run a few tests, write down what it did, and compute the
@@ -79,8 +87,8 @@ from sim.teaching.prediction import Prediction
 # %% [markdown]
 # ## 2 Your robot
 #
-# Write your name between the quotes, and run the cell. Everybody gets a robot of their own: a
-# drivetrain with its own gears, weight and friction. The same name always gives the same robot.
+# Write your name between the quotes, and run the cell. You get your own robot: a drivetrain with
+# its own gears, weight and friction. The same name always gives the same robot.
 
 # %%
 NAME = "me"
@@ -98,14 +106,14 @@ print("Its gains are hidden from you until the race is over.")
 
 # %% [markdown]
 # The robot is simulated. We call the simulation **the bench**. It has one great advantage over a
-# real robot: its true gains are known, so that in the end we can say who was right.
+# real robot: its true gains are known, so you can check who was right.
 #
 # ### The drive
 #
-# This is what the robot is asked to do: speed up to 2.5 m/s within half a second, hold that, stop,
-# wait, and then drive back at 1 m/s. The next cell writes the drive down and teaches the robot to
-# try. Its heart is one line, `volts = …`: the voltage, computed from the wish. (`np.sign(v)` is +1
-# forward and −1 backward, so that kS always works against friction.)
+# The robot should speed up to 2.5 m/s within half a second, hold that speed, stop, wait, and then
+# drive back at 1 m/s. The next cell describes this drive. The most important line is `volts = …`:
+# it computes the voltage from the motion we want. (`np.sign(v)` is +1 forward and −1 backward, so
+# the kS voltage always points in the direction of motion, against friction.)
 
 # %%
 TIME = np.arange(0.0, 4.21, 0.02)  # [s] the robot program runs every 20 ms
@@ -116,33 +124,32 @@ TARGET = np.interp(TIME, CORNERS, SPEEDS)
 
 def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
     """The velocity of a robot that is driven by feedforward alone."""
-    v = (TARGET[:-1] + TARGET[1:]) / 2  # the wished velocity, from one loop to the next
-    a = np.diff(TARGET) / np.diff(TIME)  # the wished acceleration
+    v = (TARGET[:-1] + TARGET[1:]) / 2  # the target velocity, from one loop to the next
+    a = np.diff(TARGET) / np.diff(TIME)  # the target acceleration
     volts = gains["kS"] * np.sign(v) + gains["kV"] * v + gains["kA"] * a
     _, velocity = move_gains_only(driven.gains, time=TIME, voltage=np.append(volts, 0.0))
     return velocity
 
 
 # %% [markdown]
-# Nothing corrects the robot on its way. That is on purpose: a correction (*feedback*, such as PID)
-# would hide how good or bad the gains are.
+# Nothing corrects the robot while it drives. That is on purpose: a correction (*feedback*, such as
+# PID) would hide how good or bad the gains are.
 
 # %% [markdown]
 # ## 3 The race
 #
-# **Round one: you.** You have **90 seconds**, and two knobs, kS and kV. kA stays at 0: two knobs
-# are hard enough. The clock starts when you move the first one. Make the colored line lie on the
-# black one. The number to beat stands in the table: the *typical miss*. (It is the "root mean
-# square" of all misses: an average in which large misses count more.) Race first, and run the cells
-# below it afterwards.
+# **Round one: you.** You have **90 seconds** and two sliders, kS and kV. kA stays at 0: two sliders
+# are hard enough. The clock starts when you move the first one. Bring the colored line onto the
+# black one. The number to beat is in the table: the *typical error*. (It is the "root mean square"
+# of all errors: an average in which large errors count more.) Race first, then run the cells below.
 #
-# **Predict first.** Nobody grades this. Your guess is kept, and you will see it again below.
-# (No buttons on your screen? Type `guess_race.value = "the three lines"` in a cell.)
+# **Predict first.** Nobody grades your prediction. After the experiment the page tells you whether
+# it was right, and keeps your score.
 
 # %%
 guess_race = Prediction(
-    "You have 90 seconds by hand, the other side has three lines of code. Who gets the smaller "
-    "typical miss?",
+    "You have 90 seconds and two sliders. The other side has three lines of code. Who gets the "
+    "smaller typical error?",
     "me, clearly",
     "about the same",
     "the three lines",
@@ -151,12 +158,12 @@ guess_race
 
 # %%
 SECONDS = 90.0
-START = (0.6, 1.5)  # kS [V] and kV [V·s/m] that the knobs begin with
-tries = []  # of each try: when, kS, kV, and its typical miss
+START = (0.6, 1.5)  # kS [V] and kV [V·s/m] where the sliders start
+tries = []  # of each try: when, kS, kV, and its typical error
 
 
 def attempt(ks: float, kv: float) -> Picture:
-    """One try: drive with a guess, and see. The first move starts the clock."""
+    """One try: drive with your guess. The first move starts the clock."""
     velocity = drive(robot, {"kS": ks, "kV": kv, "kA": 0.0})
     if tries or (ks, kv) != START:
         tries.append((monotonic(), ks, kv, measure_tracking_error(TARGET, velocity).typical))
@@ -176,16 +183,16 @@ show_interactive(
 )
 
 # %% [markdown]
-# No sliders on your screen? Change the numbers here and run the cell, again and again. (To race
-# once more, run the cell above again.)
+# No sliders on your screen? Change the numbers here and run the cell again. (To start a new race,
+# run the cell above again.)
 
 # %%
 attempt(0.6, 1.5)
 
 # %% [markdown]
-# **Round two: three lines.** Line one lets the robot run four short tests and keeps the **log**: a
-# list of the time, the voltage, the position and the velocity, fifty rows per second. Line two
-# computes the gains from the log, in the same way as WPILib's SysId. Line three drives.
+# **Round two: three lines.** Line one runs four short tests with the robot and keeps the **log**: a
+# table of time, voltage, position and velocity with fifty rows per second. Line two computes the
+# gains from the log, in the same way as WPILib's SysId. Line three drives with these gains.
 
 # %%
 log = simulate(robot, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
@@ -193,25 +200,26 @@ measured = fit(log, method="sysid").gains
 followed = drive(robot, measured)
 
 # %% [markdown]
-# This is what the log holds: two slow ramps and two sudden steps of the voltage, each forward and
-# backward. SysId calls the ramps *quasistatic* and the steps *dynamic*. (Only the first second of
-# the steps is drawn. Lesson 3 says why just these four.)
+# The log contains two slow ramps and two sudden steps of the voltage: one forward and one backward
+# of each. SysId calls the ramps *quasistatic* and the steps *dynamic*. (The picture shows only the
+# first second of each step. Lesson 3 explains why SysId uses these four tests.)
 
 # %%
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# And the finish:
+# And here is the result of the race:
 
 # %%
 counted = [(off, ks, kv) for at, ks, kv, off in tries if at - tries[0][0] <= SECONDS]
 _, best_ks, best_kv = min(counted, default=(math.inf, *START))
 guessed = {"kS": best_ks, "kV": best_kv, "kA": 0.0}
 
-print(f"You said: {guess_race}.")
-print(f"You made {len(counted)} tries in time." if counted else "You have not tried yet.")
+YOU = "your best try" if counted else "the sliders untouched"
+print(guess_race.reveal("the three lines"))
+print(f"You made {len(counted)} tries in time." if counted else "You have not raced yet.")
 plot_tracking_error(
-    TIME, TARGET, {"your best try": drive(robot, guessed), "three lines": followed}, title="Finish"
+    TIME, TARGET, {YOU: drive(robot, guessed), "three lines": followed}, title="Finish"
 )
 
 
@@ -223,19 +231,19 @@ def row(who: str, gains: dict[str, float]) -> tuple[str | float, ...]:
 
 
 def best_of_two_knobs() -> dict[str, float]:
-    """Try every pair of kS and kV, as nobody has the time to."""
+    """Try every pair of kS and kV."""
     pairs = [(ks, kv) for ks in np.arange(0.0, 0.61, 0.05) for kv in np.arange(2.0, 3.51, 0.05)]
     found = [{"kS": float(ks), "kV": float(kv), "kA": 0.0} for ks, kv in pairs]
     return min(found, key=lambda gains: measure_tracking_error(TARGET, drive(robot, gains)).typical)
 
 
 two_knobs = best_of_two_knobs()
-HEADER = ("who", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "typical miss [m/s]")
+HEADER = ("who", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "typical error [m/s]")
 Table(
     HEADER,
     (
-        row("your best try", guessed),
-        row("the best there is with two knobs", two_knobs),
+        row(YOU, guessed),
+        row("the best possible with kS and kV", two_knobs),
         row("three lines", measured),
         row("the truth", robot.gains),
     ),
@@ -244,39 +252,73 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# Look at the second row. Endless patience, *every* pair of kS and kV in steps of 0.05, and it still
-# misses by that much. Look where: at the ramps of the drive, where the robot speeds up and slows
-# down. Two knobs cannot pay for acceleration. That is what kA is for, and the three lines have it.
-# (Even the true gains miss by a hair. The voltage is set once every 20 ms, and on a ramp the wish
-# has moved on meanwhile.)
+# Look at the second row of the table. The computer tried *every* pair of kS and kV in steps of
+# 0.05, and the best pair still has a large error. Look where: on the ramps of the drive, where the
+# robot speeds up and slows down. kS and kV alone cannot provide the voltage for acceleration. That
+# is the job of kA, and the three lines have it. So **round one could not be won**, by anybody.
 #
-# Was the race fair? In part.
+# (Even the true gains have a tiny error, because the program sets the voltage only every 20 ms.)
 #
-# - The bench was **kind to you**. A try took you two seconds. On a robot it is: change the number,
-#   deploy, drive, walk back.
-# - The bench was **kind to the three lines**, too. On a robot, line one is work: code for the
-#   tests, room to drive, a good battery, a log that is not damaged. Lessons 3 to 6 are about that.
+# Was the race fair? Only partly.
 #
-# Here is what the robot itself spends on line one:
+# - The simulation was **kind to you**. One try took you two seconds. On a robot, one try means:
+#   change the number, deploy, drive, walk back.
+# - The simulation was **kind to the three lines**, too. On a robot, line one is work: you need code
+#   for the tests, room to drive, a good battery, and a log that is not damaged. Lessons 3 to 6
+#   teach this.
+#
+# On a real robot, line one would need this much driving:
 
 # %%
 spent = sum(float(run.time[-1] - run.time[0]) for run in log.runs)
 rows_seen = sum(len(run) for run in log.runs)
 farthest = max(float(np.ptp(run.position)) for run in log.runs)
 print(f"Four tests: {spent:.0f} s of driving, {rows_seen} rows in the log.")
-print(f"The longest one drives {farthest:.1f} m. (It can be done with less: lesson 3.)")
+print(f"The longest one drives {farthest:.1f} m. (Lesson 3 shows how to do it in less room.)")
+
+# %% [markdown]
+# **Round three: kA unlocked.** Now race once more, with all three sliders and no clock. Can you
+# reach the error of the three lines? How long does it take you?
+
+
+# %%
+def unlocked(ks: float, kv: float, ka: float) -> Picture:
+    """One try with all three gains."""
+    velocity = drive(robot, {"kS": ks, "kV": kv, "kA": ka})
+    return plot_tracking_error(TIME, TARGET, {"your robot": velocity}, title="all three gains")
+
+
+show_interactive(
+    unlocked,
+    ks=widgets.FloatSlider(
+        min=0, max=1, step=0.02, value=START[0], description="kS [V]", continuous_update=False
+    ),
+    kv=widgets.FloatSlider(
+        min=1, max=4, step=0.02, value=START[1], description="kV [V·s/m]", continuous_update=False
+    ),
+    ka=widgets.FloatSlider(
+        min=0, max=0.6, step=0.01, value=0, description="kA [V·s²/m]", continuous_update=False
+    ),
+)
+
+# %% [markdown]
+# No sliders on your screen? Change the numbers here:
+
+# %%
+unlocked(0.6, 1.5, 0.0)
 
 # %% [markdown]
 # ## 4 An honest twist: a pencil is enough for kV
 #
-# Now a teammate says: "I do not drag knobs. I give the robot 1 V, wait until it is steady, and
-# write down its speed. Then 2 V, and so on. Then I draw a straight line with a ruler."
+# Now a teammate says: "I do not move sliders. I give the robot 1 V, wait until the speed is steady,
+# and write it down. Then 2 V, and so on. Then I draw a straight line with a ruler."
 #
-# At a steady speed nothing accelerates, so kA does not matter. What is left is
+# At a steady speed nothing accelerates, so kA does not matter. The formula becomes
 #
 # > voltage = kS + kV · velocity
 #
-# a straight line: kV is its slope (how steep it is), and kS is where it meets velocity 0.
+# This is a straight line: kV is its slope (how steep it is), and kS is the voltage where the line
+# meets velocity 0.
 #
 # **Predict:**
 
@@ -295,7 +337,7 @@ rng = np.random.default_rng(2)
 
 
 def steady_speed(volts: float) -> float:
-    """The speed that somebody reads off the dashboard after a second, to two decimals."""
+    """The speed after a second, read off the dashboard to two decimals."""
     time = np.arange(0.0, 1.5, 0.02)
     _, velocity = move_gains_only(robot.gains, time=time, voltage=np.full(time.size, volts))
     shaky = velocity[-25:] + robot.sensor.velocity_noise * rng.standard_normal(25)
@@ -303,7 +345,7 @@ def steady_speed(volts: float) -> float:
 
 
 speeds = np.array([steady_speed(volts) for volts in VOLTS])
-slope, start = np.polyfit(speeds, VOLTS, 1)  # the ruler: the straight line that misses least
+slope, start = np.polyfit(speeds, VOLTS, 1)  # the ruler: the straight line that fits best
 plot_misses(
     speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]"
 )
@@ -320,7 +362,7 @@ def off(gains: dict[str, float], name: str) -> str:
     return f"{100 * (gains[name] / truth[name] - 1):+.1f} %".replace("-", "−")
 
 
-print(f"You said: {guess_pencil}.")
+print(guess_pencil.reveal("1 % or less"))
 Table(
     ("who", "kS off by", "kV off by", "kA off by"),
     (
@@ -330,70 +372,82 @@ Table(
 )
 
 # %% [markdown]
-# For kV it is a tie, or nearly. A good manual fit is *good*, and for kS it is often no worse either
-# (SysId's kS comes out a little high on such logs; lesson 7 says why). A maintainer of WPILib
-# calls this line "the better way" to find kS and kV by hand.
-# ([frc-docs issue 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
+# For kV it is almost a tie. A careful manual fit is *good*, and for kS it is often just as good
+# (SysId's kS comes out a little high on such logs; lesson 7 explains why). A maintainer of WPILib
+# calls this line "the better way" to find kS and kV by hand. ([frc-docs issue
+# 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
 #
-# So the difference is not "human against computer". Look closely at what the pencil did: it did
-# *not* turn a knob until it liked the result. It **wrote down what the robot did, and fitted a
-# model to it**. That is system identification, done with a pencil.
+# So the race was not "human against computer". Look closely at what your teammate did with the
+# pencil: they did *not* turn a knob until they liked the result. They **wrote down what the robot
+# did, and fitted a model to it**. That is system identification, done with a pencil.
 #
-# What the pencil lacks is kA, because it only looks at steady speeds.
+# The pencil cannot find kA, because it only looks at steady speeds.
 
 # %% [markdown]
 # ## 5 Two questions
+#
+# Guessing asks: **which number makes the robot behave as I like?** SysId asks: **which physical
+# model best explains what the robot did?** The official definition says the same: system
+# identification is finding a mathematical model of a system "through statistical analysis of its
+# inputs and outputs". The two questions lead to different things:
+#
+# | | guessing | measuring |
+# |---|---|---|
+# | asks | which gain makes it behave as I like? | which model explains what it did? |
+# | looks at | one drive, by eye | every row of the log |
+# | gives | a number that worked | a number with a meaning and a unit |
+# | how to check it | try again | compare with motor, gears and mass (lesson 1) |
+# | when it fails | turn another knob | see *where* the model fails (lesson 9) |
+#
+# **Not everybody agrees.** Some people say that every good team uses SysId on every mechanism. A
+# maintainer of WPILib wrote in 2026 that most teams get the opposite advice: "avoid the SysId tool
+# and do manual tuning instead", because SysId is "error-prone" ([allwpilib issue
+# 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)). This course is the answer: each
+# lesson makes one of those errors on purpose, until you recognize it.
+#
+# (This course grew out of another lesson, the *source lesson*. Most of it is right. Where it is
+# wrong or incomplete, you find a folded box: it quotes the source lesson, shows what the official
+# documentation says, and lets you try it. Mentors may want to open them; you do not need them.)
+#
+# <details><summary>For mentors: which question SysId asks</summary>
 #
 # > **Lesson says:** SysId does not ask "what gain produces behavior I like", it asks "what physical
 # > model best explains the data this mechanism actually produced".
 # >
 # > **Source says:** the same in drier words: system identification is finding a mathematical model
 # > of a system "through statistical analysis of its inputs and outputs". And it adds that the model
-# > "is not perfect", but usually good enough.
-# > ([WPILib docs: Introduction to System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
+# > "is not perfect", but usually good enough. ([WPILib docs: Introduction to System
+# > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
 # > **Try it:** in the table of section 3, which row was made by which question?
+# </details>
 #
-# (You will see such boxes often. This course grew out of another lesson, the *source lesson*. Most
-# of it is right. Where it is not, or where it says less than it should, the box quotes it, shows
-# what the official documentation or the code says, and lets you try.)
-#
-# The two questions lead to different things:
-#
-# | | guessing | measuring |
-# |---|---|---|
-# | asks | which gain makes it behave as I like? | which model explains what it did? |
-# | looks at | one drive, with one's eyes | every row of the log |
-# | gives | a number that worked | a number with a meaning and a unit |
-# | can be checked | by trying again | against motor, gears and mass (lesson 1) |
-# | when it fails | one more knob | one can see *where* the model fails (lesson 9) |
-#
-# Is everybody convinced? No, and you should know that:
+# <details><summary>For mentors: does every good team use SysId?</summary>
 #
 # > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
 # > closed-loop control."
 # >
 # > **Source says:** (*closed-loop control* is feedback.) We could not check what these teams do. A
-# > maintainer of WPILib writes in 2026
-# > that the prevailing advice is to "avoid the SysId tool and do manual tuning instead", because
-# > SysId is "error-prone".
-# > ([allwpilib issue 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
+# > maintainer of WPILib writes in 2026 that the prevailing advice is to "avoid the SysId tool and
+# > do manual tuning instead", because SysId is "error-prone". ([allwpilib issue
+# > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
 # >
 # > **Try it:** that is what this course is for. Each lesson makes one of those errors on purpose,
 # > on a bench where the truth is known, until you recognize it.
+# </details>
 
 # %% [markdown]
 # ## 6 Week 3: a brace
 #
-# Two weeks later the mechanics bolt a steel brace onto the frame: **+4 kg**. Nobody tells the
+# Two weeks later the build team bolts a steel brace onto the frame: **+4 kg**. Nobody tells the
 # programmers.
 #
-# **Predict**, twice:
+# **Predict** two things:
 
 # %%
 guess_gain = Prediction("Which gain of the robot moves?", "kS", "kV", "kA", "all three")
 guess_worse = Prediction(
-    "You keep the gains of your best try. Do you see that it drives worse?",
+    "You keep the gains of your best try. Will you see that the robot drives worse?",
     "yes, clearly",
     "hardly",
     "not at all",
@@ -413,7 +467,7 @@ def week_three(kg: float) -> Picture:
     """The race once more, on a heavier robot."""
     heavy, again = with_brace(kg)
     racers = {
-        "your best try, kept": drive(heavy, guessed),
+        f"{YOU}, kept": drive(heavy, guessed),
         "three lines, kept": drive(heavy, measured),
         "three lines, measured again": drive(heavy, again),
     }
@@ -439,8 +493,9 @@ heavy, again = with_brace(BRACE)
 before = measure_tracking_error(TARGET, drive(robot, guessed)).typical
 after = measure_tracking_error(TARGET, drive(heavy, guessed)).typical
 
-print(f"You said: {guess_gain}; {guess_worse}.")
-print(f"Your best try missed by {before:.3f} m/s before the brace, and by {after:.3f} m/s with it.")
+print(guess_gain.reveal("kA"))
+print(guess_worse.reveal("hardly"))
+print(f"Typical error of {YOU}: {before:.3f} m/s before the brace, {after:.3f} m/s with it.")
 Table(
     ("gain", "true before", "true with the brace", "measured before", "measured again", "unit"),
     tuple(
@@ -453,38 +508,43 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# Only **kA** has moved. At a steady speed nothing is being sped up, so it takes no more volts to
-# move more mass: kV stays. (On a real robot a brace may add a little friction, too. The bench
-# leaves that out.)
+# Only **kA** has moved. At a steady speed nothing accelerates, so a heavier robot needs no more
+# volts: kV stays the same. (On a real robot a brace may also add a little friction. The simulation
+# leaves that out.) So a guess only becomes wrong where it depends on mass: set the slider to 40 kg,
+# and look where the error grows.
+#
+# <details><summary>For mentors: do guesses stop being valid when the robot gets heavier?</summary>
 #
 # > **Lesson says:** when the mechanism gets heavier, "the guesses stop being valid".
 # >
 # > **Source says:** only where they depend on mass. WPILib describes kS as what friction takes, kV
 # > as what a constant velocity takes, and kA as what acceleration takes. Mass resists acceleration.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor
+# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** set the slider to 40 kg. Where does the robot miss more: on the ramps, or while it
 # > holds a speed?
+# </details>
 #
-# So be fair to the guess: its kS and kV are as good or as bad as before, and it never had a kA. But
-# it has no way to *notice* the brace either. A measurement does. Here is the course's own method
-# (`fit` without `method="sysid"`; lesson 7 compares the two), before and after:
+# To be fair to the guess: its kS and kV are as good or as bad as before, and it never had a kA. But
+# guessing gives you no way to *notice* the brace. Measuring does. The next cell uses the course's
+# own method (`fit` without `method="sysid"`; lesson 7 compares the two), before and after:
 
 # %%
 heavy_log = simulate(heavy, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(3))
 light_fit, heavy_fit = fit(log), fit(heavy_log)
 growth = heavy_fit.gains["kA"] / light_fit.gains["kA"]
 weighed = robot.load * (growth - 1)
-print(f"kA grew by {100 * (growth - 1):.1f} %.  kA grows in step with mass, and we know the")
+print(f"kA grew by {100 * (growth - 1):.1f} %. kA grows in proportion to mass, and we know the")
 print(f"robot's old mass, {robot.load:.1f} kg. So the brace weighs {weighed:.2f} kg.")
 sysid_growth = again["kA"] / measured["kA"]
 print(f"(SysId's recipe, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less sharp.)")
 
 # %% [markdown]
-# The log has *weighed* the brace. A gain that you like cannot do that; a gain that means something
-# can.
+# The log has *weighed* the brace. A number that just happened to work cannot do that. A number with
+# a physical meaning can.
 #
-# How much does 4 kg matter? It depends on what it is bolted to:
+# How much do 4 kg matter? That depends on where they are:
 
 # %%
 lift = MECHANISMS["elevator"]
@@ -497,31 +557,31 @@ for name, one in (("your drivetrain", robot), ("an elevator's carriage", lift)):
 Table(("where", "moves [kg]", "kV grows by", "kA grows by", "kG grows by"), tuple(rows))
 
 # %% [markdown]
-# (**kG** is the gain of gravity, for what moves up and down: lesson 2.)
+# (**kG** is the gain for gravity, for mechanisms that move up and down: lesson 2.)
 #
 # ### So, guess or measure?
 #
-# - For **kV**, and often for kS, a careful line by hand is as good as a fit. If that is all you
-#   need, take the pencil.
-# - For **kA**, and for **kG**, measuring wins. Nobody sees them in one steady speed.
-# - When **something changes**, measuring wins: it tells what has changed, and by how much.
-# - On a **damaged log**, measuring loses. A fit prints three neat numbers for nonsense, too. Lesson
-#   6 teaches you to see that coming.
+# - For **kV**, and often for kS, a careful line by hand is as good as a fit. If you need nothing
+#   else, take the pencil.
+# - For **kA**, and for **kG**, measuring wins. You cannot see them in a single steady speed.
+# - When **something changes**, measuring wins: it shows what changed, and by how much.
+# - With a **damaged log**, measuring loses. A fit prints three neat numbers even when they are
+#   nonsense. Lesson 6 teaches you to recognize such a log.
 #
 # ## 7 What you get for it
 #
-# Good gains pay more than once, because other code builds on them.
+# Good gains help you more than once, because other code uses them.
 #
 # **Drivetrain.** A path planner such as PathPlanner plans a drive that the robot then has to
-# follow. It wants to know how hard the robot is to turn, its *moment of inertia* (MOI). Its docs
-# give a formula for that: it takes two kA's, one measured while turning and one straight ahead.
-# ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
+# follow. It needs to know how hard it is to turn the robot: its *moment of inertia* (MOI). The
+# PathPlanner docs give a formula that uses two kA values, one measured while turning and one while
+# driving straight. ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
 #
 # **Arm.** A motion profile asks for a velocity and an acceleration at every moment, as our drive
-# did. With good gains the arm follows, and the feedback has little left to correct. With bad ones
-# the feedback works against the feedforward all the way.
+# did. With good gains the arm follows, and the feedback has little left to correct. With bad gains
+# the feedback fights the feedforward all the way.
 #
-# **Shooter.** Ask for 4000 rpm, by feedforward alone:
+# **Shooter.** Ask for 4000 rpm with feedforward alone:
 
 # %%
 wheel = MECHANISMS["shooter"]
@@ -550,6 +610,12 @@ Table(
 )
 
 # %% [markdown]
+# Good gains leave little work for the feedback. They do not replace it: the gains in the last row
+# were perfect last month. And gains belong to *your* robot: another team's gains describe another
+# machine.
+#
+# <details><summary>For mentors: can feedforward hit 4000 rpm exactly, without PID?</summary>
+#
 # > **Lesson says:** the feedforward can "predict the exact voltage for 4000 RPM without needing PID
 # > to compensate for model error".
 # >
@@ -558,14 +624,12 @@ Table(
 # > ([WPILib docs: Feedforward Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
 # > **Try it:** the last row above. The gains were perfect, last month.
-#
-# Good gains leave little for the feedback to do. They do not replace it. And they are *yours*: the
-# gains of another team's robot, or of a robot with other gears, are numbers of another machine.
+# </details>
 
 # %% [markdown]
 # ## 8 Your tools
 #
-# Three things come with this course, and all of them run on your own computer.
+# This course comes with three tools. They all run on your own computer.
 #
 # | tool | what it is for |
 # |---|---|
@@ -573,30 +637,31 @@ Table(
 # | `grade` | checks the exercises, gives hints, says what comes next |
 # | `sysid` | simulates, reads, fits and inspects logs, also those of a real robot |
 #
-# You type the last two in a **terminal**, in the course's folder. If you read this in JupyterLab,
-# they are installed. If not, or if one of them is "not found", this one line installs everything:
+# You type the last two in a **terminal**, in the course's folder. If the terminal says "not found",
+# type `python -m` in front, as in `python -m grader`. If that fails too, this line installs
+# everything:
 #
 # ```
 # python -m grader start
 # ```
 #
-# (WPILib's own tool is called **SysId** as well. It is installed with WPILib and opens the same
-# `.wpilog` files. This course explains what it does; you can use either.)
+# (WPILib's own tool is also called **SysId**. It comes with WPILib and opens the same `.wpilog`
+# files. This course explains what it does. You can use either tool.)
 #
 # ### Say who you are
 #
-# Once, in a terminal, with your own name (the one your teacher uses, if you are in a class):
+# Do this once, in a terminal, with your own name (in a class, the name your teacher uses):
 #
 # ```
 # grade start --student ada
 # ```
 #
-# From then on, every exercise gives *you* numbers that only you have: your own mechanism, your own
-# log, with your own damage in it. Your neighbor's answers are of no use to you, but you can compare
-# *how* you got there. The numbers lie in `exercises/exercise1/data/ada/given.toml`, and so on. In a
-# class, your teacher may hand them out. (`NAME` at the top of this page is for the race only.)
+# From then on, every exercise gives you your own numbers: your own mechanism and your own log, with
+# its own damage. Your neighbor's answers will not help you, but you can compare *how* you got
+# there. Your numbers are in `exercises/exercise1/data/ada/given.toml`, and so on. In a class, your
+# teacher may hand them out. (`NAME` at the top of this page is for the race only.)
 #
-# The next cell shows what is there for you:
+# The next cell shows which data you have:
 
 # %%
 made = sorted(Path("..", "exercises", "exercise1", "data").glob("*/given.toml"))
@@ -610,15 +675,15 @@ else:
 # %% [markdown]
 # ### A first try
 #
-# In the terminal, these two lines do what lines one and two of the race did, for the bench's own
-# drivetrain: run the four tests, and compute the gains.
+# In the terminal, these two commands do the same as lines one and two of the race, with a standard
+# simulated drivetrain: they run the four tests and compute the gains.
 #
 # ```
 # sysid simulate drivetrain --seed 1 -o drive.wpilog
 # sysid fit drive.wpilog
 # ```
 #
-# And this one says how far you are, and what comes next:
+# And this command shows how far you are and what to do next:
 #
 # ```
 # grade
@@ -629,7 +694,7 @@ else:
 #
 # Before you go on to lesson 1:
 #
-# - [ ] You ran every cell of this page, and the race has a try of yours in it.
+# - [ ] You ran every cell of this page, and you raced.
 # - [ ] `grade` works in a terminal, and knows your name.
 # - [ ] `sysid fit drive.wpilog` printed three gains.
 # - [ ] You can say in one sentence which question guessing asks, and which one SysId asks.
@@ -637,8 +702,7 @@ else:
 #
 # ## 10 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("kS")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -648,10 +712,10 @@ quick = QuickCheck(
     {
         "kS": "Friction sits in gears and bearings. Four kilograms more hardly change it.",
         "kV": (
-            "kV says what a steady speed costs. At a steady speed nothing is accelerated, "
-            "so mass has no say."
+            "kV is the voltage for a steady speed. At a steady speed nothing accelerates, "
+            "so mass does not matter."
         ),
-        "kA": "kA is what mass costs: more kilograms, more volts for the same acceleration.",
+        "kA": "More kilograms need more volts for the same acceleration.",
     },
     right="kA",
 )
@@ -662,8 +726,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Guessing: which gain makes it behave the way I like? SysId: which model of the physics explains
-# best what this mechanism did?
+# Guessing: which gain makes it behave the way I like? SysId: which physical model best explains
+# what this mechanism did?
 # </details>
 #
 # **2.** A teammate holds five steady voltages and draws a line. Which gains does that give, and how
@@ -679,25 +743,26 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kA grows, in step with the mass. kV follows from motor, gears and wheels, and kS from friction;
-# neither asks how heavy the robot is. (For an elevator or an arm, kG grows, too.)
+# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction;
+# neither depends on the weight of the robot. (For an elevator or an arm, kG grows, too.)
 # </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?
 #
 # <details><summary>Answer</summary>
 #
-# The gains were measured on one day, and no model is perfect. Bearings age, belts stretch, somebody
-# pushes. Feedback takes care of what the feedforward cannot know. Good gains leave it little to do.
+# The gains were measured on one day, and no model is perfect. Bearings age, belts stretch, another
+# robot pushes. Feedback corrects what the feedforward cannot know. With good gains it has little to
+# do.
 # </details>
 #
-# **5.** What else, beside the feedforward, is a drivetrain's kA good for?
+# **5.** What else can you use a drivetrain's kA for, besides the feedforward?
 #
 # <details><summary>Answer</summary>
 #
-# It tells how hard the robot is to speed up: its mass. With a second kA, measured while turning, a
-# formula gives the robot's moment of inertia (lesson 8). And a kA that jumps from one week to
-# the next says that something was added.
+# It shows how hard it is to speed up the robot: its mass. With a second kA, measured while turning,
+# a formula gives the robot's moment of inertia (lesson 8). And if kA jumps from one week to the
+# next, something heavy was added.
 # </details>
 
 # %% [markdown]
@@ -711,7 +776,8 @@ quick
 # grade exercise11
 # ```
 #
-# Or in a notebook, with the letters of your own question sheet:
+# Or in a notebook. The letters are those of your own question sheet,
+# `exercises/exercise11/data/YOUR-NAME/questions.md`:
 #
 # ```python
 # from grader import submit
@@ -722,11 +788,11 @@ quick
 # It writes your answers into `exercises/exercise11/answers.toml` and shows the result. Hints cost
 # nothing: `grade exercise11 --hint`.
 #
-# **More, if you like.**
+# <details><summary>More, if you like</summary>
 #
-# - Race with a third knob: give `attempt` a `ka`, and `show_interactive` a slider for it. Can
-#   you tie with the three lines now? How long does it take?
-# - Use your neighbor's gains on your robot: `drive(robot, {...})`. Which of the three hurts most?
+# - Use your neighbor's gains on your robot: `drive(robot, {...})`. Which of the three gains causes
+#   the largest error?
 # - Write another name above, and run the page again: *Run*, *Run All Cells*.
+# </details>
 #
-# Next: lesson 1, the motor model. Where do kS, kV and kA come from?
+# **Next:** [Lesson 1, the motor model](01_motor_model.ipynb). Where do kS, kV and kA come from?

@@ -17,23 +17,23 @@
 #
 # **At the end you can**
 #
-# - say for each of kS, kV and kA what it pays for, in which unit, and when it pays nothing;
+# - say what each of kS, kV and kA pays for, in which unit, and when it pays nothing;
 # - split any voltage into three parts, and find the part that is wrong;
-# - compute the kV that a motor, its gears and its wheel promise, and say what to look at when the
-#   measured one is far above it, or below;
-# - say what kA/kV tells, in milliseconds;
-# - know when a kS is a reason to stop and look for a wrench;
-# - turn a gain per rotation into a gain per radian, and not the wrong way around.
+# - compute the kV you should expect from the motor, the gears and the wheel, and say what to check
+#   when the measured kV is far above or below it;
+# - say what kA/kV means, in milliseconds;
+# - recognize a kS that means "stop and get a wrench";
+# - convert a gain per rotation into a gain per radian, in the right direction.
 
 # %% [markdown]
 # ## 1 Why: a gain is a price
 #
-# In lesson 0 you chose kS and kV until a robot followed. They were just numbers on a knob. But each
-# of them means something, and has a unit. You can read a gain as a **price**: kV = 2.5 V·s/m says
+# In lesson 0 you moved kS and kV until a robot followed. They were just numbers on a slider. But
+# each gain means something and has a unit. You can read a gain as a **price**: kV = 2.5 V·s/m says
 # that each m/s of speed costs 2.5 volts.
 #
 # Whoever knows the prices can check the bill. "The analyzer says kV = 0.4." Can that be? After this
-# lesson you answer in a minute, with the motor's data sheet and a pocket calculator.
+# lesson you can answer that in a minute, with the motor's data sheet and a pocket calculator.
 
 # %%
 import math
@@ -71,7 +71,7 @@ print(drivetrain.summary)
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
 # V is the voltage at the motor, v the velocity, a the acceleration (by how much v grows each
-# second). sgn(v), the *sign* of v, is +1 forward and −1 backward.
+# second). sgn(v) is the *sign* of v: +1 forward and −1 backward.
 #
 # | term | pays for | unit of the gain | is zero when |
 # |---|---|---|---|
@@ -79,15 +79,15 @@ print(drivetrain.summary)
 # | kV·v | speed | V·s/m: volts for each m/s | it stands still |
 # | kA·a | *changing* the speed | V·s²/m: volts for each m/s² | the speed is steady |
 #
-# Each product comes out in volts: V·s/m times m/s is V. For something that turns, read rotations or
-# radians in place of meters (section 8). What moves up and down pays a fourth price, for gravity:
-# lesson 2.
+# Each product is in volts: V·s/m times m/s is V. If your mechanism turns, read rotations or radians
+# instead of meters (section 8). A mechanism that moves up and down pays a fourth price, for
+# gravity: lesson 2.
 #
-# Friction takes the same voltage at any speed; all that changes is its direction. (That is a
-# simplification, and a good one. What grows with speed goes into kV.)
+# Friction takes the same voltage at any speed; only its direction changes. (This is a good
+# simplification. Friction that grows with speed becomes part of kV.)
 #
-# Here are the three prices of the bench's drivetrain, and four bills. Cover the table with your
-# hand and work out the last row first: driving *backward* at 2 m/s.
+# The next table shows the three prices of our simulated drivetrain, and four bills. Cover the table
+# with your hand and compute the last row first: driving *backward* at 2 m/s.
 
 
 # %%
@@ -110,43 +110,43 @@ for name, (v, a) in MOMENTS.items():
 Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tuple(rows))
 
 # %% [markdown]
-# While it brakes, v is still positive (it still moves forward), but a is negative: the third term
-# *gives volts back*.
+# While the robot brakes, v is still positive (it still moves forward), but a is negative: the third
+# term *gives volts back*.
 #
-# Now a riddle. The log shows this drivetrain at 2 m/s, with **7 V** on its motors. The first row
-# of the table asks for less than 7 V.
+# Now a puzzle. The log shows this drivetrain at 2 m/s, with **7 V** on its motors. But the first
+# row of the table says that 2 m/s needs less than 7 V.
 #
-# **Predict.** (No buttons? Type `guess_seven.value = "friction"` in a cell.)
+# **Predict:**
 
 # %%
 guess_seven = Prediction(
     "Where do the other volts go?",
     "friction",
     "they turn into heat, and are lost",
-    "into speeding up: it is not steady at all",
+    "into acceleration: the speed is not steady",
     "the log must be wrong",
 )
 guess_seven
 
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
-print(f"You said: {guess_seven}.")
+print(guess_seven.reveal("into acceleration: the speed is not steady"))
 print(f"7 V − {gains['kS']:.2f} V − {gains['kV'] * 2:.2f} V = {left:.2f} V are left.")
-print(f"So it is gaining {left / gains['kA']:.1f} m/s every second: it is only passing 2 m/s.")
-print(f"A robot that is truly steady there has another kV: {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
+print(f"They accelerate it by {left / gains['kA']:.1f} m/s every second: it only passes 2 m/s.")
+print(f"If its speed were steady, its kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
 
 # %% [markdown]
-# Both are good answers to "7 V at 2 m/s": either it is not steady, or its kV is another one. You
-# decide by looking at whether the velocity still changes.
+# There are two good explanations for "7 V at 2 m/s": either the speed is not steady, or the robot
+# has a different kV. To decide, look at whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
 #
-# Now the same for every moment of a drive. The picture stacks the three terms on top of each other,
-# computed from how the robot *moved*. The black line is the voltage that was *applied*. If the
-# model is right, the stack reaches the line.
+# Now do the same for every moment of a drive. The picture computes the three terms from the robot's
+# *motion* and stacks them on top of each other. The black line is the voltage that was *applied*.
+# If the model is right, the stack reaches the line.
 #
-# Three drives are worth a look. Two of them are the tests that SysId uses:
+# There are three drives. Two of them are the tests that SysId uses:
 #
 # - a **slow ramp**: the voltage grows slowly (SysId's *quasistatic* test);
 # - a **sudden step**: all at once (SysId's *dynamic* test);
@@ -233,44 +233,53 @@ for words, name, when in (
     here = round(when / FINE)
     volts = [float(one[here]) for one in terms.values()]
     rows.append((words, *volts, float(applied[here])))
-print(f"You said: {guess_step} after the step, {guess_ramp} in the ramp.")
+print("After the step:", guess_step.reveal("kA·a"))
+print("In the ramp:", guess_ramp.reveal("kV·v"))
 Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tuple(rows))
 
 # %% [markdown]
 # ### Explain
 #
-# - **Sudden step.** At first there is no speed, so nearly everything goes into kA·a. As the robot
-#   gets faster, kV·v takes over, less is left, and the acceleration fades. That is why SysId needs
-#   this test: **only here does kA take many volts.**
-# - **Slow ramp.** The acceleration is small all along. What is left are kS and kV·v: this test
-#   tells **kS and kV**.
-# - **The gap at the start of the ramp.** Up to kS, nothing moves, and the stack is empty. Friction
-#   then takes whatever voltage there is, and its price is not reached yet.
-# - **There and back.** When the voltage drops to 0 V, kA·a hangs below the line: the robot pays for
-#   friction and speed out of its own motion, and gets slower.
+# - **Sudden step.** At first there is no speed, so nearly all volts go into kA·a. As the robot gets
+#   faster, kV·v grows, fewer volts are left for kA·a, and the acceleration fades. This is why SysId
+#   needs the test: **kA takes many volts only here.**
+# - **Slow ramp.** The acceleration is small the whole time. Most volts go into kS and kV·v, so this
+#   test shows **kS and kV**.
+# - **The gap at the start of the ramp.** Until the voltage reaches kS, nothing moves, and the stack
+#   is empty. Friction holds the robot and uses up all the voltage there is.
+# - **There and back.** When the voltage drops to 0 V, kA·a is negative and hangs below the line:
+#   the robot's own motion pays for friction and speed, so the robot gets slower.
 #
-# Make the robot heavy, then light. Which area changes? Then turn up kS.
+# Make the robot heavy, then light. Which area changes? Then increase the friction. Note also that
+# kA·a never quite vanishes in the ramp: lesson 3 shows why that matters for kS.
+#
+# <details><summary>For mentors: is kS the intercept of the quasistatic test?</summary>
 #
 # > **Lesson says:** in the quasistatic test, kS "shows up as the initial voltage intercept before
 # > velocity develops".
 # >
 # > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
 # > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor
+# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
 # > has the number. Lesson 3 shows what it does to a kS that is read off a line.
+# </details>
 
 # %% [markdown]
 # ## 4 Where the prices come from
 #
-# (If formulas tire you, read the three sentences and the table, and skip the rest.)
+# The table below says what each gain depends on.
+#
+# <details><summary>Want to know why? The derivation in three sentences</summary>
 #
 # An electric motor does three things, and each is a simple product:
 #
 # 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against the one
-#    you apply, in step with its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
-# 2. **What is left drives a current** through the winding's resistance R: I = (V − Ke·ω) / R.
+#    you apply, proportional to its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
+# 2. **The remaining voltage drives a current** through the winding's resistance R: I = (V − Ke·ω) /
+#    R.
 # 3. **The current makes torque**, a turning force: T = Kt·I.
 #
 # (Ke, Kt and R are constants of the motor. They follow from the numbers on its data sheet.)
@@ -284,7 +293,8 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 #
 # > V = R·r/(n·G·Kt) · friction + Ke·G/r · v + R·r·m/(n·G·Kt) · a
 #
-# That *is* the model. Compare term by term:
+# This *is* the model.
+# </details>
 #
 # | gain | is | so it depends on |
 # |---|---|---|
@@ -292,12 +302,12 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # | kV | Ke·G/r | the kind of motor, gears, wheel |
 # | kA | R·r·m/(n·G·Kt) | mass, motors, gears, wheel |
 #
-# Look for the mass. It stands in kA and nowhere else: that is what you saw in week 3 of lesson 0.
+# Look for the mass m. It appears in kA and nowhere else, as you saw in week 3 of lesson 0.
 #
-# (Simplified: we leave out what turns along (rotors, gears, wheels), which adds a few percent to
-# kA, and losses in the gears.)
+# (We leave out losses in the gears and the spinning parts.)
 #
-# Does it hold? By hand, from the data of the motor, against a log of the bench:
+# Is that true? The next cell computes the gains by hand from the motor's data, and compares them
+# with a log:
 
 # %%
 kraken = drivetrain.motor
@@ -318,7 +328,7 @@ Table(
 )
 
 # %% [markdown]
-# kS cannot be computed by hand: no data sheet knows your friction. It has to be measured.
+# You cannot compute kS by hand: no data sheet knows your friction. You have to measure it.
 #
 # Now build another robot. **Predict:**
 
@@ -372,26 +382,27 @@ others = {
     "2 motors only": built(60.0, 6.75, 2, 4.0),
     "3 inch wheels": built(60.0, 6.75, 4, 3.0),
 }
-print(f"You said: {guess_gears}.")
+print(guess_gears.reveal("kV grows, kA shrinks"))
 Table(
     ("change", "kS now ÷ before", "kV now ÷ before", "kA now ÷ before"),
     tuple((name, *(now[gain] / gains[gain] for gain in gains)) for name, now in others.items()),
 )
 
 # %% [markdown]
-# Slower gears: the motor turns faster for each m/s, so speed costs **more** volts; but it has more
-# leverage, so pushing costs **fewer**. Half the motors: each has twice the load, kS and kA double,
-# and kV does not care.
+# Slower gears: the motor turns faster for each m/s, so speed costs **more** volts. But the motor
+# has more leverage, so acceleration costs **fewer** volts. Half the motors: each motor has twice
+# the load, so kS and kA double, and kV stays the same.
 
 # %% [markdown]
 # ## 5 Is this kV possible?
 #
-# A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing to move. From
-# it comes the kV that you should expect:
+# A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing attached. It
+# tells you which kV to expect. We call this the kV *on paper*:
 #
 # > kV on paper = 12 V / (free speed of the *mechanism*)
 #
-# The free speed of the motor is in rpm, before gears and wheel. So go one step at a time:
+# The data sheet gives the speed of the motor in rpm, without gears and wheel. So convert it one
+# step at a time:
 
 # %%
 rpm = kraken.free_speed * 60 / (2 * math.pi)
@@ -405,6 +416,13 @@ print(f"kV on paper: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m"
 print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s: no robot does that.")
 
 # %% [markdown]
+# **Myth check.** "kV on paper is exactly 12 V divided by the free speed." *Almost:* it is a good
+# first check. WPILib's `DCMotor` also subtracts the small voltage drop of the free current, so its
+# kV is a little lower. The last column of the next table shows how much lower, for eight motors at
+# 1:1. (FOC is a mode of the same Kraken motor that needs a license. It has a different free speed.)
+#
+# <details><summary>For mentors: 12 V ÷ free speed, with source</summary>
+#
 # > **Lesson says:** "kV_theoretical = 12V ÷ free_speed_in_your_units."
 # >
 # > **Source says:** a good first check. Exactly, kV follows from the motor's own constant, which
@@ -414,6 +432,7 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 # >
 # > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
 # > same Kraken, for which one buys a license. Its free speed is another one.)
+# </details>
 
 # %%
 NAMES = ["krakenX60", "krakenX60FOC", "krakenX44", "falcon500", "neo", "neoVortex", "minion", "cim"]
@@ -431,22 +450,22 @@ Table(
 # %% [markdown]
 # ### Measured against paper
 #
-# A real kV lies a little **above** paper: grease and seals brake more, the faster they turn. Far
-# above means that something is wrong. And **below** paper? A motor does not turn faster than it
-# can. So somebody wrote down a wrong number.
+# A real kV is a little **above** the kV on paper: grease and seals brake more, the faster they
+# turn. If kV is far above, something is wrong. And if it is **below**? A motor cannot turn faster
+# than its free speed. So somebody wrote down a wrong number.
 #
-# | measured kV | say | do |
+# | measured kV | name | what to do |
 # |---|---|---|
 # | below paper | *bookkeeping* | find the wrong number |
 # | 0 to 8 % above | *ok* | nothing |
 # | 8 to 20 % above | *watch* | compare again next week |
 # | more than 20 % above | *inspect* | look before you test on |
 #
-# (20 % is the source lesson's bound. The others are ours; they are rules of thumb, not laws. Data
-# sheets are rounded, so 1 or 2 % below paper proves nothing yet.)
+# (These limits are rules of thumb. Data sheets are rounded, so 1 or 2 % below paper proves
+# nothing.)
 #
-# Here are seven robots. All have the same sound drivetrain, and all but the first have one thing
-# that is different. Which of them come out above 20 %?
+# Here are seven robots. All have the same healthy drivetrain, but all except the first have one
+# fault. Which of them have a kV more than 20 % above paper?
 #
 # **Predict:**
 
@@ -471,7 +490,7 @@ def found(log: sim.Log) -> dict[str, float]:
 
 
 def seen(log: sim.Log, *, factor: float = 1.0, asked: bool = False) -> sim.Log:
-    """The same runs with another encoder factor, or with the voltage that was asked for."""
+    """The same runs with a different encoder factor, or with the commanded voltage."""
     runs = []
     for run in log.runs:
         volts = 12 * run.voltage / run.bus_voltage if asked else run.voltage
@@ -494,7 +513,7 @@ STORIES = {
     "a belt that is far too tight": bench(replace(sound, drag=0.30), 4),
     "8.14 typed in, 6.75 built in": seen(bench(sound, 5), factor=6.75 / 8.14),
     "diameter typed in as radius": seen(bench(sound, 7), factor=2.0),
-    "set(volts / 12), logs what was asked": seen(sagging, asked=True),
+    "set(volts / 12), logs the command": seen(sagging, asked=True),
 }
 VERDICTS = {"bookkeeping": 0.0, "ok": 8.0, "watch": 20.0, "inspect": 40.0}
 
@@ -522,7 +541,7 @@ show_interactive(
 verdict("a belt that is far too tight")
 
 # %%
-print(f"You said: {guess_cause}.")
+print(guess_cause.reveal("a belt that brakes more, the faster it runs"))
 rows = []
 for story, one in STORIES.items():
     got = found(one)
@@ -533,35 +552,40 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tup
 # %% [markdown]
 # ### Explain
 #
-# - **Mass** goes into kA. **Constant friction** goes into kS. Neither can touch kV.
-# - **What brakes more, the faster it turns**, adds to kV: a belt or chain that is too tight, a dry
-#   bearing, thick grease.
-# - **Wrong numbers** scale kV *and* kA by the same factor, and leave kS alone. That is their
-#   fingerprint.
-# - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` gives
-#   a share of the battery. A battery of 11 V gives 11/12 of what the log says, and less as soon as
-#   it has to work. Look at that row's kS and kA: all three gains are off.
+# - **Mass** changes kA. **Constant friction** changes kS. Neither changes kV.
+# - **Friction that grows with speed** adds to kV: a belt or chain that is too tight, a dry bearing,
+#   thick grease.
+# - **Wrong numbers** (ratio, wheel, unit) multiply kV *and* kA by the same factor, and do not
+#   change kS. You can recognize them by that.
+# - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` sets
+#   a share of the battery voltage, not a voltage. With an 11 V battery the motors get 11/12 of what
+#   the log says, and less under load. Look at that row's kS and kA: all three gains are wrong.
 #
-# When kV is more than 20 % above paper, look where looking costs least:
+# When kV is more than 20 % above paper, check the easiest things first:
 #
 # 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
-# 2. **Electrical** (in the log): was it the voltage that reached the motors? Are all motors
-#    powered? The others carry one that is not: kS and kA grow. If its controller brakes it, kV
-#    grows, too.
+# 2. **Electrical** (in the log): did the logged voltage really reach the motors? Are all motors
+#    powered? If one is not, the others have to carry it: kS and kA grow. If its controller is in
+#    brake mode, kV grows, too.
 # 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn it by hand. Is it hot after
 #    a test?
 #
-# ### Audit the source lesson
+# ### Check somebody else's numbers
 #
-# You can now check numbers that somebody else wrote. The source lesson gives a drivetrain:
+# You can now check numbers that somebody else wrote. One published lesson gives a drivetrain with
+# kV = 2.68 V·s/m, a ratio of 8.46, 4 inch wheels and TalonFX motors. A TalonFX can be one of three
+# motors. Which of them could it be?
+#
+# <details><summary>For mentors: the source lesson's drivetrain</summary>
 #
 # > **Lesson says:** "kV = 2.68", "GEAR_RATIO = 8.46" and a wheel of "4 in", with TalonFX motors.
 # >
 # > **Source says:** the free speeds of the motors that a TalonFX can be (the table above, which is
-# > WPILib's own).
-# > ([WPILib Java docs: DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > WPILib's own). ([WPILib Java docs:
+# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
 # >
 # > **Try it:** which of these motors could have been in that robot?
+# </details>
 
 # %%
 rows = []
@@ -571,9 +595,9 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
 Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
 
 # %% [markdown]
-# Two of them would have to turn faster than they can. Either that robot had the third one, or its
-# ratio is not the one that stands beside it. There it is only an example. In your own constants
-# file it would be a *bookkeeping* error, found without touching the robot.
+# Two of these motors would have to turn faster than they can. Either that robot had the third
+# motor, or the ratio is wrong. There it is only an example. In your own constants file you would
+# have found a *bookkeeping* error without touching the robot.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
@@ -583,8 +607,8 @@ Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
 # milliseconds.
 #
 # After a step of voltage, the velocity does not rise in a straight line. It rises fast, then slower
-# and slower: in each τ it covers 63 % of what is still missing. (The curve is called
-# *exponential*.) After 3 τ it is as good as there. The star in the picture stands at τ.
+# and slower: in each τ it covers 63 % of the remaining difference. (Such a curve is called
+# *exponential*.) After 3 τ it has almost reached its final speed. The star in the picture marks τ.
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -632,26 +656,32 @@ Table(
 
 # %% [markdown]
 # The third column matters. A robot program writes one row every 20 ms. If τ is only two or three
-# rows long, the log has hardly seen the robot speed up, and kA hangs on a few numbers. Then log
-# faster, or do not trust kA to the last digit. (Lesson 7 counts the rows.)
+# rows long, the log hardly shows the acceleration, and kA depends on very few numbers. Then log
+# faster, or do not trust the digits of kA. (Lesson 7 counts the rows.)
 
 # %% [markdown]
 # ## 7 kS: when to get a wrench
 #
-# A low kS means that the mechanism turns easily. A high one means friction: a bearing that sits
-# askew, a shaft that binds, a screw that rubs. Do not just put a high kS into the code. The
-# feedforward would then *hide* what is wearing out.
+# A low kS means that the mechanism turns easily. A high kS means friction: a tilted bearing, a bent
+# shaft, a screw that rubs. Do not just put a high kS into the code. The feedforward would then
+# *hide* the part that is wearing out.
 #
-# But what is high?
+# But how high is too high? You may hear this rule: be alarmed when kS is much higher than kV ×
+# typical velocity. WPILib gives no limit at all. So test the rule: how large may our drivetrain's
+# kS get at 2 m/s before the rule raises an alarm?
+#
+# <details><summary>For mentors: the rule, and its source</summary>
 #
 # > **Lesson says:** a kS "that's much higher than kV × typical velocity suggests something is
 # > mechanically wrong".
 # >
 # > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
 # > barely get it moving", and gives no bound. Compare for yourself what this one lets pass.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor
+# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** how large may our drivetrain's kS get at 2 m/s before this flag goes up?
+# </details>
 
 # %%
 TYPICAL = 2.0  # [m/s] in a match
@@ -660,16 +690,16 @@ print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The flag goes up above that: {100 
 print(f"of a 12 V battery, for friction alone. Ours has {gains['kS']:.2f} V.")
 
 # %% [markdown]
-# So it is a flag for emergencies: **stop now**. It is a good one, only very late. Put a second one
-# in front of it, **watch**: above 0.5 V, which is about 4 % of 12 V. (That number is our rule of
-# thumb. Some healthy mechanisms with much gearing are above it.)
+# So this rule only detects an emergency: **stop now**. It is correct, but very late. Add a second,
+# earlier limit, **watch**: kS above 0.5 V, which is about 4 % of 12 V. (This number is our rule of
+# thumb. Some healthy mechanisms with a high gear ratio are above it.)
 #
-# And two flags need no number at all:
+# Two warning signs need no limit at all:
 #
 # - **kS has grown since last week.** Write it down each time.
-# - **Left and right differ.** They are built the same, so they should feel the same.
+# - **Left and right differ.** They are built the same, so they should have the same friction.
 #
-# The gauge begins with a slow robot, at 1 m/s. That already moves *stop* closer.
+# The gauge starts with a slow robot, at 1 m/s. There, *stop* already begins at a lower kS.
 
 
 # %%
@@ -693,21 +723,21 @@ show_interactive(
 )
 
 # %% [markdown]
-# No sliders on your screen? Change the numbers here. Both sides are *fine* in this example. Would
-# you leave it at that?
+# No sliders on your screen? Change the numbers here.
 
 # %%
 red_flag(left=0.15, right=0.45, typical=1.0)
 
 # %% [markdown]
-# No. The right side has three times the friction of the left. The gauge does not see it, because it
-# looks at one side at a time. You do.
+# In this example the gauge says *fine* for both sides. Would you accept that? No: the right side
+# has three times the friction of the left. The gauge does not notice, because it looks at one side
+# at a time. You do.
 
 # %% [markdown]
 # ## 8 Units: per rotation, per radian, per meter
 #
-# A full turn is 1 rotation, or 2π = 6.28 radians, or 360 degrees. The wheel does not care how you
-# count, but the numbers do.
+# A full turn is 1 rotation, or 2π = 6.28 radians, or 360 degrees. The wheel turns the same, however
+# you count, but the numbers differ.
 #
 # **Predict:**
 
@@ -723,7 +753,7 @@ guess_unit = Prediction(
 guess_unit
 
 # %%
-print(f"You said: {guess_unit}.")
+print(guess_unit.reveal("6.28 times smaller"))
 rows = [
     (name, f"{speed:.0f}", per_rotation * 50.0 / speed, per_rotation * 50.0)
     for name, speed in (
@@ -738,19 +768,20 @@ Table(
 )
 
 # %% [markdown]
-# One and the same speed must cost the same volts: look at the last column. 50 rot/s are many more
-# rad/s, so each single rad/s must be cheaper. **The number of the speed grows, the gain shrinks, by
-# the same factor.**
+# The same speed must cost the same volts: look at the last column. 50 rot/s is 314 rad/s, so each
+# rad/s must cost fewer volts. **When the number for the speed grows, the gain shrinks by the same
+# factor.**
 #
-# - from V·s/rot to V·s/rad: **divide** by 2π. kA likewise. kS has no distance in it, and stays.
+# - from V·s/rot to V·s/rad: **divide** by 2π. The same goes for kA. kS has no distance in its unit,
+#   so it stays.
 # - from V·s/rot of a wheel to V·s/m: divide by its circumference.
 #
 # Two traps:
 #
 # - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
-#   Use it on a **gain**, and the gain goes the wrong way: off by 2π twice.
-# - kV and the velocity that you hand to the feedforward must be in the **same** unit. The code does
-#   not notice if they are not. The motor does.
+#   If you use it on a **gain**, the gain changes in the wrong direction: it is wrong by 2π twice.
+# - kV and the velocity that you pass to the feedforward must be in the **same** unit. The code does
+#   not notice when they differ. The motor does.
 
 # %%
 per_radian = per_rotation / TURN
@@ -763,19 +794,19 @@ print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V
 # %% [markdown]
 # ## 9 System check
 #
-# Before you believe a set of gains, yours or anybody's:
+# Before you trust a set of gains, your own or somebody else's:
 #
-# - [ ] Each gain has its **unit** written beside it.
+# - [ ] Each gain has its **unit** written next to it.
 # - [ ] kV is positive, and between 0 and 8 % above paper. If not, you know why.
 # - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
-# - [ ] kA/kV in milliseconds sounds like the mechanism: tens for what is light, hundreds for what
-#   is heavy on its motors.
-# - [ ] The velocity that goes into the feedforward counts in the unit of kV.
+# - [ ] kA/kV in milliseconds makes sense for the mechanism: tens if it is light, hundreds if it is
+#   heavy for its motors.
+# - [ ] The velocity that you pass to the feedforward has the same length or angle unit as kV.
 #
 # ## 10 Knowledge check
 #
-# First one to answer here; you are told at once. (No box on your screen? Type
-# `quick.answer("0.5 V·s/rad")` in a cell.)
+# Type an answer to the first question; you get feedback at once. (No box? Type `quick.answer("0.5
+# V·s/rad")` in a cell.)
 
 # %%
 from grader import QuickNumberCheck
@@ -795,15 +826,16 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# 0.2 V into friction, 3.4 · 2 = 6.8 V into speed, and nothing into acceleration: at a steady speed
-# there is none.
+# 0.2 V go into friction, 3.4 · 2 = 6.8 V into speed, and nothing into acceleration: at a steady
+# speed there is none.
 # </details>
 #
 # **2.** Convert kV = 0.12 V·s/rot into V·s/rad.
 #
 # <details><summary>Answer</summary>
 #
-# Divide by 2π: 0.12 / 6.283 = 0.0191 V·s/rad. A rad/s is a small speed, and costs little.
+# Divide by 2π: 0.12 / 6.283 = 0.0191 V·s/rad. One rad/s is a smaller speed than one rot/s, so it
+# costs less.
 # </details>
 #
 # **3.** A drivetrain's kV is 25 % above paper. A teammate says: "It is the new bumpers, they are
@@ -811,16 +843,17 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Mass goes into kA; it cannot touch kV. First the numbers: gear ratio, wheel, units, kind of motor.
-# Then the log: is it the voltage that reached the motors? Then belts and bearings.
+# Mass changes kA; it cannot change kV. First check the numbers: gear ratio, wheel, units, kind of
+# motor. Then the log: did this voltage reach the motors? Then belts and bearings.
 # </details>
 #
-# **4.** Another one's kV is 15 % *below* paper. "Great, our robot is better than theory." Is it?
+# **4.** Another drivetrain's kV is 15 % *below* paper. "Great, our robot is better than theory." Is
+# it?
 #
 # <details><summary>Answer</summary>
 #
-# No. A motor does not turn faster than its free speed at 12 V. A number is wrong: ratio, wheel,
-# unit, or the motor is another one.
+# No. A motor does not turn faster than its free speed at 12 V. A number is wrong: the ratio, the
+# wheel, the unit or the kind of motor.
 # </details>
 #
 # **5.** Last week the left side had kS = 0.15 V, today it has 0.40 V. Typical speed times kV is 5
@@ -828,16 +861,16 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The gauge says so, and it is not. It has more than doubled in a week. Compare with the right side,
-# and look for what drags.
+# No, although the gauge says so. kS has more than doubled in a week. Compare with the right side,
+# and look for the part that rubs.
 # </details>
 #
 # **6.** An intake has τ = 15 ms, and the robot logs every 20 ms. What does that mean for kA?
 #
 # <details><summary>Answer</summary>
 #
-# It is nearly up to speed before the second row is written. The log has hardly seen it accelerate,
-# so kA is uncertain. kV is not affected. Log faster.
+# The intake is nearly up to speed before the log has its second row. The log hardly shows any
+# acceleration, so kA is uncertain. kV is not affected. Log faster.
 # </details>
 
 # %% [markdown]
@@ -858,8 +891,8 @@ quick
 # submit("exercise1", kV_unit="...", largest="...")
 # ```
 #
-# **Exercise 2: kV against theory** (`exercises/exercise2/README.md`). A team, a log, and something
-# that may be wrong. Section 5 is what you need, and section 7 for its kS.
+# **Exercise 2: kV against theory** (`exercises/exercise2/README.md`). You get a team, a log, and
+# perhaps a mistake to find. You need section 5, and section 7 for kS.
 #
 # ```
 # grade exercise2
@@ -867,14 +900,15 @@ quick
 #
 # Hints cost nothing: `grade exercise1 --hint`. You may grade as often as you like.
 #
-# **On your own robot:** compute its kV on paper, today. Write it into your constants file as a
-# comment, so that whoever measures it later has something to compare with.
+# **On your own robot:** compute its kV on paper today. Write it into your constants file as a
+# comment, so your team can compare when you measure it.
 #
-# **More, if you like.**
+# <details><summary>More, if you like</summary>
 #
-# - Find the drive in section 3 in which kA·a gives back the most volts.
+# - In which drive of section 3 does kA·a give back the most volts?
 # - How heavy would our drivetrain have to be for a τ of 200 ms?
-# - Look up your robot's motors in `sim/physics/motors.py`. Is its free speed that of the data
-#   sheet?
+# - Look up your robot's motors in `sim/physics/motors.py`. Do the free speeds agree with the data
+#   sheets?
+# </details>
 #
-# Next: lesson 2, gravity.
+# **Next:** [Lesson 2, gravity](02_gravity.ipynb). What holds an elevator up?

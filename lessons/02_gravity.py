@@ -13,30 +13,29 @@
 # %% [markdown]
 # # Lesson 2: Gravity
 #
-# *About 45 minutes. You need lesson 1: what kS, kV and kA mean. A little cosine helps; section 4
-# says what it does.*
+# *About 45 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
+# explains it.*
 #
 # **At the end you can**
 #
 # - say what kG is, and why a whole *window* of voltages holds an elevator still;
-# - find kG and kS from two voltages, and say which edge of the window a recipe finds;
-# - do the same for an arm, and correct an encoder that was mounted askew;
+# - find kG and kS from two voltages, and say which edge of the window a method finds;
+# - do the same for an arm, and correct the offset of its encoder;
 # - choose SysId's analysis type and WPILib's feedforward class, with the arguments in order;
-# - explain why an elevator that was only driven up cannot tell kG from kS.
+# - explain why you cannot separate kG from kS if an elevator only drove up.
 
 # %% [markdown]
 # ## 1 Why: it falls
 #
-# The model of lesson 1 says what a motion costs:
+# The model of lesson 1 gives the voltage for a motion:
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# Put in 0 V, and nothing moves. That is right for a drivetrain. Let go of an elevator, though, and
-# it comes down. Something is missing in the model.
+# With 0 V, this model says, nothing moves. That is right for a drivetrain. But an elevator falls
+# when you let go of it. The model lacks something: gravity.
 #
-# Today's elevator and arm are simulated. We call that *the bench*, and we know its true gains
-# because we built it. Run the next cell to set it up. (You need not read
-# the code in this lesson to follow it. Run each cell, and read what it prints.)
+# Today's elevator and arm are simulated (on *the bench*), so we know their true gains. Run the next
+# cell to set them up. (You do not need to read the code. Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -78,13 +77,13 @@ def let_go(volts: float, *, height: float = 0.6, lasts: float = 0.4) -> float:
     return float(track.velocity[-1])
 
 
-print(f"0 V: after 0.4 s it does {let_go(0.0):.2f} m/s. Minus is down.")
+print(f"0 V: after 0.4 s it moves at {let_go(0.0):.2f} m/s. Minus is down.")
 
 # %% [markdown]
 # ## 2 The model: one more term
 #
-# Gravity pulls with a constant force. To hold a constant force, a motor needs a constant current,
-# and that takes a constant voltage. We call it **kG**: the volts that gravity takes.
+# Gravity pulls with a constant force. To hold against a constant force, a motor needs a constant
+# current, and so a constant voltage. We call this voltage **kG**.
 #
 # > elevator: **V = kG + kS·sgn(v) + kV·v + kA·a**
 #
@@ -92,11 +91,11 @@ print(f"0 V: after 0.4 s it does {let_go(0.0):.2f} m/s. Minus is down.")
 #
 # (θ, "theta", is the arm's angle from level. sgn(v) is the direction: +1 up, −1 down.)
 #
-# Look at the first two terms. kS has a sign that flips: friction is always *against* the motion.
-# kG has none: gravity pulls down, whichever way the elevator moves. That difference is what this
-# lesson is about.
+# Compare the first two terms. The kS term changes its sign with the direction, because friction
+# always acts *against* the motion. The kG term does not: gravity always pulls down. This whole
+# lesson is about that difference.
 #
-# **Predict** before you run on. (No buttons? Type `guess_load.value = "kG and kA"` in a cell.)
+# **Predict:**
 
 # %%
 guess_load = Prediction(
@@ -112,47 +111,51 @@ guess_load
 TIMES = 1.5
 UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "kG": "V"}
 heavy = replace(elevator, load=TIMES * elevator.load).gains
-print(f"You said: {guess_load}.")
+print(guess_load.reveal("kG and kA"))
 Table(
     ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "times", "unit"),
     tuple((one, truth[one], heavy[one], heavy[one] / truth[one], UNITS[one]) for one in truth),
 )
 
 # %% [markdown]
-# 1.5 times the mass needs 1.5 times the force: to hold it (kG) and to speed it up (kA). At a
-# steady speed nothing is sped up, so kV does not care. (On the bench friction does not care
-# either. On a real robot, more weight can press harder on a bearing.)
+# 1.5 times the mass needs 1.5 times the force: to hold it (kG) and to accelerate it (kA). At a
+# steady speed nothing accelerates, so kV does not change. (In our simulation friction does not
+# change either. On a real robot, more weight can press harder on a bearing.)
+#
+# So test an elevator with its load: for kG and kA, not for kV. Change `TIMES` above to 3. Which
+# rows change?
+#
+# <details><summary>For mentors: does kV change with the load?</summary>
 #
 # > **Lesson says:** run the elevator with its load, "since kA and kV change significantly with load
 # > mass".
 # >
 # > **Source says:** kV is the voltage "to hold (or "cruise") at a given constant velocity", against
 # > the motor's own back-EMF and friction that grows with speed. There is no mass in it. kA is, and
-# > kG is.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > kG is. ([WPILib docs: Introduction to DC Motor
+# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** change `TIMES` above to 3. Which rows move?
+# </details>
 #
-# The advice to test with the load is still good: for kA and kG.
-#
-# **A free check.** Mass stands in kG and in kA, in the same way, so in kG/kA it cancels. What is
-# left is gravity itself:
+# **A quick check for free.** The mass is in kG and in kA in the same way, so it cancels in kG/kA.
+# Only gravity itself remains:
 
 # %%
 print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the earth is 9.81.")
 
 # %% [markdown]
-# On a real elevator with one stage the ratio is a little smaller, because kA also pays for the
-# motors' own spinning parts, which weigh nothing on the rope. If yours says 15, look for a mistake
-# before you trust either gain.
+# On a real elevator with one stage the ratio is a little smaller, because kA also contains the
+# spinning parts of the motors, which gravity does not pull down. If your ratio is 15, look for a
+# mistake before you trust either gain.
 #
 # A **cascade** elevator is different. Its lower stage moves at half the carriage's speed. With a
 # carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and
-# speeds up the inertia m + m₁/4. So kG/kA lies between g and 2·g: 11.8 m/s² where both have the
-# same mass.
+# accelerates the mass m + m₁/4. So kG/kA is between g and 2·g: 11.8 m/s² if both have the same
+# mass.
 #
 # A **counterweight** on the other end of the rope adds inertia and takes away weight. Then kG/kA is
-# below g. The bench has both:
+# below g. The simulation has both:
 
 # %%
 for name in ("cascade-elevator", "counterweight-elevator"):
@@ -163,7 +166,7 @@ for name in ("cascade-elevator", "counterweight-elevator"):
 # %% [markdown]
 # ## 3 Doing it: hold it still
 #
-# Now find kG without any log. Choose a voltage, hold the carriage in the middle, let go, watch.
+# Now find kG without a log. Choose a voltage, hold the carriage in the middle, let go and watch.
 #
 # **Predict:**
 
@@ -179,16 +182,16 @@ guess_hold
 
 # %%
 little_less = let_go(truth["kG"] - 0.15)
-print(f"You said: {guess_hold}.")
-print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s it does {little_less:.3f} m/s.")
+print(guess_hold.reveal("it stays"))
+print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s it moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
-# It stays. Friction is against *any* motion, also against falling: it helps you to hold. Only when
-# the missing voltage is larger than kS does gravity win. And upward the same: only what exceeds
-# kG by more than kS lifts it.
+# It stays. Friction acts against *any* motion, also against falling, so it helps you to hold the
+# carriage. Gravity wins only if your voltage is more than kS below kG. The same is true upward: the
+# carriage rises only if your voltage is more than kS above kG.
 #
-# So there is a **window**, from kG − kS to kG + kS, in which nothing moves. Recipes for kG turn the
-# voltage up and stop at "the" right moment. Let us follow two of them, in steps of 10 mV.
+# So there is a **window**, from kG − kS to kG + kS, in which nothing moves. The usual methods for
+# kG raise the voltage and stop at "the right moment". Let us try two of them, in steps of 10 mV.
 
 # %%
 steps = np.arange(0.0, 4.0, 0.01)
@@ -230,7 +233,15 @@ show_interactive(
 window_picture(1.5)
 
 # %% [markdown]
-# Move the star through the window. Where does it begin to sink, and where to rise?
+# Move the star through the window. Where does the carriage begin to sink, and where does it begin
+# to rise?
+#
+# **Myth check.** "Raise the voltage until the elevator just does not drop: that is kG." *Not
+# quite:* that is the lower edge, kG − kS. Another method says "as much as you can without the
+# elevator moving upward". That is the upper edge, kG + kS. The two agree only without friction.
+# They are the two marks in the picture.
+#
+# <details><summary>For mentors: the two methods, and their sources</summary>
 #
 # > **Lesson says:** for an elevator, kG is "measured by slowly increasing voltage until the
 # > elevator just barely doesn't drop".
@@ -241,8 +252,9 @@ window_picture(1.5)
 # >
 # > **Try it:** the two recipes are the two marks in the picture. One finds the lower edge, kG − kS,
 # > the other the upper edge, kG + kS. They agree only where there is no friction.
+# </details>
 #
-# The honest recipe uses both edges:
+# So use both edges:
 #
 # > **kG is the middle: (lower + upper) / 2. kS is half the width: (upper − lower) / 2.**
 
@@ -258,20 +270,20 @@ rows = [
 ]
 print(f"half the width: {(not_rising - not_falling) / 2:.3f} V. True kS: {truth['kS']:.3f} V.")
 Table(
-    ("recipe", "taken for kG [V]", "too much by [V]", "moves upward too fast by [m/s]"),
+    ("method", "its kG [V]", "error [V]", "moves upward too fast by [m/s]"),
     tuple(rows),
     caption=f"True kG: {truth['kG']:.3f} V. Minus means too little, or too fast downward.",
 )
 
 # %% [markdown]
-# The last column is what a wrong kG does later, in a feedforward. With the first recipe the
-# elevator is too slow on the way up and too fast on the way down; with the second it is the other
-# way around. Always by kS/kV.
+# The last column shows what a wrong kG does later, in a feedforward. With the first method the
+# elevator is too slow on the way up and too fast on the way down. With the second it is the other
+# way around. The speed error is always kS/kV.
 #
-# (What is simplified: the bench's friction is the same at rest and in motion. Real friction often
-# grips more at rest. Then this window is wider than the motion would tell.)
+# (This is simplified: our simulated friction is the same at rest and in motion. Real friction is
+# often larger at rest. Then the window is wider than the friction in motion.)
 #
-# How does the window depend on friction? At no friction it closes, and both recipes are right:
+# How does the window depend on friction? Without friction it closes, and both methods are right:
 
 
 # %%
@@ -296,7 +308,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Here:
+# No slider? Change the number here:
 
 # %%
 edges_picture(0.25)
@@ -304,9 +316,10 @@ edges_picture(0.25)
 # %% [markdown]
 # ## 4 An arm: the cosine
 #
-# Hold a heavy bag with your arm stretched out level. Now straight down. Same bag, same arm; level
-# is far harder. What counts is how far out the weight is *sideways*, and for an arm of length L at
-# the angle θ from level that is L·cos(θ). The cosine is 1 when level, 0 straight up or down.
+# Hold a heavy bag with your arm stretched out level. Now let it hang straight down. It is the same
+# bag and the same arm, but level is far harder. What matters is how far the weight is from your
+# shoulder *sideways*. For an arm of length L at the angle θ from level, that distance is L·cos(θ).
+# The cosine is 1 when the arm is level, and 0 when it points straight up or down.
 #
 # So gravity takes kG·cos(θ) volts. **Predict:**
 
@@ -324,15 +337,15 @@ guess_angle
 cosines = [
     (f"{angle}°", round(float(np.cos(np.radians(angle))), 3)) for angle in (0, 30, 45, 60, 90, 120)
 ]
-print(f"You said: {guess_angle}.")
+print(guess_angle.reveal("half"))
 print(f"np.cos(60) = {np.cos(60):.3f}. Careful: NumPy, Java and C++ count angles in radians.")
 Table(("angle from level", "share of kG"), tuple(cosines))
 
 # %% [markdown]
-# Beyond 90° the share is negative: the arm has gone over the top, and gravity pulls it on.
+# Beyond 90° the share is negative: the arm is past the top, and gravity pulls it further over.
 #
-# Friction does not know of angles. So the arm has a window everywhere, equally wide, around a
-# middle that follows the cosine. Let us measure it at seven angles, as we did with the elevator.
+# Friction does not depend on the angle. So the window has the same width at every angle, and its
+# middle follows the cosine. Let us measure it at seven angles, as we did with the elevator.
 
 
 # %%
@@ -368,31 +381,31 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Here:
+# No slider? Change the number here:
 
 # %%
 arm_picture(60)
 
 # %% [markdown]
-# ### An encoder that was mounted askew
+# ### An encoder with an offset
 #
-# All this needs the angle from **level**. An encoder does not know where level is. It counts from
-# wherever its zero happened to be when somebody mounted it. Say ours shows 25° too much. Then the
-# true angle is reading + offset, with an offset of −25°.
+# All this needs the angle from **level**. But an encoder does not know where level is. It counts
+# from wherever its zero was when somebody mounted it. Suppose our encoder shows 25° too much. Then
+# the true angle is reading + offset, with an offset of −25°.
 #
-# The window does not lie, though. Its middle follows kG·cos(reading + offset), and a cosine with an
-# offset is a mix of a cosine and a sine:
+# You can find the offset from the windows. Their middle follows kG·cos(reading + offset), and a
+# cosine with an offset is a sum of a cosine and a sine:
 #
 # > kG·cos(r + offset) = **A**·cos(r) + **B**·sin(r), with A = kG·cos(offset) and
 # > B = −kG·sin(offset)
 #
-# Two unknowns, A and B. At a reading of 0° the sine is 0, so the middle there is A. At 90° the
-# cosine is 0, so the middle there is B. With more rows, a least-squares fit takes all of them
-# (`np.linalg.lstsq`; lesson 7 says how it works). Then kG = √(A² + B²), and the offset is the angle
-# whose tangent is −B/A (`np.arctan2` finds it).
+# A and B are two unknowns. At a reading of 0° the sine is 0, so the middle is A. At 90° the cosine
+# is 0, so the middle is B. If you have more rows, a least-squares fit uses all of them
+# (`np.linalg.lstsq`; lesson 7 explains it). Then kG = √(A² + B²), and the offset is the angle whose
+# tangent is −B/A (`np.arctan2`).
 
 # %%
-TILT = 25.0  # [deg] that our encoder shows too much
+TILT = 25.0  # [deg] our encoder shows this much too much
 table = [(angle + TILT, low, high) for angle, low, high in measured]
 reading = np.radians([row[0] for row in table])
 middle = np.array([(low + high) / 2 for _, low, high in table])
@@ -407,10 +420,11 @@ print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
 print(f"offset = {found_offset:.1f}°, to be added to every reading")
 
 # %% [markdown]
-# Not quite the truth? We tried voltages in steps of 10 mV. An edge can lie anywhere between two
-# steps, so half the width may come out too small by up to 10 mV. Finer steps do better.
+# The result is not exactly the truth, because we tried voltages in steps of 10 mV. An edge can be
+# anywhere between two steps, so half the width may be too small by up to 10 mV. Finer steps do
+# better.
 #
-# In the picture: the cosine has its top where the arm is *really* level, not at a reading of 0.
+# In the picture, the cosine is highest where the arm is *really* level, not at a reading of 0.
 
 
 # %%
@@ -427,14 +441,19 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Here:
+# No slider? Change the number here:
 
 # %%
 askew_picture(0)
 
 # %% [markdown]
-# Find the offset at which the band covers all marks. SysId does the same sum for an arm: it fits a
-# cosine and a sine, and makes kG and the offset of them.
+# Find the offset at which the band covers all marks. SysId does the same for an arm: it fits a
+# cosine and a sine, and computes kG and the offset from them.
+#
+# So "the voltage at horizontal" is only kG if your encoder reads 0 at horizontal, and if you take
+# the middle of the window. What would you get at a *reading* of 0°?
+#
+# <details><summary>For mentors: kG at horizontal, and its source</summary>
 #
 # > **Lesson says:** for an arm, kG is "the voltage needed at horizontal".
 # >
@@ -444,24 +463,26 @@ askew_picture(0)
 # >
 # > **Try it:** at a *reading* of 0°, what is the middle in our table, and by how much would you
 # > miss kG?
+# </details>
 
 # %%
 at_zero = arm.gains["kG"] * float(np.cos(np.radians(TILT)))
 print(f"At a reading of 0° the middle is {at_zero:.2f} V; kG is {arm.gains['kG']:.2f} V.")
 
 # %% [markdown]
-# ## 5 From a log: tell SysId what it looks at
+# ## 5 From a log: choose the analysis type
 #
-# Holding still costs an hour of patience. The four tests of SysId find kG as well, with the other
-# gains, *if* you choose the right **analysis type**. The types are the models of section 2:
+# Finding the window by hand takes patience. The four tests of SysId find kG as well, together with
+# the other gains, *if* you choose the right **analysis type**. The types are the models of section
+# 2:
 #
 # | analysis type | model | for |
 # |---|---|---|
 # | Simple | kS, kV, kA | drivetrain, flywheel, turret |
-# | Elevator | kG + … | what moves straight up and down |
-# | Arm | kG·cos(θ) + … | what swings up and down |
+# | Elevator | kG + … | mechanisms that move straight up and down |
+# | Arm | kG·cos(θ) + … | mechanisms that swing up and down |
 #
-# Here are the four tests on our elevator. In the two *reverse* tests it goes down.
+# Here are the four tests of our elevator. In the two *reverse* tests it goes down.
 
 # %%
 routine = sim.Routine(ramp=1.0, step=4.5)
@@ -495,9 +516,9 @@ for name, (one, types) in cases.items():
     for kind in types:
         got = fit(one, type=kind, method="sysid").gains
         found = (got.get(gain, "–") for gain in ("kS", "kV", "kA", "kG"))
-        rows.append((f"{name}, read as {kind}", *found))
+        rows.append((f"{name}, fitted as {kind}", *found))
 
-print(f"You said: {guess_type}.")
+print(guess_type.reveal("nonsense"))
 Table(
     ("log", "kS [V]", "kV", "kA", "kG [V]"),
     tuple(rows),
@@ -505,14 +526,19 @@ Table(
 )
 
 # %% [markdown]
-# With the right type, the gains are close to the truth. (kS is the furthest off. It usually is.)
-# Read as Simple, the elevator's gains are nonsense: kV is negative. The model has no term that is
-# the same up and down, so the fit bends the others. (Our `sysid fit` prints doubts about such
-# gains.)
+# With the right type, the gains are close to the truth. (kS is the least accurate. It usually is.)
+# Fitted as Simple, the elevator's gains are nonsense: kV is negative. The model has no term that is
+# the same up and down, so the fit bends the other terms. (Our `sysid fit` prints warnings about
+# such gains.)
 #
-# The arm that is read as Elevator is worse. Every gain is positive and looks possible, and every
-# one is wrong. The last row is the gentle case: a drivetrain that is read as Elevator only finds a
-# kG near 0.
+# The arm fitted as Elevator is worse: every gain is positive and looks plausible, but every gain is
+# wrong. The last row is harmless: a drivetrain fitted as Elevator only gets a kG near 0.
+#
+# **Myth check.** "SysId does not find kG; you must measure it separately." *False:* SysId fits kG
+# for the types Elevator and Arm. It is true only for the type Simple. Compare kG in the second row
+# with the truth.
+#
+# <details><summary>For mentors: SysId fits kG, with source</summary>
 #
 # > **Lesson says:** "The DC motor model fitted by SysId does not include a gravity compensation
 # > term. For arms and elevators, kG must be determined separately".
@@ -523,53 +549,55 @@ Table(
 # > ([WPILib docs: Introduction to System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
 # > **Try it:** you just did. Compare kG in the second row with the truth.
+# </details>
 #
-# **Where to choose it.** In SysId's Data Selector, a menu holds the analysis type. It starts on
-# *Elevator*, whatever you load
-# ([SysId's source: DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
-# Look at it every time. In this course: `sysid fit log.wpilog --type elevator`.
+# **Where to choose it.** The menu for the analysis type is in SysId's Data Selector. It starts on
+# *Elevator*, whatever you load ([SysId's source:
+# DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
+# Check it every time. In this course: `sysid fit log.wpilog --type elevator`.
 #
-# **Why does an arm's log need the position?** Velocity and voltage are enough for the other types.
-# An arm's gravity depends on the angle, so its fit needs the angle of every row. (SysId's
-# window asks for a position in any case.)
+# **Why does an arm's log need the position?** An arm's gravity depends on the angle, so the fit
+# needs the angle of every row. The other types need only velocity and voltage. (SysId's window asks
+# for a position in any case.)
 
 # %% [markdown]
 # ## 6 Only up: two gains become one
 #
-# Going down is unpleasant. The carriage drops from the first moment, and somebody has to lift it
-# again. So why not skip the reverse tests, and drive up only? **Predict:**
+# Testing downward is unpleasant. The carriage drops from the first moment, and somebody has to lift
+# it again. So why not skip the reverse tests and drive up only? **Predict:**
 
 # %%
 guess_up = Prediction(
-    "Fit an elevator that was only driven up. What can the fit tell?",
+    "An elevator was only driven up. Which gains can the fit find?",
     "all four gains",
     "all but kA",
     "neither kS nor kG, only their sum",
-    "nothing",
+    "none",
 )
 guess_up
 
 # %%
 up_only = replace(log, runs=tuple(run for run in log.runs if run.direction == "forward"))
-print(f"You said: {guess_up}.")
+print(guess_up.reveal("neither kS nor kG, only their sum"))
 try:
     fit(up_only)
 except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
-# On the way up sgn(v) is always +1, so every single row says
+# On the way up sgn(v) is always +1, so every row says
 #
 # > V = **kG + kS** + kV·v + kA·a
 #
-# The two only ever appear as a sum. Take 1 V off kG and give it to kS, and every row fits as well
-# as before. A thousand rows do not help, as none of them is different.
+# The two only ever appear as a sum. If you take 1 V from kG and add it to kS, every row fits as
+# well as before. Even a thousand rows do not help, because they all say the same.
 #
-# The next picture shows that. If you ran the tests again and again, noise would move the fitted
-# pair (kS, kG) about. The shaded region holds 95 of 100 such fits: a *confidence ellipse*. A small
-# ellipse means: well known. The slider adds rows of the way down.
+# The next picture shows this. If you repeated the tests many times, noise would change the fitted
+# pair (kS, kG) a little each time. The shaded region contains 95 of 100 such fits: it is called a
+# *confidence ellipse*. A small ellipse means that you know both gains well. The slider adds rows
+# from the way down.
 #
-# (You may skip the code. It takes rows without noise and computes how far noise could push a fit.)
+# (You may skip the code. It takes rows without noise and computes how far noise could move a fit.)
 
 # %%
 SIDES = ("kS", "kG")
@@ -620,11 +648,12 @@ show_interactive(
 up_and(0)
 
 # %% [markdown]
-# With no row of the way down the ellipse has no ends: it is a line, a band as wide as the noise.
-# All along it kG + kS is the same. A single row of the way down closes it.
+# Without data from moving down, the ellipse never closes: it is an endless band, as wide as the
+# noise. Everywhere in this band the sum kG + kS is the same. A single row from the way down closes
+# the ellipse.
 #
-# An arm is kinder. On the way up its cosine changes and kS does not, so the two can be told apart,
-# though not sharply:
+# An arm is easier. On the way up its cosine changes and kS does not, so the fit can separate the
+# two, though not precisely:
 
 # %%
 rows = []
@@ -641,8 +670,13 @@ for name, mechanism, tests in (
 Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard error of each")
 
 # %% [markdown]
-# (A *standard error* is the typical distance between a fit and the truth when only noise is to
-# blame.)
+# (A *standard error* is the typical distance between a fit and the truth if noise is the only
+# cause.)
+#
+# So the reverse tests are what separates kS from kG on an elevator. SysId's window asks for all
+# four tests. Run them, and be ready: with 0 V the carriage already falls.
+#
+# <details><summary>For mentors: are reverse tests needed for gravity mechanisms?</summary>
 #
 # > **Lesson says:** "Skipping the reverse runs produces gains that only model the forward direction
 # > accurately, and for mechanisms with gravity (arms, elevators) the two directions are physically
@@ -655,8 +689,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard erro
 # >
 # > **Try it:** on the bench, an arm agrees roughly with the maintainer. An elevator does not: see
 # > the table. Down is what separates kS from kG.
-#
-# So run them, and be ready. With 0 V the carriage already falls:
+# </details>
 
 # %%
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
@@ -679,9 +712,9 @@ print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.
 # (In Python, `SimpleMotorFeedforward` is called `SimpleMotorFeedforwardMeters` or `…Radians`.)
 #
 # kG is the **second** argument, before kV. In Java and Python all four are plain numbers, so
-# nothing warns you when two of them trade places. And an `ArmFeedforward` wants the angle in
-# **radians from level**: correct the encoder's offset first.
-# ([WPILib docs: Feedforward Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# nothing warns you when you swap two of them. And an `ArmFeedforward` needs the angle in **radians
+# from level**: correct the encoder's offset first. ([WPILib docs: Feedforward
+# Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 #
 # ```java
 # // kS, kG, kV, kA
@@ -697,7 +730,7 @@ print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.
 
 # %%
 guess_order = Prediction(
-    "kV and kG have traded places. The code asks the elevator to stand still. What happens?",
+    "Somebody swapped kV and kG. The code asks the elevator to stand still. What happens?",
     "it stands still",
     "it sinks",
     "it goes up",
@@ -705,12 +738,16 @@ guess_order = Prediction(
 guess_order
 
 # %%
-wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives what stands in kG's place
-print(f"You said: {guess_order}.")
-print(f"At rest it gets {wrong:.2f} V instead of {truth['kG']:.2f} V, and does ", end="")
-print(f"{let_go(wrong, height=0.3):.2f} m/s.")
+wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
+print(guess_order.reveal("it goes up"))
+print(f"At rest it gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
+print(f"and moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %% [markdown]
+# So check the order in your robot's code today: kG is the second argument.
+#
+# <details><summary>For mentors: kG in WPILib's classes, with source</summary>
+#
 # > **Lesson says:** "WPILib's ArmFeedforward and ElevatorFeedforward can absorb kG in addition to
 # > the kS/kV/kA values SysId provides."
 # >
@@ -719,23 +756,23 @@ print(f"{let_go(wrong, height=0.3):.2f} m/s.")
 # > ([WPILib docs: Feedforward Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
 # > **Try it:** write down the order for your own mechanism, then look at your robot's code.
+# </details>
 
 # %% [markdown]
 # ## 8 System check
 #
-# Before you trust a kG, all five:
+# Before you trust a kG, check all five:
 #
-# - [ ] You used **both** edges, or a log with both directions. Not one edge.
-# - [ ] The analysis type is the mechanism's: Elevator, Arm or Simple.
-# - [ ] An arm's angle is 0 when it is **level**, and in radians where the code wants radians.
+# - [ ] You used **both** edges, or a log with both directions.
+# - [ ] The analysis type fits the mechanism: Elevator, Arm or Simple.
+# - [ ] An arm's angle is 0 when the arm is **level**, and in radians where the code needs radians.
 # - [ ] Elevator: kG/kA is near 9.81 m/s²; above it (up to 19.6) only with a cascade, well below it
 #   only with a counterweight or a spring.
-# - [ ] In the code kG stands second, and the carriage holds still at zero speed.
+# - [ ] In the code kG is the second argument, and the carriage stays still at zero speed.
 #
 # ## 9 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("kG")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -744,8 +781,8 @@ quick = QuickCheck(
     "You raise the voltage until the elevator just does not drop. Which edge is that?",
     {
         "kG − kS": "Friction helps you hold it, so less than kG is enough.",
-        "kG": "That is the middle. Would friction not help to hold it?",
-        "kG + kS": "That is where it just begins to rise: there, friction is in your way.",
+        "kG": "That is the middle. But friction helps you to hold it.",
+        "kG + kS": "There it just begins to rise, and friction is against you.",
     },
     right="kG − kS",
 )
@@ -757,10 +794,11 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kG is the middle, 1.5 V. kS is half the width, 0.3 V. Either voltage alone is off by kS.
+# kG is the middle, 1.5 V. kS is half the width, 0.3 V. Each of the two voltages alone is wrong by
+# kS.
 # </details>
 #
-# **2.** Which recipe finds the lower edge, and which the upper?
+# **2.** Which method finds the lower edge, and which the upper?
 #
 # <details><summary>Answer</summary>
 #
@@ -772,8 +810,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The cosine is 0 there, so gravity takes nothing. The edges are −kS and +kS: they tell you the
-# friction, and nothing about kG. For kG, hold it level.
+# The cosine is 0 there, so gravity takes no voltage. The edges are −kS and +kS: they show the
+# friction, but not kG. For kG, hold the arm level.
 # </details>
 #
 # **4.** SysId shows a negative kV for an elevator, and the log looks clean. What do you look at
@@ -781,8 +819,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The analysis type. Read as Simple, an elevator's gains are nonsense. (Then the sign: does a
-# positive voltage give a positive velocity?)
+# The analysis type. Fitted as Simple, an elevator's gains are nonsense. (Then check the sign: does
+# a positive voltage give a positive velocity?)
 # </details>
 #
 # **5.** Your arm was measured empty. With a game piece it droops. Which gains must change?
@@ -795,29 +833,30 @@ quick
 # %% [markdown]
 # ## 10 Practice
 #
-# **Exercise 3** (`exercises/exercise3/README.md`). You get an elevator and an arm of your own. In a
+# **Exercise 3** (`exercises/exercise3/README.md`). You get your own elevator and your own arm. In a
 # terminal, in the course's folder:
 #
 # ```
 # grade exercise3
 # ```
 #
-# It makes your numbers, and later checks `exercises/exercise3/answers.toml`. You may also answer
-# from a notebook:
+# The first time, this makes your numbers. Later it checks `exercises/exercise3/answers.toml`. You
+# may also answer from a notebook:
 #
 # ```python
 # from grader import submit
 # submit("exercise3", elevator_kG=1.5, elevator_kS=0.3, elevator_type="Elevator")
 # ```
 #
-# For the elevator you need section 3, for the arm and its offset section 4, for type and class
-# sections 5 and 7. Hints cost nothing: `grade exercise3 --hint`.
+# You need section 3 for the elevator, section 4 for the arm and its offset, and sections 5 and 7
+# for type and class. Hints cost nothing: `grade exercise3 --hint`.
 #
-# **More, if you like.**
+# <details><summary>More, if you like</summary>
 #
-# - Give the arm's table noise: add `0.02 * np.random.default_rng(1).standard_normal(7)` to the
+# - Add noise to the arm's table: add `0.02 * np.random.default_rng(1).standard_normal(7)` to the
 #   middles. How far does the offset move?
-# - A constant-force spring lifts the carriage with 1 V worth of force. What is kG now? Can it
+# - A constant-force spring lifts the carriage with as much force as 1 V. What is kG now? Can it
 #   become negative?
+# </details>
 #
-# Next: lesson 3, test design.
+# **Next:** [Lesson 3, test design](03_test_design.ipynb). Which tests does a robot need?

@@ -13,26 +13,26 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 50 minutes. You need lessons 1 and 2. No robot is needed today; at the end you can plan the
-# tests of one.*
+# *About 50 minutes. You need lessons 1 and 2. You need no robot today. At the end you can plan its
+# tests.*
 #
 # **At the end you can**
 #
-# - say what the slow ramp and the sudden step each tell, and what neither of them tells alone;
-# - explain why the kS that one reads off a ramp is too large, and by how much;
+# - say which gains the slow ramp shows and which the sudden step, and why you need both;
+# - explain why the kS that you read off a ramp is too large, and by how much;
 # - say what becomes unknown when a test is missing, and give three reasons to run in reverse;
 # - choose a ramp, a step, a timeout and a mark on the floor for a given room.
 
 # %% [markdown]
 # ## 1 Why: a test is a question
 #
-# SysId cannot find what the data do not hold. If a robot never accelerates in the log, no
+# SysId cannot find what the data do not contain. If a robot never accelerates in the log, no
 # mathematics will find its kA. So before you press a button you decide: how fast, how hard, how
-# far, how long. That is test design, and it costs ten minutes. Driving all tests again costs an
+# far, how long. This is test design. It takes ten minutes; driving all tests again takes an
 # evening.
 #
-# Our mechanisms today are simulated, on *the bench*. We know their true gains because
-# we built them. (You need not read the code to follow. Run each cell, and read what it prints.)
+# Today's mechanisms are simulated (on *the bench*), so we know their true gains. (You do not need
+# to read the code. Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -75,14 +75,14 @@ Table(
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
-# Three unknown gains. Two kinds of test ask for them:
+# There are three unknown gains, and two kinds of test to find them:
 #
-# - **Quasistatic** ("as if static"). The voltage climbs slowly from zero. The mechanism is hardly
-#   ever accelerating, so kA·a is small, and V ≈ kS + kV·v. This is about **kS and kV**.
+# - **Quasistatic** ("as if static"). The voltage rises slowly from zero. The mechanism hardly
+#   accelerates, so kA·a is small, and V ≈ kS + kV·v. This test shows **kS and kV**.
 # - **Dynamic.** The voltage jumps to a *step* and stays. At first the speed is zero, so nearly all
-#   of the voltage goes into acceleration. This is about **kA**.
+#   of the voltage goes into acceleration. This test shows **kA**.
 #
-# Each is run forward and in reverse. That makes four runs.
+# You run each test forward and in reverse. That makes four runs.
 
 # %%
 routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
@@ -90,8 +90,8 @@ log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# Only the first second of the steps is drawn. **Predict** how the speed rises in it, before you
-# zoom in. (No buttons? Type `guess_rise.value = "…"` in a cell, with one of the answers.)
+# The picture shows only the first second of the steps. **Predict** how the speed rises in that
+# second, before you run the next cells.
 
 # %%
 guess_rise = Prediction(
@@ -109,7 +109,7 @@ top = (2.0 - truth["kS"]) / truth["kV"]
 tau = truth["kA"] / truth["kV"]
 at_tau = float(np.interp(tau, since, speed))
 
-print(f"You said: {guess_rise}.")
+print(guess_rise.reveal("quickly first, then slower and slower"))
 print(
     f"kA/kV = {1000 * tau:.0f} ms (the star). By then: {100 * at_tau / top:.0f} % of its top speed."
 )
@@ -117,7 +117,7 @@ plot_curves(
     since,
     {
         "speed after the step": speed,
-        "if it went on as it began": np.minimum(top, top * since / tau),
+        "with constant acceleration": np.minimum(top, top * since / tau),
     },
     xlabel="time since the step [s]",
     ylabel="speed [m/s]",
@@ -126,10 +126,17 @@ plot_curves(
 )
 
 # %% [markdown]
-# The faster it goes, the more of the voltage kV·v takes, and the less is left for acceleration. So
-# the rise is steep at first and gets flatter: an *exponential* approach. Its pace is the
-# **timescale τ = kA/kV** ("tau"): after τ about two thirds are done, after 3τ nearly all. SysId
-# shows it as *Response Timescale*.
+# The faster it goes, the more volts kV·v takes, and the fewer are left for acceleration. So the
+# rise is steep at first and gets flatter: it approaches the top speed *exponentially*. How fast
+# depends on the **time constant τ = kA/kV** ("tau"): after τ the speed has covered about two thirds
+# of the way, after 3τ nearly all. SysId shows it as *Response Timescale*.
+#
+# **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
+# *False:* that would be the dashed line. WPILib describes a good test as "an approximately
+# exponential approach of the steady-speed". If *your* data look like the dashed line, ask why: a
+# current limit and slipping wheels both keep the acceleration constant.
+#
+# <details><summary>For mentors: the rise of a dynamic test, with source</summary>
 #
 # > **Lesson says:** in a clean dynamic test "Acceleration is relatively constant during the rising
 # > portion."
@@ -140,23 +147,24 @@ plot_curves(
 # >
 # > **Try it:** the dashed line above is constant acceleration. If *your* data look like that, ask
 # > why: a current limit and slipping wheels both hold the acceleration at one value.
+# </details>
 
 # %% [markdown]
 # ## 3 Reading the ramp: the intercept drifts
 #
 # Draw voltage over velocity for the ramp. V ≈ kS + kV·v is a straight line. Its slope is kV, and
-# where it meets standstill (its *intercept*) one reads off kS. A high intercept means much
-# friction, a low one means it moves easily.
+# the voltage where it meets velocity 0 (its *intercept*) is kS. A high intercept means much
+# friction; a low one means that it moves easily.
 #
-# That is a good first look. Now hold it against the truth: is the kS that you read off the kS of
-# the robot? The flywheel of a shooter is heavy for its motors: its τ is much longer than that of
-# the drivetrain.
+# That is a good first look. Now compare it with the truth: is the intercept really the robot's kS?
+# We test a drivetrain and a shooter's flywheel. The flywheel is heavy for its motors, so its τ is
+# much longer.
 #
 # **Predict:**
 
 # %%
 guess_drift = Prediction(
-    "Which kS, read off a ramp of 1 V/s, is further from the truth?",
+    "You read kS off a ramp of 1 V/s. Whose kS is further from the truth?",
     "the drivetrain's",
     "the flywheel's",
     "neither, both are right",
@@ -216,7 +224,7 @@ show_interactive(
 display(*drift_picture("flywheel", 1.0))
 
 # %%
-print(f"You said: {guess_drift}.")
+print(guess_drift.reveal("the flywheel's"))
 rows = []
 for name, mechanism in SHOWN.items():
     gains = mechanism.gains
@@ -231,37 +239,47 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# A ramp never stops accelerating. The voltage climbs by `ramp` volts each second, so the speed
-# climbs by ramp/kV each second. That is an acceleration, small but constant, and it costs
+# A ramp never stops accelerating. The voltage rises by `ramp` volts each second, so the speed rises
+# by ramp/kV each second. This is a small but constant acceleration, and it takes
 #
 # > kA · (ramp/kV) = **τ·ramp** volts, all the way along.
 #
-# The straight line cannot know, and counts them as kS. So what you read off lies on a line of slope
-# τ over the ramp: twice the ramp, twice the error. (The small rest in the picture has
-# two causes. A row holds the speed of now and the voltage that is applied from now on, which is
-# half a loop, 10 ms, too early. And noise in the velocity bends the line a little: lesson 7.)
+# The straight line counts these volts as kS. So the error of the intercept is proportional to the
+# ramp: twice the ramp, twice the error. (The small remaining difference in the picture has two
+# causes. Each row contains the current speed, but the voltage for the next 20 ms, so the two are 10
+# ms apart. And noise in the velocity bends the line a little: lesson 7.)
+#
+# SysId itself does not read an intercept: it fits all runs at once, with a kA term for the ramps,
+# too. If you read one by eye, use a slow ramp. How slow must the flywheel's ramp be for an error
+# below 0.03 V? Solve τ·ramp = 0.03.
+#
+# <details><summary>For mentors: is the intercept kS?</summary>
 #
 # > **Lesson says:** the quasistatic test moves "so slowly that it's essentially never
 # > accelerating", so that "the intercept is kS".
 # >
 # > **Source says:** the ramp makes the voltage of the acceleration *negligible*. SysId itself does
-# > not read an intercept: it fits all runs at once, with a kA term for the ramps, too.
-# > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
-# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# > not read an intercept: it fits all runs at once, with a kA term for the ramps, too. ([WPILib
+# > docs: Creating a
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
+# > [SysId's source:
+# > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
 # > **Try it:** how slow must the flywheel's ramp be for an error below 0.03 V? Solve τ·ramp = 0.03.
+# </details>
 
 # %% [markdown]
-# ## 4 The information map: what each run tells
+# ## 4 The information map: what each run adds
 #
-# Every row of a log is one equation: so much voltage, for this velocity v and this acceleration a.
-# Draw each row as a dot, v to the right and a upward. If the dots lie in different corners, the
-# equations differ, and the gains can be told apart. If all dots lie on one line, some gains cannot.
+# Every row of a log is one equation: this voltage, for this velocity v and this acceleration a.
+# Draw each row as a dot, v to the right and a upward. If the dots spread over the picture, the
+# equations differ, and the fit can separate the gains. If all dots are on one line, it cannot
+# separate some of them.
 #
-# Beside it, the **confidence ellipse** of lesson 2: noise would move a fit about, and 95 of 100
-# fits fall inside. Small is good. A band without ends means: unknown.
+# Next to the map you see the **confidence ellipse** of lesson 2: if you repeated the tests with new
+# noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means: unknown.
 #
-# **Predict**, before you switch runs off:
+# **Predict** before you switch runs off:
 
 # %%
 guess_drop = Prediction(
@@ -282,7 +300,7 @@ display(guess_drop, guess_ramps)
 
 # %% [markdown]
 # (You may skip the code. It takes rows without noise, because noise in an acceleration looks like
-# acceleration, and computes how far noise could push a fit.)
+# acceleration, and computes how far noise could move a fit.)
 
 # %%
 sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
@@ -339,9 +357,9 @@ show_interactive(
 map_picture("all four", "kS and kA")
 
 # %% [markdown]
-# Add runs one by one: the first four lines of the menu. With one ramp, kS and kA lie on a long
-# slanted ellipse: the ramp knows kS + τ·ramp, as in section 3, and not how it splits up. A single
-# step ends that. Now all the sets, in numbers:
+# Add runs one by one: use the first four lines of the menu. With one ramp, kS and kA lie on a long
+# slanted ellipse: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts.
+# A single step separates them. Here are all the sets in numbers:
 
 # %%
 rows = []
@@ -351,25 +369,25 @@ for name, tests in SETS.items():
     ).errors
     shares = (100 * errors[gain] / truth[gain] for gain in ("kS", "kV", "kA"))
     rows.append((name, *(share if share < 100 else "unknown" for share in shares)))
-print(f"1. You said: {guess_drop}.")
-print(f"2. You said: {guess_ramps}.")
+print("1.", guess_drop.reveal("nothing, the errors grow a little"))
+print("2.", guess_ramps.reveal("all three gains"))
 Table(
     ("runs", "kS ± [%]", "kV ± [%]", "kA ± [%]"),
     tuple(rows),
-    caption="One standard error, the typical miss by noise alone, as a share of the gain",
+    caption="One standard error (the typical error from noise alone), in percent of the gain",
 )
 
 # %% [markdown]
 # ### Explain
 #
-# - **Without steps** (the row "2 ramps") kA is poor, and drags kS along.
-# - **Without ramps** all is lost. Under one constant voltage the rows have only one message: where
-#   the speed ends and how quickly. Two numbers for three unknowns. (If you knew kS from
-#   elsewhere, the other two would follow: the band in the map is narrow.)
+# - **Without steps** (the row "2 ramps") kA is poor, and kS suffers with it.
+# - **Without ramps**, no gain can be found. With one constant voltage the rows only show the final
+#   speed and how quickly the robot reaches it. These are two numbers for three unknowns. (If you
+#   knew kS, the other two would follow: the band in the map is narrow.)
 # - **Without the dynamic reverse** this drivetrain loses almost nothing. Forward and reverse are
-#   twins *here*, because the bench made them so.
+#   equal *here*, because we simulated them so.
 #
-# SysId insists on all four anyway:
+# SysId needs all four anyway:
 
 # %%
 three = replace(log, runs=tuple(run for run in log.runs if run.test != "dynamic-reverse"))
@@ -379,6 +397,10 @@ except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
+# So the ramps and the steps each do a part of the work, and neither can replace the other.
+#
+# <details><summary>For mentors: one test alone, with source</summary>
+#
 # > **Lesson says:** "Running only one of them produces incomplete data and poor regression
 # > results."
 # >
@@ -389,13 +411,15 @@ except sim.Refusal as refusal:
 # >
 # > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines. Turn the picture upside
 # > down: what changes?
+# </details>
 
 # %% [markdown]
 # ## 5 Why reverse? Three reasons
 #
-# If forward and reverse are twins, why bother? Because you do not know that they are.
+# If forward and reverse are equal, why test both? Because on a real robot you do not know that they
+# are equal.
 #
-# **Reason 1: gravity.** For an elevator, down is what separates kS from kG (lesson 2).
+# **Reason 1: gravity.** For an elevator, only the way down separates kS from kG (lesson 2).
 #
 # **Reason 2: asymmetry.** A dragging brake, a worm gear, a bearing pressed to one side: friction
 # can differ by direction. Here is a drivetrain whose friction is three times as large in reverse.
@@ -423,19 +447,22 @@ both = fit(uneven_log, method="sysid")
 gains = (both.gains[name] for name in truth)
 rows.append(("all four, SysId's recipe", *gains, both.simulated_velocity_r2))
 rows.append(("truth", "0.15 and 0.45", truth["kV"], truth["kA"], "–"))
-print(f"You said: {guess_lean}.")
+print(guess_lean.reveal("kA"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
-# Each direction alone gives a good fit. Together they cannot, with one kS for both, and kA takes
-# the blame. The simulated velocity R² (SysId's score; 1 is perfect, lesson 7) stays high. So the
-# numbers of one direction, compared with those of the other, tell you more than any score.
+# Each direction alone gives a good fit. Both together do not, because there is only one kS for
+# both, and the error ends up in kA. The simulated velocity R² (SysId's score; 1 is perfect, lesson
+# 7) stays high. So compare the gains of one direction with those of the other: that shows more than
+# any score.
 #
-# Had you skipped the reverse runs, the table would have one row. Driving backward,
-# your feedforward would give a third of what friction takes, and you would not know why.
+# If you had skipped the reverse runs, the table would have one row. Driving backward, your
+# feedforward would give a third of the voltage that friction needs, and you would not know why.
 #
-# **Reason 3: the way back.** The reverse run brings the robot to where it started, so the next test
-# has room again.
+# **Reason 3: the way back.** The reverse run brings the robot back to where it started, so the next
+# test has room again.
+#
+# <details><summary>For mentors: may you skip the reverse runs?</summary>
 #
 # > **Lesson says:** "Skipping the reverse runs produces gains that only model the forward direction
 # > accurately".
@@ -448,16 +475,17 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # >
 # > **Try it:** the last row of section 4's table is forward only. For a *symmetric* drivetrain it
 # > is fine. Now set `lean` to 0 above: do the rows agree?
+# </details>
 
 # %% [markdown]
 # ## 6 Choose the ramp: how far will it go?
 #
-# Slow is precise (section 3). Is slow also safe? You have a hall of a certain length, and you want
-# the robot to reach 1 m/s in the ramp. **Predict:**
+# A slow ramp is precise (section 3). Is it also safe? Your hall has a certain length, and the robot
+# should reach 1 m/s in the ramp. **Predict:**
 
 # %%
 guess_way = Prediction(
-    "We halve the ramp, from 1 V/s to 0.5 V/s. How far does the robot travel until it does 1 m/s?",
+    "We halve the ramp, from 1 V/s to 0.5 V/s. How far does the robot drive to reach 1 m/s?",
     "half as far",
     "just as far",
     "twice as far",
@@ -482,7 +510,7 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     volts = ramp * float(np.interp(TEN_FEET, place, time))
     ten_seconds = float(np.interp(10.0, time, place)) if time[-1] >= 9.9 else "–"
     rows.append((ramp, float(np.interp(1.0, speed, place)), rule, volts, ten_seconds))
-print(f"You said: {guess_way}.")
+print(guess_way.reveal("twice as far"))
 Table(
     (
         "ramp [V/s]",
@@ -496,45 +524,53 @@ Table(
 )
 
 # %% [markdown]
-# Twice as far. At half the ramp it takes twice the time to any speed, and so twice the distance:
+# The answer is: twice as far. With half the ramp the robot needs twice the time to reach any speed,
+# and so twice the distance:
 #
 # > **d ≈ kV·v² / (2·ramp)**
 #
-# So "slow is safe" is wrong where room is short. A ramp that is too slow runs out of floor before
-# it has any speed, and a log without speed says little about kV. Choose the ramp so that it *just*
-# fits.
+# So "slow is safe" is wrong if your room is short. With a very slow ramp the robot reaches the end
+# of the room before it has any speed, and a log without speed contains little about kV. Choose the
+# ramp so that it *just* fits. WPILib recommends "at least 10' of space, ideally closer to 20'", and
+# never on blocks, where the robot's mass does not move. In the table, row 0.5: how far does this
+# drivetrain go in 10 s?
+#
+# <details><summary>For mentors: 10 feet and 0.5 V/s, with source</summary>
 #
 # > **Lesson says:** clear "at least 10 feet forward and 10 feet back", with a ramp that is
 # > "typically 0.5 V/s" and a timeout of 10 s.
 # >
 # > **Source says:** "at least 10' of space, ideally closer to 20'", and never on blocks, where the
-# > robot's mass does not move. The library's default ramp is 1 V/s.
-# > ([WPILib docs: Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
-# > [Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > robot's mass does not move. The library's default ramp is 1 V/s. ([WPILib docs: Running the
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
+# > [Creating a
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
 # >
 # > **Try it:** in the table, row 0.5: how far does this drivetrain get in 10 s? And how many volts
 # > does it see in 10 feet?
+# </details>
 
 # %% [markdown]
 # ## 7 Choose the step: hard enough, not too hard
 #
-# A large step gives a large acceleration, which stands out from the noise. Three things limit it.
+# A large step gives a large acceleration, which is easy to see above the noise. Three things limit
+# the step.
 #
-# 1. **Grip.** Wheels slip when the motors push harder than the carpet holds. From standstill that
-#    is above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours) and
-#    g = 9.81 m/s², if all wheels are driven. When wheels spin, the encoder counts meters that the
-#    robot does not go.
+# 1. **Grip.** Wheels slip when the motors push harder than the carpet can hold. From standstill
+#    they slip above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours)
+#    and g = 9.81 m/s², if all wheels are driven. When wheels spin, the encoder counts meters that
+#    the robot does not move.
 # 2. **Current.** At standstill a motor draws `stall_current · step / 12 V`. (The *stall current* is
-#    on its data sheet: what it draws at 12 V when it cannot turn.) Above the controller's limit the
-#    voltage is cut, and the rise begins as a straight line. (Phoenix 6 limits the current in a
-#    motor to 120 A unless you change it.)
-# 3. **Room.** The top speed is (step − kS)/kV, and your thumb needs its time.
+#    on its data sheet: what it draws at 12 V when it cannot turn.) Above its current limit the
+#    controller reduces the voltage, and the rise begins as a straight line. (Phoenix 6 limits the
+#    current in a motor to 120 A unless you change it.)
+# 3. **Room.** The top speed is (step − kS)/kV, and your thumb needs time to react.
 #
 # (For the limit see
 # [CTRE's docs: CurrentLimitsConfigs](https://api.ctr-electronics.com/phoenix6/stable/csharp/api/CTRE.Phoenix6.Configs.CurrentLimitsConfigs.html).)
 #
-# And from below: **signal.** SysId takes the acceleration from neighboring speeds, so it is noisy.
-# Let the first acceleration be ten times that noise or more.
+# And the step must not be too small: SysId computes the acceleration from neighboring speeds, so it
+# is noisy. The first acceleration should be at least ten times that noise.
 
 # %%
 rows = []
@@ -558,9 +594,12 @@ Table(
 )
 
 # %% [markdown]
-# The same robot, other motors, another step. Strong motors slip early: 3.5 V is harmless for one of
-# these two and spins the wheels of the other. Stay at 90 % of V_slip or less. You need kA for that
-# *before* the test: compute it from mass and motors (lesson 1), or start with a small step.
+# The robot is the same, but other motors need another step. Strong motors slip early: 3.5 V is
+# harmless for one of these two and spins the wheels of the other. Stay at 90 % of V_slip or less.
+# For that you need kA *before* the test: compute it from mass and motors (lesson 1), or start with
+# a small step.
+#
+# <details><summary>For mentors: typical steps and the default of 7 V</summary>
 #
 # > **Lesson says:** "applies a large voltage step — typically 3–7V", and "Start with a step voltage
 # > of 3–4V, not 7V".
@@ -572,15 +611,16 @@ Table(
 # >
 # > **Try it:** change the mass: `replace(drivetrain, load=30.0, …)`. Does a light robot slip
 # > earlier or later? (Look at kA in the formula.)
+# </details>
 #
-# The wheels of today's drivetrain never slip: its bench leaves that out. Lesson 6 shows what
-# slipping looks like in a log.
+# (Our simulated drivetrain never slips. Lesson 6 shows what slipping looks like in a log.)
 
 # %% [markdown]
 # ## 8 Choose when to stop: mark and timeout
 #
-# Two things end a test: your thumb at a **mark** on the floor, and the **timeout**. The timeout is
-# for the day on which the thumb fails. Set it a little longer than the test needs.
+# Two things end a test: your thumb when the robot passes a **mark** on the floor, and the
+# **timeout**. The timeout stops the robot if you do not let go. Set it a little longer than the
+# test needs.
 #
 # Does a long dynamic test harm the fit? We cut the same step after different times:
 
@@ -605,37 +645,42 @@ for seconds in (0.2, 0.5, 1.0, 2.0, 7.0):
     used = found.samples_used["dynamic-forward"]
     rows.append((f"{seconds:g} s", len(step), used, found.gains["kA"], float(step.position[-1])))
 Table(
-    ("step lasts", "rows", "rows used", "kA found [V·s²/m]", "it has gone [m]"),
+    ("step lasts", "rows", "rows used", "kA found [V·s²/m]", "distance [m]"),
     tuple(rows),
     caption=f"True kA: {truth['kA']:.3f} V·s²/m",
 )
 
 # %% [markdown]
-# SysId uses the rows up to 90 % of the top speed and drops the rest, so kA does not mind a long
-# test. Your wall does: look at the last column. After 3τ, everything about kA has been said.
+# SysId uses the rows up to 90 % of the top speed and drops the rest, so a long test does not harm
+# kA. But your wall is the problem: look at the last column. After 3τ, everything about kA has been
+# said. (A fit that does not trim *is* harmed by a long test: lesson 7.)
+#
+# <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
 # > **Lesson says:** "Running the dynamic test too long lets the mechanism overshoot its physical
 # > limits or reach free speed, where acceleration collapses to zero and kA becomes unobservable."
 # >
 # > **Source says:** the first half is the real danger: stop early "if it exceeds safe limits". The
 # > second half is not SysId's problem: it trims the step by itself. It *is* one of fits that do not
-# > trim (lesson 7).
-# > ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
-# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > trim (lesson 7). ([Running the
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
+# > [SysId's source:
+# > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** compare the rows "0.2 s" and "7 s" of the table.
+# </details>
 
 # %% [markdown]
 # ## 9 Plan one
 #
-# Now all together: the drivetrain, a room of your choice, a thumb that is 0.3 s late. The picture
-# shows where the robot is in both tests until it stands again; the table below it holds
-# four of the rules of exercise 6, and the current limit. Find a plan that keeps them all in a room
-# of 4 m. Then try 2.5 m.
+# Now plan a complete test: the drivetrain, a room of your choice, and a thumb that reacts after 0.3
+# s. The picture shows where the robot is in both tests until it has stopped. The table below shows
+# four of the rules of exercise 6, and the current limit. Find a plan that keeps all of them in a
+# room of 4 m. Then try 2.5 m.
 #
 # **Choose your limit first.** The current limit of the motor controller protects the motors and the
-# battery, and it is a part of the robot that you measure. A step above it is cut at its start. So
-# set the limit that you will drive with, then plan the step below it.
+# battery, and you measure it together with the robot. It cuts the start of a step that is too
+# large. So set the limit that you will drive with, then plan the step below it.
 
 # %%
 REACTION = 0.3  # [s] from the mark to the thumb off the button
@@ -662,10 +707,10 @@ def plan(ramp: float, step: float, mark: float, room: float, limit: float = 120.
     far, moves = float(max(slow[-1], hard[-1])), 0.02 * int(np.count_nonzero(slow_speed > 0.02))
     share, slips, amps = 100 * float(slow_speed.max()) / FREE, 100 * step / SLIP, step / OHMS
     rules = (
-        ("it stands again after [m]", far, f"at most {room:g}", far <= room),
+        ("it has stopped after [m]", far, f"at most {room:g}", far <= room),
         ("the ramp moves it for [s]", moves, "at least 3", moves >= 3),
-        ("speed of the ramp [% of free speed]", share, "at least 25", share >= 25),
-        ("step [% of the volts that slip]", slips, "at most 90", slips <= 90),
+        ("top speed of the ramp [% of free speed]", share, "at least 25", share >= 25),
+        ("step [% of V_slip]", slips, "at most 90", slips <= 90),
         ("a motor's current as the step begins [A]", amps, f"at most {limit:g}", amps <= limit),
     )
     rows = tuple(
@@ -678,7 +723,7 @@ def plan(ramp: float, step: float, mark: float, room: float, limit: float = 120.
         ylabel="position [m]",
         levels={"the end of the room": room},
     )
-    return replace(drawn, table=Table(("rule", "your plan", "asked for", "kept"), rows))
+    return replace(drawn, table=Table(("rule", "your plan", "limit", "kept"), rows))
 
 
 show_interactive(
@@ -707,31 +752,30 @@ show_interactive(
 plan(ramp=0.5, step=3.5, mark=2.5, room=4.0)
 
 # %% [markdown]
-# The source lesson's 0.5 V/s and 3.5 V, in 4 m, break two rules: the ramp is too slow for the room,
-# and the step spins the wheels of this strong drivetrain. Which slider repairs which rule?
+# With 0.5 V/s and 3.5 V in a room of 4 m, the plan breaks two rules: the ramp is too slow for the
+# room, and the step spins the wheels of this strong drivetrain. Which slider fixes which rule?
 #
-# (What is simplified: the motors brake at 0 V, the floor is even, and the battery never sags. Leave
-# more room than the plan says.)
+# (This is simplified: the motors brake at 0 V, the floor is flat, and the battery voltage does not
+# drop. Leave more room than the plan says.)
 #
-# **A shooter has no end to its travel**, so its ramp may be as slow as the timeout allows. **An
-# elevator** goes down by itself: it has the ends of its travel, and less time on the way down.
+# **A shooter can spin as long as you like**, so its ramp may be as slow as the timeout allows. **An
+# elevator** has limited travel, and less time on the way down, because gravity pulls it.
 
 # %% [markdown]
 # ## 10 System check
 #
-# Before you press the first button, all five:
+# Before you press the first button, check all five:
 #
 # - [ ] You computed how far the ramp goes, `kV·v²/(2·ramp)`, and the room is longer than that.
 # - [ ] The step is below 90 % of V_slip, and below the current limit.
-# - [ ] The mark is on the floor, with room behind it for a late thumb. The timeout is set.
+# - [ ] The mark is on the floor, with room behind it for your reaction time. The timeout is set.
 # - [ ] Four runs are planned: ramp and step, forward and reverse, each reverse right after its
 #   forward.
 # - [ ] The robot stands on the carpet it will drive on, not on blocks.
 #
 # ## 11 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("half as far")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -739,8 +783,8 @@ from grader import QuickCheck
 quick = QuickCheck(
     "You halve the ramp and go to the same speed. How far does the mechanism travel?",
     {
-        "half as far": "It takes longer to get there. Does it stand still meanwhile?",
-        "just as far": "The speed at the end is the same, but the time to get there is not.",
+        "half as far": "It takes longer to reach the speed, and it moves all that time.",
+        "just as far": "The final speed is the same, but it takes longer to reach it.",
         "twice as far": "It takes twice as long, at the same mean speed.",
     },
     right="twice as far",
@@ -753,8 +797,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kS + τ·ramp = 0.10 + 0.4·0.5 = 0.30 V, three times too much. SysId's fit knows about kA and does
-# not make this mistake.
+# kS + τ·ramp = 0.10 + 0.4·0.5 = 0.30 V, three times the true value. SysId's fit includes kA and
+# does not make this mistake.
 # </details>
 #
 # **2.** "We have only 3 m, so we ramp very slowly, to be safe." What do you say?
@@ -762,7 +806,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # The distance to a speed is kV·v²/(2·ramp): half the ramp, twice the distance. In 3 m a very slow
-# ramp hardly gets moving. Use a steeper ramp, a mark and a ready thumb.
+# ramp hardly reaches any speed. Use a steeper ramp, a mark and a ready thumb.
 # </details>
 #
 # **3.** In the information map the dots of each direction lie on one slanted line. Which runs are
@@ -770,23 +814,23 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The ramps: under one constant voltage, acceleration falls evenly as the speed rises. Without a
-# ramp, no gain can be told.
+# The ramps: with one constant voltage, the acceleration falls evenly as the speed rises. Without a
+# ramp, the fit finds no gain.
 # </details>
 #
 # **4.** Forward alone gives kS = 0.14 V, reverse alone 0.38 V. What now?
 #
 # <details><summary>Answer</summary>
 #
-# Look at the robot, not at the fit. Something rubs in one direction: a brake, a chain, a bearing.
-# A fit with one kS for both will spoil kA, and its score may stay high.
+# Look at the robot, not at the fit. Something rubs in one direction: a brake, a chain, a bearing. A
+# fit with one kS for both directions gives a wrong kA, and its score may stay high.
 # </details>
 #
 # **5.** The rise after a step is a straight line that ends in a corner. What happened?
 #
 # <details><summary>Answer</summary>
 #
-# Something held the acceleration at one value: a current limit, or wheels that slip. Use a smaller
+# Something kept the acceleration constant: a current limit, or slipping wheels. Use a smaller
 # step. A clean rise is exponential.
 # </details>
 
@@ -807,14 +851,16 @@ quick
 # submit("exercise6", turret_ramp=0.8, turret_step=2.5, turret_timeout=6, turret_release=0.5)
 # ```
 #
-# For the ramp and the mark you need section 6, for the step section 7, for the timeout section 8.
-# Part (b) comes with lesson 5. Hints cost nothing: `grade exercise6 --hint`.
+# You need section 6 for the ramp and the mark, section 7 for the step, and section 8 for the
+# timeout. Part (b) comes with lesson 5. Hints cost nothing: `grade exercise6 --hint`.
 #
-# **More, if you like.**
+# <details><summary>More, if you like</summary>
 #
-# - Draw section 3's drift for `MECHANISMS["turret"]`.
-# - Make `lean` smaller. How small must it be until kA is off by less than 10 %?
+# - Draw section 3's picture for `MECHANISMS["turret"]`.
+# - Make `lean` smaller. How small must it be until the error of kA is below 10 %?
 # - Plan the ramp of your own robot for the longest hallway of your school. Then measure the
 #   hallway.
+# </details>
 #
-# Next: lesson 4, wire a SysIdRoutine.
+# **Next:** [Lesson 4, wire a SysIdRoutine](04_wire_sysidroutine.ipynb). Write the code that runs
+# these tests.

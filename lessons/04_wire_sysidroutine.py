@@ -13,31 +13,32 @@
 # %% [markdown]
 # # Lesson 4: Wire a SysIdRoutine
 #
-# *About 45 minutes. You need a subsystem in mind: a drivetrain, a shooter, anything with a motor
-# and an encoder. No robot is needed today.*
+# *About 45 minutes. Think of one of your robot's subsystems: a drivetrain, a shooter, anything with
+# a motor and an encoder. You need no robot today.*
 #
 # **At the end you can**
 #
 # - build a `SysIdRoutine` from its two parts, a `Config` and a `Mechanism`;
-# - write the callback that drives the motors, and say why it must ask for a *voltage*;
-# - write the callback that logs, with the right three signals in the right units;
-# - hand out the four test commands, bind them to buttons, and guard them;
-# - look at a wrong gain and name the line of code that made it.
+# - write the callback that drives the motors, and say why it must set a *voltage*;
+# - write the callback that logs the right three signals in the right units;
+# - bind the four test commands to buttons, behind a guard;
+# - look at a wrong gain and name the line of code that caused it.
 #
-# Code is shown in Java and in Python (RobotPy), for WPILib 2026. Read the one your team uses. From
-# 2027 on, the names of packages and of some methods differ (section 3); the ideas do not.
+# The code is for WPILib 2026, in Java and in Python (RobotPy). Read the one your team uses. In 2027
+# the names of packages and of some methods change (section 3); the ideas stay the same.
 
 # %% [markdown]
-# ## 1 Why: everything later believes the log
+# ## 1 Why: every later step depends on the log
 #
-# A `SysIdRoutine` does two things, fifty times a second: it **asks for a voltage**, and it **writes
-# down what happened**. Nothing more. The gains are computed later, from what was written down.
+# A `SysIdRoutine` does two things, fifty times a second: it **sets a voltage**, and it **writes
+# down what happened**. Nothing more. You compute the gains later, from the log.
 #
-# So a slip in the wiring does not crash. The robot moves, the log fills, the analyzer prints
-# numbers. They are just the numbers of another robot. Today we make such slips on purpose, on a
-# simulated robot whose true gains we know, and learn what each of them looks like.
+# So a mistake in the wiring code causes no crash. The robot moves, the log fills, and the analyzer
+# prints numbers. But they are the gains of a different robot. Today you make such mistakes on
+# purpose, on a simulated robot with known gains (on *the bench*), and learn what each mistake looks
+# like.
 #
-# We call that simulated robot *the bench*. Run the next cell to set it up.
+# Run the next cell to set up the simulated robot.
 
 # %%
 import math
@@ -61,19 +62,19 @@ print(drivetrain.summary)
 Table(
     ("gain", "true value", "unit"),
     (("kS", truth["kS"], "V"), ("kV", truth["kV"], "V·s/m"), ("kA", truth["kA"], "V·s²/m")),
-    caption="The truth about our drivetrain. On a real robot nobody knows it.",
+    caption="The true gains of our drivetrain. On a real robot nobody knows them.",
 )
 
 # %% [markdown]
 # ## 2 The model: what a row of the log must hold
 #
-# The model you know from lesson 1 says which voltage a motion costs:
+# The model from lesson 1 gives the voltage for a motion:
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
 # (sgn(v) is the direction: +1 forward, −1 backward. v is velocity, a is acceleration.)
 #
-# To find the three gains, the analyzer needs many rows with V, v and a in them:
+# To find the three gains, the analyzer needs many rows with V, v and a:
 #
 # | what | where it comes from | who needs it |
 # |---|---|---|
@@ -81,6 +82,12 @@ Table(
 # | velocity v | the encoder | every fit |
 # | acceleration a | SysId computes it from v and the time | nobody logs it |
 # | position | the encoder | arms (gravity depends on the angle); finding when motion starts |
+#
+# SysId's window needs position, velocity and voltage before it loads a log, but the fit of a
+# drivetrain or a shooter then uses only velocity and voltage. The last cell of this section removes
+# the positions and fits again. Do the gains change?
+#
+# <details><summary>For mentors: which signals does the regression need?</summary>
 #
 # > **Lesson says:** log position, velocity and applied voltage, "all three are required for
 # > regression".
@@ -91,8 +98,9 @@ Table(
 # >
 # > **Try it:** the last cell of this section throws the positions away and fits again. Do the gains
 # > change?
+# </details>
 #
-# Here is the log of a routine that is wired right. Its settings are those of the source lesson.
+# Here is the log of a correct routine, with a ramp of 0.5 V/s and a step of 3.5 V.
 
 # %%
 routine = sim.Routine(ramp=0.5, step=3.5, timeout=10.0)
@@ -102,9 +110,9 @@ plot_time_series(right, dynamic_seconds=1.0)
 
 # %% [markdown]
 # Two slow ramps (*quasistatic*, "almost standing still") and two sudden steps (*dynamic*), each
-# forward and in reverse. Only the first second of the steps is drawn: the rest is flat.
+# forward and in reverse. The picture shows only the first second of each step; the rest is flat.
 #
-# What does SysId's recipe make of it?
+# Which gains does SysId's method find in it?
 
 
 # %%
@@ -120,19 +128,25 @@ HEADER = ("log", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "acceleration R²", "
 no_positions = replace(
     right, runs=tuple(replace(run, position=np.zeros(len(run))) for run in right.runs)
 )
-Table(HEADER, (row("wired right", right), row("positions thrown away", no_positions)))
+Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 
 # %% [markdown]
-# The two **R²** ("R squared") are SysId's scores: 1 is perfect. There are two of them, and they
-# mean different things. Lesson 7 takes them apart; here we only watch whether they notice anything.
+# The two **R²** ("R squared") are SysId's scores: 1 is perfect. They mean different things, which
+# lesson 7 explains. Here we only watch whether they notice a mistake.
 
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
 #
-# SysId needs no project of its own. The routine is one more field of a subsystem that you have,
-# because the subsystem owns the motors and the encoders.
+# SysId needs no project of its own. You add the routine as one more field to a subsystem that you
+# already have, because the subsystem owns the motors and the encoders.
 #
 # ### Two arguments
+#
+# The routine takes two arguments: `SysIdRoutine(Config config, Mechanism mechanism)`. The name in
+# the log is an optional fourth argument of `Mechanism`. If you leave it out, the log uses the name
+# of the subsystem.
+#
+# <details><summary>For mentors: two arguments or three?</summary>
 #
 # > **Lesson says:** "The routine takes three things: a Config (…), a Mechanism (…), and a log-name
 # > string."
@@ -142,11 +156,12 @@ Table(HEADER, (row("wired right", right), row("positions thrown away", no_positi
 # > ([WPILib Java docs: SysIdRoutine](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.html))
 # >
 # > **Try it:** count the arguments in the code below.
+# </details>
 #
 # ### Config: how hard, how long
 #
 # `Config` holds the ramp rate (volts per second), the step (volts) and the timeout (seconds). In
-# Java, `null` means "take the library's default". The bench has the same defaults:
+# Java, `null` means "use the library's default":
 
 # %%
 defaults = sim.Routine()
@@ -160,17 +175,25 @@ Table(
 )
 
 # %% [markdown]
+# **Myth check.** "A step between 3 and 7 V is fine." *It depends on your robot.* Wheels slip when
+# the motors push harder than the carpet can hold, and the model does not describe slipping. A
+# maintainer of WPILib calls the default of 7 V "almost always too much". From standstill, wheels
+# slip at about `kS + kA·μ·g` volts, with grip μ and g = 9.81 m/s². The next cell computes this for
+# two drivetrains with the same motors. Would 3 V be safe?
+#
+# <details><summary>For mentors: typical steps, with source</summary>
+#
 # > **Lesson says:** a ramp that is "typically 0.5 V/s", a step that is "typically 3–7V", and "Start
 # > with a step voltage of 3–4V, not 7V".
 # >
 # > **Source says:** the library's default step is what the table shows, and one of its maintainers
 # > finds it "almost always too much": wheels slip, and slipping data is not what the model
-# > describes.
-# > ([allwpilib issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
+# > describes. ([allwpilib issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
 # >
 # > **Try it:** wheels slip when the motors push harder than the carpet can hold. That takes about
 # > `kS + kA·μ·g` volts from standstill, with grip μ and g = 9.81 m/s². The next cell computes it
 # > for two drivetrains with the same motors. Would 3 V be safe?
+# </details>
 
 # %%
 GRIP = 1.1  # wheels on carpet, roughly
@@ -180,12 +203,16 @@ for mass in (60.0, 30.0):
     print(f"{mass:.0f} kg, kA = {gains['kA']:.3f} V·s²/m: wheels slip from about {slips:.1f} V")
 
 # %% [markdown]
-# A strong drivetrain slips early, and the lighter the robot, the earlier. (Our bench's wheels never
-# slip, so we may keep the source lesson's step. Your robot's wheels do: choose the step from your
-# own kA. Lesson 3 has the planner.)
+# A strong drivetrain slips early, and a light one slips even earlier. (Our simulated wheels never
+# slip, so we may use 3.5 V here. Your robot's wheels do: choose the step from your own kA, with the
+# planner of lesson 3.)
 #
-# **What `null` means.** The fourth thing in a `Config` is a callback for the test's *state*, the
-# words `quasistatic-forward` and so on, which tell the analyzer where a test begins and ends.
+# **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test:
+# the words `quasistatic-forward` and so on, which show the analyzer where a test begins and ends.
+# With `null` these words go into the **WPILOG file** on the robot, as a text entry called
+# `sysid-test-state-` and the mechanism's name. Nothing goes to the Driver Station.
+#
+# <details><summary>For mentors: where does the test state go?</summary>
 #
 # > **Lesson says:** `null` is "use default state consumer (logs to DS)".
 # >
@@ -194,25 +221,34 @@ for mass in (60.0, 30.0):
 # > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
 # >
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
+# </details>
 #
 # Python differs in one point: there, `None` is *not* "the default" but an error. Leave the argument
-# out instead. If you hand the state to a logger of your own, `SysIdRoutineLog.stateEnumToString`
-# makes the word of it that the analyzer looks for; `str(state)` does not.
+# out. If you give the state to a logger of your own, use `SysIdRoutineLog.stateEnumToString`: it
+# makes the word that the analyzer looks for; `str(state)` does not.
 #
-# (`Mechanism`'s log callback may be `null` too, but only if another logger records the motors for
-# you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
+# (The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
+# for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
 # first loop of the test: write `lambda log: None`. In this course you write the callback.)
 
 # %% [markdown]
 # ### Mechanism, first callback: drive
 #
-# The routine hands you a voltage; you hand it to **every** motor of the mechanism. Three rules:
+# The routine gives you a voltage; you hand it to **every** motor of the mechanism. There are three
+# rules:
 #
-# 1. **Open loop.** Nothing corrects the motion: no PID, no `VelocityVoltage`, no Motion Magic. A
-#    controller that corrects the motion would be in the data, and SysId would measure it, too.
-# 2. **A voltage, not a share of the battery.** `set(0.3)` means "30 % of whatever the battery gives
-#    now". The battery gives less when motors draw current, so the voltage is not what you think.
-# 3. **Every motor.** Or you measure a robot that drags dead motors along.
+# 1. **Open loop.** Nothing may correct the motion: no PID, no `VelocityVoltage`, no Motion Magic.
+#    If a controller corrects the motion, SysId measures that controller too.
+# 2. **A voltage, not a share of the battery.** `set(0.3)` means "30 % of the present battery
+#    voltage". The battery voltage drops when motors draw current, so the motor does not get the
+#    voltage you think.
+# 3. **Every motor.** If one gets no voltage, the others have to drag it along, and you measure
+#    that.
+#
+# On a TalonFX (Phoenix 6) you may use either call: `setVoltage()` *is* a `VoltageOut` request. Rule
+# 2 is what matters; you can test it in section 4.
+#
+# <details><summary>For mentors: setVoltage or VoltageOut?</summary>
 #
 # > **Lesson says:** "Use `setVoltage()` directly — not `setControl(new VoltageOut(...))` — so the
 # > routine has raw voltage authority during testing".
@@ -222,6 +258,7 @@ for mass in (60.0, 30.0):
 # > ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
 # >
 # > The rule worth keeping is rule 2. **Try it** in section 4.
+# </details>
 #
 # ### Mechanism, second callback: log
 #
@@ -229,14 +266,20 @@ for mass in (60.0, 30.0):
 #
 # - **Applied** voltage is what reached the motor. A TalonFX reports it as `getMotorVoltage()`. For
 #   a simple PWM controller it is `get()` times the battery voltage. It is *not* the number that the
-#   routine asked for. In a brownout the applied voltage drops to 0 and comes back, again and again.
-#   The asked-for voltage goes on as if nothing had happened (lesson 6).
+#   routine commanded. In a brownout the applied voltage drops to 0 and comes back, again and again.
+#   The commanded voltage stays as it was (lesson 6).
 # - **Units.** A drivetrain or an elevator moves along a line: meters and meters per second, after
 #   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
 #   the *output*, after the gear ratio.
-# - **Direction.** A positive voltage must give a positive velocity. Check this before all else.
-# - **Name.** `log.motor("drive-left")`: one name for each motor or pair that shares an encoder. It
-#   becomes part of the entries' names, and you will look for it in a long list.
+# - **Direction.** A positive voltage must give a positive velocity. Check this first.
+# - **Name.** `log.motor("drive-left")`: one name for each motor, or for each pair that shares an
+#   encoder. You will look for this name in a long list.
+#
+# The Java logger accepts any unit of angle, but it always *stores rotations*. So the gains are per
+# rotation. If your feedforward uses radians, convert the **gain**, at the end. The next cell fits
+# one shooter log and prints kV per rotation and per radian.
+#
+# <details><summary>For mentors: where to convert to radians</summary>
 #
 # > **Lesson says:** "Use `Units.rotationsToRadians()` if your feedforward class expects radians."
 # >
@@ -246,6 +289,7 @@ for mass in (60.0, 30.0):
 # > ([WPILib Java docs: SysIdRoutineLog](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.html))
 # >
 # > **Try it:** the next cell fits one shooter log and prints kV per rotation and per radian.
+# </details>
 
 # %%
 shooter = MECHANISMS["shooter"]
@@ -256,7 +300,8 @@ print(f"kV = {per_rotation:.4f} V·s/rotation = {per_radian:.5f} V·s/radian")
 print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:.4f}.")
 
 # %% [markdown]
-# Same shooter, same log, same physics. Mix the two up and your feedforward is wrong by that factor.
+# It is the same shooter and the same log. If you mix up the units, your feedforward is wrong by
+# this factor.
 #
 # ### All of it, in Java
 #
@@ -333,9 +378,8 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # %% [markdown]
 # ### All of it, in Python
 #
-# This one drives PWM controllers and reads encoders on the roboRIO, so that it needs no vendor's
-# library. The course's own tests run it in WPILib's simulation, press its buttons, and fit the log
-# that it writes.
+# This version uses PWM controllers and encoders on the roboRIO, so it needs no vendor library. The
+# course's own tests run it in WPILib's simulation, press its buttons and fit its log.
 #
 # ```python
 # import commands2
@@ -343,7 +387,6 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # from commands2.button import CommandXboxController, Trigger
 # from commands2.sysid import SysIdRoutine
 # from wpilib.sysid import SysIdRoutineLog
-#
 #
 # class Drive(commands2.Subsystem):
 #     def __init__(self) -> None:
@@ -381,7 +424,6 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #     def sysid_dynamic(self, direction: SysIdRoutine.Direction) -> commands2.Command:
 #         return self.routine.dynamic(direction)
 #
-#
 # class RobotContainer:
 #     def __init__(self) -> None:
 #         self.drive = Drive()
@@ -413,13 +455,14 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # The routine makes four commands: `quasistatic(kForward)`, `quasistatic(kReverse)`,
 # `dynamic(kForward)`, `dynamic(kReverse)`. Make them public, and bind **each to its own button**.
+# For each binding you need:
 #
-# - **`whileTrue`**, so that letting go ends the test. With `onTrue` the test goes on after you let
-#   go, until the timeout.
+# - **`whileTrue`**, so that letting go ends the test. With `onTrue` the test continues after you
+#   let go, until the timeout.
 # - **A comment on each binding** that names the test *and what it measures*. You will read it in
 #   six months, tired, in a gym.
 # - **A guard**, so that nobody starts a test in a match: Test mode (as here), a separate
-#   controller, or a chord of two buttons.
+#   controller, or two buttons at once.
 #
 # In Java:
 #
@@ -437,9 +480,16 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # **In WPILib 2027** (not released yet; names as on its development branch) these lines do not
 # compile. Test mode is called *utility mode* there. The guard is `RobotModeTriggers.utility()`, or
-# `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. A motor's
-# duty cycle is set with `setThrottle` instead of `set`; `setVoltage` keeps its name.
+# `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. You set a
+# motor's duty cycle with `setThrottle` instead of `set`; `setVoltage` keeps its name.
 # ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
+#
+# **Myth check.** "A SysId test bypasses all limits." *Only partly.* A test bypasses the safety code
+# in your own *commands*, because the test command has the subsystem for itself. Limits **inside the
+# motor controller** still work if you set them up, and that is your job. Such a limit protects the
+# robot. But when it acts, the data show the limit and not the motor.
+#
+# <details><summary>For mentors: which limits does a test bypass?</summary>
 #
 # > **Lesson says:** a SysId test runs "bypassing soft limits, current limits, and any command-level
 # > safety logic you've written".
@@ -456,13 +506,16 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # >
 # > **Try it** on your robot, slowly and with a hand on Disable: drive toward a soft limit with a
 # > joystick, and see whether it holds.
+# </details>
 
 # %% [markdown]
-# ### What the loop really does
 #
-# A detail for the curious, and for whoever compares this bench with a robot. The test command
-# starts its timer in one loop, and drives for the first time two loops later. (That is what we saw
-# when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not zero:
+# <details><summary>Want to know more? What the loop really does</summary>
+#
+# The test command starts its timer in one loop, and drives for the first time two loops later. (We
+# saw this when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is
+# not zero, as the next cell shows.
+# </details>
 
 # %%
 ramp = right.runs_of_test("quasistatic-forward")[0]
@@ -470,23 +523,22 @@ print(f"rows in {routine.timeout:.0f} s: {len(ramp)}")
 print(f"first voltage: {ramp.voltage[0]:.3f} V, two loops of 20 ms into a {routine.ramp} V/s ramp")
 
 # %% [markdown]
-# ## 4 The virtual robot: one slip at a time
+# ## 4 The virtual robot: one mistake at a time
 #
-# Seven programs, one of them right. Before you look, **predict**. Nobody grades this; you will see
-# your guess again below. (No buttons on your screen? Type `guess_gain.value = "kA"` in a cell.)
+# Here are seven programs; only one of them is correct. **Predict** before you look:
 
 # %%
 guess_gain = Prediction(
-    "1. The drive callback says motor.set(volts / 12), the log holds the volts that were asked "
-    "for, and the battery is tired. Which gain is off the most?",
+    "1. The drive callback calls motor.set(volts / 12), the log contains the commanded volts, "
+    "and the battery is nearly empty. Which gain has the largest error?",
     "kS",
     "kV",
     "kA",
     "none of them",
 )
 guess_factor = Prediction(
-    "2. Somebody logs turns of the wheel and calls them meters. The wheel measures 4 inches "
-    "across. What happens to kV?",
+    "2. Somebody logs turns of the wheel and calls them meters. The wheel has a diameter of "
+    "4 inches. What happens to kV?",
     "it is right anyway",
     "3.1 times too small",
     "6.3 times too small",
@@ -501,20 +553,17 @@ guess_score = Prediction(
 display(guess_gain, guess_factor, guess_score)
 
 # %% [markdown]
-# How the bench makes the seven logs:
+# These are the seven programs:
 #
-# | program | the slip, in code | what the bench does |
+# | program | the mistake in the code | what the simulation does |
 # |---|---|---|
 # | right | none | simulates it |
-# | share of the battery | `set(volts / 12)`, logs the volts asked for | lets the battery sag |
-# | …but logs what arrived | `set(volts / 12)`, logs `getMotorVoltage()` | same run, true volts |
+# | share of the battery | `set(volts / 12)`, logs the commanded volts | battery voltage drops |
+# | …but logs applied volts | `set(volts / 12)`, logs `getMotorVoltage()` | same run, true volts |
 # | turns called meters | `Meters.of(wheelTurns)` | divides by the wheel's circumference |
 # | radians taken for turns | `circumference * radians` | multiplies by 2π |
-# | encoder the wrong way | `setInverted` forgotten | flips the sign of what the sensor says |
+# | encoder inverted | `setInverted` forgotten | changes the sign of the sensor |
 # | one motor of each pair | the second one gets no command | half the motors, same friction |
-#
-# The sag is computed, not drawn: each motor's current follows from its speed and voltage, all
-# currents flow through the battery's resistance, and what is left is what the motors get.
 
 # %%
 CIRCUMFERENCE = math.pi * 0.1016  # [m] of a 4 inch wheel
@@ -530,7 +579,7 @@ def rescaled(log: sim.Log, factor: float) -> sim.Log:
 
 
 def as_asked(log: sim.Log) -> sim.Log:
-    """The same runs, but the log holds the voltage that was asked for."""
+    """The same runs, but the log holds the commanded voltage."""
     runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in log.runs)
     return replace(log, runs=tuple(runs))
 
@@ -545,21 +594,21 @@ halved = simulate(half, routine, rng=rng)
 programs = {
     "right": (right, right),
     "share of the battery": (as_asked(sagging), sagging),
-    "…but logs what arrived": (sagging, sagging),
+    "…but logs applied volts": (sagging, sagging),
     "turns called meters": (rescaled(right, 1 / CIRCUMFERENCE), right),
     "radians taken for turns": (rescaled(right, 2 * math.pi), right),
-    "encoder the wrong way": (rescaled(right, -1.0), right),
+    "encoder inverted": (rescaled(right, -1.0), right),
     "one motor of each pair": (halved, halved),
 }
 
 # %% [markdown]
-# Now choose a program. The upper picture shows what its log says, and as a thin dotted line what
-# really happened. The lower one shows each gain it leads to, divided by the true one: 1 is right.
+# Now choose a program. The upper picture shows its log, and as a thin dotted line what really
+# happened. The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
 
 
 # %%
 def virtual_robot(program: str) -> list[Picture]:
-    """The log that a program leaves, and the gains that come of it."""
+    """The log that a program writes, and the gains from this log."""
     logged, happened = programs[program]
     found = fit(logged, method="sysid").gains
     ratios = {gain: found[gain] / truth[gain] for gain in ("kS", "kV", "kA")}
@@ -580,7 +629,7 @@ show_interactive(
 display(*virtual_robot("share of the battery"))
 
 # %% [markdown]
-# And all seven at once:
+# Here are all seven:
 
 # %%
 Table(HEADER, tuple(row(name, log) for name, (log, _) in programs.items()))
@@ -590,70 +639,73 @@ asked, arrived = (fit(programs[name][0], method="sysid") for name in list(progra
 off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
 turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
 worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
-print(f"1. You said: {guess_gain}.")
-print(
-    f"   Asked volts logged: kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %."
-)
-print(f"2. You said: {guess_factor}.")
+print("1.", guess_gain.reveal("kA"))
+print(f"   Commanded volts: kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
+print("2.", guess_factor.reveal("3.1 times too small"))
 print(
     f"   kV is {1 / turns:.2f} times too small: the circumference is 1/{1 / CIRCUMFERENCE:.2f} m."
 )
-print(f"3. You said: {guess_score}.")
+print("3.", guess_score.reveal("for none"))
 print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 
 # %% [markdown]
 # ### Explain what you saw
 #
-# - **Share of the battery.** When the step comes, the current is large, the battery sags, and the
-#   motors get less than the log says. The fit sees a sluggish robot and blames inertia: **kA** is
-#   off the most. At steady speed the current is small, so kV hardly suffers.
-# - **Logging what arrived repairs it.** The robot drove by a share of the battery in both rows;
-#   only the log differs. *Log the applied voltage* is the cheapest insurance there is.
-#   (`setVoltage` plus an asked-for log also looks fine, until a current limit, an empty battery or
-#   a brownout makes the two differ. Then you have the same error, and no warning.)
-# - **Wrong units** scale kV and kA by one clean factor and leave kS alone, since kS has no distance
-#   in it. The factor is the fingerprint: 2π, a circumference, a gear ratio.
-# - **Encoder the wrong way** turns every gain negative. No real robot has a negative kV.
-# - **One motor of each pair**: the log is honest, but it is of a robot that you will not drive.
-#   kS and kA double, because each volt now pushes half as hard. kV stays.
-# - **R² notices none of it.** For wrong units and signs it cannot: the log is a perfect log of a
-#   robot with other units. Compare in the table above.
+# - **Share of the battery.** At the start of the step the current is large, the battery voltage
+#   drops, and the motors get less than the log says. The fit sees a slow robot and computes too
+#   much inertia: **kA** has the largest error. At a steady speed the current is small, so kV is
+#   hardly wrong.
+# - **Logging the applied volts repairs it.** In both rows the robot drove with a share of the
+#   battery; only the log differs. *Log the applied voltage*: it costs nothing. (With `setVoltage`,
+#   a log of the commanded voltage also looks fine, until a current limit, an empty battery or a
+#   brownout makes the two differ. Then you have the same error and no warning.)
+# - **Wrong units** multiply kV and kA by the same factor, and do not change kS, because kS has no
+#   distance in its unit. You can recognize the factor: 2π, a circumference, a gear ratio.
+# - **Encoder inverted** makes every gain negative. No real robot has a negative kV.
+# - **One motor of each pair:** the log is correct, but you will not drive the robot like this. kS
+#   and kA double, because each volt now gives half the force. kV stays.
+# - **R² notices none of this.** With wrong units and signs it cannot: the log is a perfect log of a
+#   robot with other units. Compare the scores in the table above.
 #
-# Not in the list: a PID in the drive callback. Then the voltage depends on the motion it is
-# supposed to explain, and the fit measures your PID.
+# One more mistake is not in the list: a PID in the drive callback. Then the voltage depends on the
+# motion, and the fit measures your PID.
 
 # %% [markdown]
 # ## 5 From your robot to this bench
 #
 # 1. Call `DataLogManager.start()` when the robot program starts, if it does not already.
-# 2. Run the four tests (lesson 5 walks you through it). **One routine per log:** power-cycle before
+# 2. Run the four tests (lesson 5 shows each step). **One routine per log:** power-cycle before
 #    you test another mechanism. WPILib's docs say that analysis fails otherwise.
 #    ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # 3. Fetch the `.wpilog` file with WPILib's Data Log Tool or with AdvantageScope.
 #
-# > **Lesson says:** the default path is `/home/lvuser/logs/`.
-# >
-# > **Source says:** on a 2026 roboRIO, a FAT32 USB stick comes first: `/u/logs`. Without one, it is
-# > `/home/lvuser/logs`.
-# > ([WPILib docs: Data Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
-# > A 2027 Systemcore without a stick has `/home/systemcore/logs`: that is from the source code of
-# > WPILib 2027, which is not released yet, and no page of the docs says it so far.
-# >
-# > **Try it:** find yesterday's log of your robot before you need today's.
-#
-# 4. Fit it, on your own computer. In a terminal:
+# Section 5 of lesson 5 shows where it is.
+# 4. Fit it on your own computer. In a terminal:
 #
 # ```
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
-# The type is `simple` unless you say `--type elevator` or `--type arm`. In WPILib's SysId window
-# look at that menu twice: it starts on *Elevator*, whatever your mechanism is.
+# The type is `simple` unless you add `--type elevator` or `--type arm`. In WPILib's SysId window
+# check that menu: it starts on *Elevator*, whatever your mechanism is.
+#
+# <details><summary>For mentors: where the log is</summary>
+#
+# > **Lesson says:** the default path is `/home/lvuser/logs/`.
+# >
+# > **Source says:** on a 2026 roboRIO, a FAT32 USB stick comes first: `/u/logs`. Without one, it is
+# > `/home/lvuser/logs`. ([WPILib docs: Data
+# > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html)) A 2027 Systemcore
+# > without a stick has `/home/systemcore/logs`: that is from the source code of WPILib 2027, which
+# > is not released yet, and no page of the docs says it so far.
+# >
+# > **Try it:** find yesterday's log of your robot before you need today's.
+# </details>
 
 # %% [markdown]
 # ## 6 Spot five defects
 #
-# This compiles, and it moves the robot. Find five things that spoil the data or the day.
+# This code compiles and moves the robot. Find five defects that ruin the data or endanger someone.
 #
 # ```java
 # private final SysIdRoutine m_routine =
@@ -676,35 +728,34 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # m_driver.y().onTrue(m_shooter.sysIdDynamic(Direction.kForward));
 # ```
 #
-# <details><summary>Five, and then some</summary>
+# <details><summary>The five defects, and some more</summary>
 #
-# 1. `set(voltage / 12)` asks for a share of the battery, not for a voltage. Use `setVoltage`.
-# 2. `m_lastRequest` is what was *asked for*. Log `getMotorVoltage()`.
+# 1. `set(voltage / 12)` sets a share of the battery, not a voltage. Use `setVoltage`.
+# 2. `m_lastRequest` is the *commanded* voltage. Log `getMotorVoltage()`.
 # 3. A TalonFX gives **rotations**. Wrapping the number in `Radians` makes kV 2π times too large.
-# 4. `onTrue`: the test goes on after the button is released. Use `whileTrue`.
-# 5. `kForward` twice: there is no dynamic reverse test, and SysId asks for all four.
+# 4. `onTrue`: the test continues after you release the button. Use `whileTrue`.
+# 5. `kForward` twice: there is no dynamic reverse test, and SysId needs all four.
 #
-# And: 7 V is a lot for a first step; the driver's own controller without any guard is an accident
-# in waiting; and no comment says which button does what.
+# Also: 7 V is a lot for a first step; the driver's own controller without a guard is dangerous; and
+# no comment says which button does what.
 # </details>
 
 # %% [markdown]
 # ## 7 System check
 #
-# Before you press the first button, all five:
+# Before you press the first button, check all five:
 #
-# - [ ] The drive callback asks **every** motor for a **voltage**, and nothing corrects it.
+# - [ ] The drive callback sets a **voltage** on **every** motor, and nothing corrects the motion.
 # - [ ] The log holds **applied** voltage, position and velocity, in the mechanism's own unit.
 # - [ ] Push the mechanism forward by hand: position and velocity **grow**. A small positive voltage
 #   moves it the same way.
 # - [ ] Four different commands on four buttons, `whileTrue`, behind a **guard**.
-# - [ ] Limits of the motor controller are set, the timeout fits the room, and somebody has a hand
-#   on *Disable*.
+# - [ ] The limits in the motor controller are set, the timeout fits the room, and somebody has a
+#   hand on *Disable*.
 #
 # ## 8 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("none")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -717,8 +768,8 @@ quick = QuickCheck(
     {
         "none": "A share of 11 V is not the same share of 12 V.",
         "only kA": (
-            "That is a battery that sags for a moment. Here the voltage is off in every row, also "
-            "at a steady speed."
+            "That happens when the battery voltage drops for a moment. Here the voltage is wrong "
+            "in every row, also at a steady speed."
         ),
         "all three": "The log says more volts than the motors got, in every row.",
     },
@@ -727,22 +778,23 @@ quick = QuickCheck(
 quick
 
 # %% [markdown]
-# **1.** The analyzer says kV = 0.40 V·s/m for a drivetrain that should have about 2.5. Which slip?
+# **1.** The analyzer shows kV = 0.40 V·s/m for a drivetrain that should have about 2.5. What is the
+# mistake?
 #
 # <details><summary>Answer</summary>
 #
-# Divide: 2.5 / 0.40 is about 6.3, which is 2π. Somewhere radians were taken for rotations, so
-# the log's velocities are 2π times too large. Check kA as well: it must be off by the same factor,
-# and kS must be right.
+# Divide: 2.5 / 0.40 is about 6.3, which is 2π. Somebody took radians for rotations, so the log's
+# velocities are 2π times too large. Check kA as well: it must be wrong by the same factor, and kS
+# must be right.
 # </details>
 #
 # **2.** A teammate says: "SysId bypasses limits anyway, so I left them out." What do you say?
 #
 # <details><summary>Answer</summary>
 #
-# Only the command-level logic is bypassed. Limits in the motor controller work if they are set
-# up, so set them up. And if one engages during a test, run that test again: the data after it
-# describe the limit.
+# A test only bypasses the safety code in your commands. Limits in the motor controller work if you
+# set them up, so do it. And if a limit acts during a test, run that test again: the data after that
+# show the limit, not the motor.
 # </details>
 #
 # **3.** Two logs of one robot, both with a simulated velocity R² near 0.99. One has twice the kA of
@@ -750,8 +802,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# R² cannot tell. Look at the wiring: were all motors driven, was the applied voltage logged? Then
-# compare kA with what the motors and the mass predict (lesson 1).
+# R² does not show it. Look at the code: does it drive all motors, does it log the applied voltage?
+# Then compare kA with the kA that follows from motors and mass (lesson 1).
 # </details>
 #
 # **4.** Why does the routine belong inside the subsystem, and why does it get `this`?
@@ -759,24 +811,25 @@ quick
 # <details><summary>Answer</summary>
 #
 # The subsystem owns the motors and the encoders that the callbacks use. With `this`, the test
-# commands *require* the subsystem: whatever else drove it is interrupted while a test runs.
+# commands *require* the subsystem, so no other command can drive it while a test runs.
 # </details>
 
 # %% [markdown]
 # ## 9 Practice
 #
-# **Exercise 4.** Write the routine for the mechanism you were given. In a terminal, in the course's
-# folder:
+# **Exercise 4** (`exercises/exercise4/README.md`). Write the routine for the mechanism of your
+# exercise. In a terminal, in the course's folder:
 #
 # ```
 # grade exercise4
 # ```
 #
-# It reads your code without running it, and says what it found. Hints cost nothing:
-# `grade exercise4 --hint`.
+# It reads your code without running it and reports what it found. Hints cost nothing: `grade
+# exercise4 --hint`.
 #
-# The exercise wants the source lesson's numbers: 0.5 V/s, 3.5 V, 10 s. It accepts `setVoltage` and
-# a `VoltageOut` request alike.
+# The exercise uses the source lesson's numbers: 0.5 V/s, 3.5 V, 10 s. They are only for reading
+# your code; on a real robot choose your own (lesson 3). It accepts both `setVoltage` and a
+# `VoltageOut` request.
 #
 # **Exercise 5.** Bind four tests to buttons, each with a comment, behind a guard
 # (`exercises/exercise5/README.md`):
@@ -786,6 +839,8 @@ quick
 # ```
 #
 # **On your own robot:** write the four bindings and the guard, with a comment on each that names
-# the test and what it measures. Then let somebody who was not here find the dynamic reverse button.
+# the test and what it measures. Then ask somebody who was not here to find the dynamic reverse
+# button.
 #
-# Next: lesson 5, pre-flight and the first run.
+# **Next:** [Lesson 5, pre-flight and the first run](05_preflight_and_run.ipynb). Is everything
+# ready?

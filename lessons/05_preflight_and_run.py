@@ -13,14 +13,14 @@
 # %% [markdown]
 # # Lesson 5: Pre-flight and the first run
 #
-# *About 45 minutes. You need lessons 3 and 4. No robot is needed to read it. Sections 5 and 6 are
-# the sheet you take to the robot.*
+# *About 45 minutes. You need lessons 3 and 4. You can read it without a robot. Take sections 5 and
+# 6 with you to the robot.*
 #
 # **At the end you can**
 #
 # - name the four steps of a characterization, and say which one you are in;
-# - choose where the tape goes on the floor, and say where the robot will stand;
-# - decide *go* or *no-go* from five checks, and say what each one saves you from;
+# - choose where the tape goes on the floor, and say where the robot will stop;
+# - decide *go* or *no-go* from five checks, and say what each check prevents;
 # - find your log, on a roboRIO of 2026 and on a Systemcore of 2027;
 # - run the four tests on a real robot, and know within a minute whether the log is any good.
 
@@ -28,11 +28,11 @@
 # ## 1 Why: for ten seconds, nobody steers
 #
 # A SysId test drives your mechanism with a voltage that only grows, or with one that is simply
-# *on*. Nothing looks at where the mechanism is. Whoever holds the button is the only brake.
+# *on*. No code checks where the mechanism is. The person at the button is the only brake.
 #
-# So before the test you decide how far it may go, and you look whether everything is ready. Pilots
-# call that a *pre-flight check*. It takes five minutes. This lesson shows what each minute is for:
-# you will skip the checks one by one, on a simulated robot, and see what comes of it.
+# So before the test you decide how far the mechanism may go, and you check that everything is
+# ready. Pilots call this a *pre-flight check*. It takes five minutes. In this lesson you skip the
+# checks one by one, on a simulated robot, and see what happens.
 #
 # ### The four steps
 #
@@ -43,17 +43,22 @@
 # | 3. inspect and fit | look at the data first, then compute the gains | lessons 6 and 7 |
 # | 4. place the gains | put them into the constants and the feedforward | lesson 8 |
 #
-# The order is not a matter of taste. Gains that were never inspected are guesses with more digits.
+# The order matters. If nobody inspected the data, the gains are only guesses with more digits.
+#
+# Cover the table and write down the four steps in order. Exercise 6 asks for them.
+#
+# <details><summary>For mentors: where the four steps come from</summary>
 #
 # > **Lesson says:** "The SysId Process: Four Steps … Click each step to understand what you're
 # > doing and why."
 # >
 # > **Source says:** the source lesson's text names only the first step; the other three were behind
 # > a click that did not reach us. The table is our reading. WPILib's pages go the same way: create
-# > the routine, run it, load the data, view diagnostics, analyze.
-# > ([WPILib docs: System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
+# > the routine, run it, load the data, view diagnostics, analyze. ([WPILib docs: System
+# > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
 # >
 # > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.
+# </details>
 
 # %%
 from dataclasses import replace
@@ -87,20 +92,20 @@ Table(
 # %% [markdown]
 # ## 2 The model: how far does a test go?
 #
-# A ramp of `r` volts per second does nothing until the voltage is above kS. From then on the speed
-# grows by `r/kV` each second. So after `t` seconds of motion
+# With a ramp of `r` volts per second, nothing moves until the voltage is above kS. From then on the
+# speed grows by `r/kV` each second. So after `t` seconds of motion
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# (This leaves out that the robot lags a little behind the voltage. The bench does not.)
+# (This formula ignores that the robot lags a little behind the voltage. The simulation includes
+# it.)
 #
-# Then you let go. First your thumb needs its time, and the voltage is still on. Then the motors
-# brake, if their neutral mode is *Brake*. They cannot brake harder than the carpet holds. So on top
-# of the thumb comes at least `v² / (2·μ·g)`, with g = 9.81 m/s² and the grip μ (about 1.1 for
-# wheels on carpet, less on a smooth floor).
+# Then you let go. First your thumb needs time to react, and the voltage is still on. Then the
+# motors brake, if their neutral mode is *Brake*. They cannot brake harder than the carpet can hold.
+# So braking adds at least `v² / (2·μ·g)` to your reaction distance, with g = 9.81 m/s² and the grip
+# μ (about 1.1 for wheels on carpet, less on a smooth floor).
 #
-# **Predict.** Nobody grades this; you will see your guess again. (No buttons on your screen? Type
-# `guess_room.value = "more room"` in a cell.)
+# **Predict:**
 
 # %%
 guess_room = Prediction(
@@ -124,7 +129,7 @@ HALL = Floor(wall=60.0)  # so long that nothing is ever hit
 
 
 def way_to(speed: float, ramp: float) -> tuple[float, float]:
-    """Meters and seconds until the robot is this fast."""
+    """Meters and seconds until the robot reaches a speed."""
     went = drive_test(ROBOT, sim.Routine(ramp=ramp, timeout=11.0 / ramp), test=RAMP, floor=HALL)
     there = int(np.argmax(went.velocity >= speed))
     return float(went.position[there]), float(went.time[there])
@@ -136,7 +141,8 @@ for ramp in (0.25, 0.5, 1.0, 2.0):
     rows.append((ramp, time, way, TRUTH["kV"] * 2.0**2 / (2 * ramp)))
 
 slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=HALL)
-print(f"You said: {guess_room}; {guess_ten}.")
+print(guess_room.reveal("more room"))
+print(guess_ten.reveal("about 9 m (30 feet)"))
 gone = slow.final_position
 print(f"0.5 V/s for 10 s goes {gone:.1f} m, that is {gone / FOOT:.0f} feet.")
 Table(
@@ -144,19 +150,27 @@ Table(
 )
 
 # %% [markdown]
-# *Slow is safe* sounds right, and it is wrong here. A slow ramp spends a long time at middle
-# speeds, and time at speed is distance. If the room is short, a steeper ramp gets more speed out of
-# it. (The price of a steeper ramp is in lesson 3: it moves the apparent kS.)
+# "Slow is safe" sounds right, but here it is wrong. With a slow ramp the robot drives for a long
+# time at medium speed, and that takes a lot of room. In a short room, a steeper ramp reaches a
+# higher speed. (The disadvantage of a steeper ramp: it shifts the kS that you read off, see lesson
+# 3.)
+#
+# WPILib asks for "at least 10' of space, ideally closer to 20'"; CTRE recommends 15 m. How fast is
+# the robot after 10 feet?
+#
+# <details><summary>For mentors: how much room, with sources</summary>
 #
 # > **Lesson says:** "clear at least 10 feet forward and 10 feet back (more is better for
 # > quasistatic)".
 # >
 # > **Source says:** WPILib: "at least 10' of space, ideally closer to 20'", and the drive "can not
-# > be accurately characterized while on blocks". CTRE recommends 15 m.
-# > ([WPILib docs: Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
-# > [CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib docs: Running the
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
+# > [CTRE docs: Plumbing & Running
+# > SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
 # >
 # > **Try it:** the next cell asks how fast the robot is when 10 feet are over.
+# </details>
 
 # %%
 rows = []
@@ -169,14 +183,14 @@ for ramp in (0.5, 1.0, 2.0):
 Table(
     ("ramp [V/s]", "voltage reached [V]", "speed reached [m/s]", "of its top speed"),
     tuple(rows),
-    caption="What 10 feet give you",
+    caption="Speed after 10 feet",
 )
 
 # %% [markdown]
-# Ten feet are enough for *some* data. And this is before anybody brakes. More room means more
-# speed, and kV comes from speed.
+# Ten feet give you *some* data, but the braking distance comes on top. More room allows more speed,
+# and you need speed to measure kV.
 #
-# **And on blocks?** Then the wheels carry nothing but themselves. Say they are a tenth of the
+# **And on blocks?** Then the motors only turn the wheels. Suppose the wheels are a tenth of the
 # robot's inertia:
 
 # %%
@@ -187,15 +201,14 @@ print(f"On blocks: kV ÷ true = {lifted['kV'] / TRUTH['kV']:.2f}")
 print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
-# kV hardly minds here (a real robot also has less friction on blocks). kA is that of bare wheels,
-# and of no use for a robot that carries its own weight. (A tenth of the inertia should give a tenth
-# of kA. The fit misses even that: the rise is now over by the third sample.)
+# Here kV is almost right (a real robot also has less friction on blocks). But kA is that of bare
+# wheels. You cannot use it for a robot on the floor.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
 #
-# Now you are the person at the button. The hall is 12 m long. A strip of tape lies on the floor.
-# When the front bumper passes it, you let go; your thumb takes 0.3 s.
+# Now you are the person at the button. The hall is 12 m long. There is a strip of tape on the
+# floor. When the front bumper passes it, you let go; your thumb needs 0.3 s.
 #
 # The ramp is 1 V/s, the step 3.5 V, the timeout 10 s.
 #
@@ -203,15 +216,15 @@ print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %%
 guess_stop = Prediction(
-    "Tape at 7 m, wall at 12 m, a ramp of 1 V/s. Where does the robot stand?",
+    "Tape at 7 m, wall at 12 m, a ramp of 1 V/s. Where does the robot stop?",
     "right at the tape",
     "about 1 m past it",
     "about 3 m past it",
     "at the wall",
 )
 guess_check = Prediction(
-    "You skip one of the five checks. Which one spoils the log although on the floor everything "
-    "looks normal?",
+    "You skip one of the five checks. Which one damages the log although everything looks "
+    "normal on the floor?",
     "room",
     "battery",
     "encoder",
@@ -221,8 +234,8 @@ guess_check = Prediction(
 display(guess_stop, guess_check)
 
 # %% [markdown]
-# Move the sliders. *Moment* moves the robot through the test. The dashed outline is where it will
-# stand.
+# Move the sliders. *Moment* moves the robot through the test. The dashed outline shows where the
+# robot stops.
 
 # %%
 WALL = 12.0  # [m]
@@ -257,28 +270,27 @@ run_it(RAMP, tape=7.0, thumb=0.3, moment=0.7)
 # %%
 went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
-print(f"You said: {guess_stop}.")
+print(guess_stop.reveal("about 1 m past it"))
 let_go = float(np.interp(went.released, went.time, went.position))
-print(f"It stands {went.final_position - 7.0:.2f} m past the tape:")
-print(f"  the thumb costs {let_go - 7.0:.2f} m, the brakes {went.final_position - let_go:.2f} m.")
+print(f"It stops {went.final_position - 7.0:.2f} m past the tape:")
+print(f"  reaction {let_go - 7.0:.2f} m, braking {went.final_position - let_go:.2f} m.")
 print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.2f} m.")
 
 # %% [markdown]
-# Where to put the tape: start from the wall. Go back by what the thumb costs, by what the brakes
-# cost, and by a good reserve. Put the tape there, and one piece for each direction. Going back is
-# the same test from the other end.
+# To place the tape, start at the wall. Go back by your reaction distance, by the braking distance,
+# and by a good reserve. Put the tape there. You need one piece of tape for each direction.
 #
 # ### Now skip a check
 #
-# The same hall, the same robot. One check was skipped:
+# It is the same hall and the same robot, but you skip one check:
 #
 # | skipped | what was wrong that morning |
 # |---|---|
 # | 1 room | nobody put tape on the floor, so nobody knows when to let go |
-# | 2 battery | it has driven all day: 11.6 V at rest, and worn (35 mΩ) |
-# | 3 encoder | mounted the wrong way round: forward counts down |
-# | 4 log | nobody knows where the robot keeps it |
-# | 5 guard | in the pit, a thumb hits the button: a wall after 1.5 m, and 1 s to *Disable* |
+# | 2 battery | the robot has driven all day: 11.6 V at rest, and the battery is old (35 mΩ) |
+# | 3 encoder | it is mounted the wrong way round: forward counts down |
+# | 4 log | nobody knows where the robot saves it |
+# | 5 guard | in the pit, somebody hits the button: the wall is 1.5 m away, *Disable* takes 1 s |
 
 # %%
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
@@ -312,18 +324,18 @@ show_interactive(
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# Look at the battery's line. The step asks for so much current that the battery's voltage falls
-# below a threshold. Then the robot controller takes the motors off, to keep itself alive: that is a
-# *brownout*. The battery recovers at once, the motors come back, and so on. The robot crawls. (Our
-# bench lets the motors back as soon as they may; a real robot stutters at a rhythm of its own.)
+# Look at the line of the battery. The step draws so much current that the battery voltage falls
+# below a threshold. Then the robot controller turns the motors off to protect itself: this is a
+# *brownout*. The battery recovers at once, the motors come back, and so on. The robot crawls. (A
+# real robot stutters more slowly than our simulation.)
 #
-# With 3 and 4 skipped, the floor shows nothing: the robot drives as always. What they spoil is the
-# log, and that nobody sees in the pit.
+# If you skip check 3 or 4, you see nothing on the floor: the robot drives as always. The damage is
+# in the log, and nobody in the pit sees it.
 #
 # ### What the log is worth
 #
-# The floor is one half. Here are the four tests of each morning, and what SysId's recipe makes of
-# them. `inspect` is our own program that looks for known faults; lesson 6 is about it.
+# Here are the four tests of each morning, and the gains from SysId's method. `inspect` is our own
+# program that looks for known faults; lesson 6 explains it.
 
 # %%
 sound = simulate(ROBOT, routine, rng=np.random.default_rng(5))
@@ -353,35 +365,42 @@ for name, log in logs.items():
     names = {damage.fault for damage in seen.damages} | {doubt.code for doubt in log.doubts}
     ratios = [found.gains[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")]
     rows.append((name, ", ".join(sorted(names)) or "nothing", *ratios))
-print(f"You said: {guess_check}.")
+print(guess_check.reveal("encoder"))
 Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"), tuple(rows))
 
 # %% [markdown]
 # ### Explain
 #
-# - **1 room.** You see it on the floor, and the log is spoiled, too: against the wall there is
-#   voltage without speed. (Here it is in one ramp only. That is enough.)
+# - **1 room.** You see it on the floor, and the log is damaged, too: at the wall there is voltage
+#   without speed. (Here it happens in one ramp only. That is enough.)
 # - **2 battery.** You may see the robot crawl, and the Driver Station shows the brownout. `inspect`
 #   finds it, because the applied voltage is cut to 0 again and again.
-# - **3 encoder.** On the floor, *everything is normal*. All gains come out negative. This is the
-#   check that nobody sees being skipped.
-# - **4 log.** A perfect afternoon, and nothing to show for it.
-# - **5 guard.** The log is fine. The robot is not, and perhaps a hand is not.
+# - **3 encoder.** On the floor, *everything looks normal*. Skip this check and nobody notices until
+#   every gain comes out negative.
+# - **4 log.** You had a perfect afternoon, and you have no log.
+# - **5 guard.** The log is fine. The robot is not, and somebody's hand may be hurt.
 
 # %% [markdown]
-# ## 4 Five checks, and what stands behind them
+# ## 4 Five checks, and the reasons for them
 #
 # ### Room
 #
-# Clear the way in **both** directions, on the carpet it will drive on. Work out the way (section
-# 2), put tape down, and let somebody who does not hold the button watch it. For an arm or an
-# elevator: move it by hand through all of its travel. Nothing may be in the way, no cable may pull.
+# Clear the way in **both** directions, on the carpet the robot will drive on. Compute the distance
+# (section 2), put tape down, and let a second person watch it. For an arm or an elevator: move it
+# by hand through all of its travel. Nothing may be in the way, and no cable may pull.
 #
-# Set the **timeout** to what your plan needs, and no longer: it ends the test if the thumb does
-# not. Begin with a **small step**. The source lesson says 3 to 4 V; a strong, light drivetrain
-# slips below that (lesson 4).
+# Set the **timeout** to what your plan needs, and no longer: it ends the test if your thumb does
+# not. Begin with a **small step**. A strong, light drivetrain slips even below 3 V (lesson 4).
 #
 # ### Battery
+#
+# A charged battery shows 12 V or more at rest. Below 12 V is not yet a brownout: a roboRIO 1
+# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. What does an
+# empty battery do to kA? The next cell runs the tests with two batteries and two steps. It fits
+# once with the voltage that was **applied** to the motors, and once with the voltage that was
+# **commanded**.
+#
+# <details><summary>For mentors: batteries below 12 V, with source</summary>
 #
 # > **Lesson says:** "A battery below 12V produces unreliable kA values and may brownout mid-test".
 # >
@@ -391,11 +410,12 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # >
 # > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the voltage
 # > that **arrived** at the motors and the one that was **asked for**.
+# </details>
 
 
 # %%
 def as_asked(log: sim.Log, routine: sim.Routine) -> sim.Log:
-    """The same runs, but the log holds the voltage that the routine asked for."""
+    """The same runs, but the log holds the commanded voltage."""
     runs = []
     for run in log.runs:
         since = run.time - run.time[0] + 0.04  # a test drives from its third loop on
@@ -415,50 +435,56 @@ for name, robot in (("charged", ROBOT), ("tired", TIRED)):
         rows.append((f"{name}, {step:g} V", lowest, out, *(each / TRUTH["kA"] for each in ka)))
 
 for name, one in CONTROLLERS.items():
-    print(f"{name} takes the motors off below {one.brownout} V")
+    print(f"{name} turns the motors off below {one.brownout} V")
 Table(
     (
         "battery, step",
         "lowest voltage [V]",
         "brownout?",
-        "kA ÷ true, arrived",
-        "kA ÷ true, asked for",
+        "kA ÷ true, applied voltage",
+        "kA ÷ true, commanded voltage",
     ),
     tuple(rows),
-    caption=f"Charged: {ROBOT.battery.rest} V at rest. Tired: {TIRED.battery.rest} V, and worn.",
+    caption=f"Charged: {ROBOT.battery.rest} V at rest. Tired: {TIRED.battery.rest} V, and old.",
 )
 
 # %% [markdown]
-# As long as nothing browns out, the tired battery gives the same kA, in both columns: this robot
-# asks for a *voltage*, and its motor controllers make up for the sag. (Lesson 4's share of the
-# battery does not.) A brownout spoils both columns, and the asked-for one far more. So: charge it
-# anyway, begin with a small step, and log the applied voltage. The source lesson's rule is 12 V or
-# more at rest. But a lead-acid battery at 12.0 V is about half flat; WPILib's docs call 11.7 to
-# 12.5 V on an idle robot "depleted", and advise against a battery of more than 20 mΩ. So ask for
-# **12.5 V or more at rest**, and for 20 mΩ or less on a battery tester.
+# Without a brownout, the empty battery gives the same kA in both columns: this robot sets a
+# *voltage*, and its motor controllers compensate for the lower battery voltage. (A share of the
+# battery, as in lesson 4, does not.) A brownout damages both columns, and the commanded one far
+# more. So charge the battery anyway, begin with a small step, and log the applied voltage. The
+# source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
+# flat: WPILib's docs call 11.7 to 12.5 V on an idle robot "depleted", and advise against a battery
+# of more than 20 mΩ. So ask for **12.5 V or more at rest**, and for 20 mΩ or less on a battery
+# tester.
 # ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
-# (The threshold of a Systemcore is the default in WPILib 2027, which is not released yet.)
 #
 # ### Encoder
 #
-# Disabled, push the mechanism **forward** by hand. On the dashboard or in AdvantageScope, the
-# position must **rise**, smoothly, and the velocity must be positive while it moves. Then push it
-# back. Then give it a small positive voltage: it must move the same way. *Plus volts, plus
-# velocity* is the first of all checks, since nothing in R² shows when it fails (lesson 6).
+# With the robot disabled, push the mechanism **forward** by hand. On the dashboard or in
+# AdvantageScope, the position must **rise** smoothly, and the velocity must be positive while it
+# moves. Then push it back. Then give it a small positive voltage: it must move the same way. *Plus
+# volts, plus velocity* is the most important check, because R² does not show when it fails (lesson
+# 6).
 #
 # ### Log
 #
-# Fetch **yesterday's** log before you need today's. Section 5 says from where.
+# Fetch **yesterday's** log before you need today's. Section 5 shows where it is.
 #
 # ### Guard
 #
-# Enable the robot with the guard *off*, that is: the tests are locked. (If your guard is Test mode,
-# called *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4
-# has three kinds of guard.)
-# And one person does nothing but wait to press *Disable*. In the 2026 Driver Station the **Enter**
-# key disables, and the **space bar** is the emergency stop: it works even if another window is in
-# front, and the roboRIO has to be rebooted afterwards.
-# ([WPILib docs: Driver Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
+# Turn the guard *off*, so that the tests are locked, and enable the robot. (If your guard is Test
+# mode, called *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move.
+# (Lesson 4 shows three kinds of guard.) And one person does nothing but wait to press *Disable*. In the 2026 Driver Station the
+# **Enter** key disables, and the **space bar** is the emergency stop: it works even if another
+# window is in front, and you have to reboot the roboRIO afterwards. ([WPILib docs: Driver
+# Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
+#
+# Your own safety code in *commands* does not run during a test. Limits *in the motor controller*
+# do, if you have set them (lesson 4). The next cell sets a current limit of 40 A per motor and runs
+# the tests.
+#
+# <details><summary>For mentors: which limits work in a test?</summary>
 #
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
 # > closed-loop correction."
@@ -466,10 +492,11 @@ Table(
 # > **Source says:** half of it. Nothing corrects the motion, that is true (it is called *open
 # > loop*). But limits *in the motor controller* go on working in a test, if you have set them: "it
 # > is up to you to set up hard or soft limits to prevent injury or damage". What a test bypasses is
-# > what your own **commands** do: it has the subsystem for itself.
-# > ([WPILib docs: Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
+# > what your own **commands** do: it has the subsystem for itself. ([WPILib docs: Running the
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell sets a current limit of 40 A per motor and runs the tests.
+# </details>
 
 # %%
 limited = simulate(
@@ -481,19 +508,18 @@ arrived, asked = (
     for one in (limited, as_asked(limited, routine))
 )
 print(f"Highest current of a motor in all four tests: {highest:.0f} A. The limit acts.")
-print(f"kA ÷ true: {arrived:.2f} if the log holds what arrived, {asked:.2f} if what was asked for.")
+print(f"kA ÷ true: {arrived:.2f} with the applied voltage, {asked:.2f} with the commanded one.")
 
 # %% [markdown]
-# Two sides again. The limit **protects** you. And when it engages, the motor gets less than the
-# test asked for; a log that does not know that is wrong.
+# So the limit **protects** you. But when it acts, the motor gets less than the commanded voltage,
+# and a log of the commanded voltage is wrong.
 #
-# Two more rules that are easy to keep and costly to forget:
+# Two more rules that are easy to keep:
 #
 # - **One mechanism per log.** WPILib: if you run a second routine "without extracting the log or
 #   power-cycling the roboRIO in between, analysis will fail".
-# - **Each test once.** If one went wrong, begin a new log and run all four again. CTRE's page says
-#   the same. (The text beside the class `SysIdRoutine` says that you may choose between repeats in
-#   the tool. SysId 2026 has no such choice: it takes the first one.)
+# - **Each test once.** If one went wrong, begin a new log and run all four again. (If a log
+#   contains a test twice, SysId 2026 uses the first one.)
 
 # %% [markdown]
 # ## 5 Where is my log?
@@ -512,17 +538,25 @@ print(f"kA ÷ true: {arrived:.2f} if the log holds what arrived, {asked:.2f} if 
 # └─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
 # ```
 #
+# The Data Log Tool and AdvantageScope can always fetch the log, except through the radio on a
+# competition field: its firewall blocks them, so use a USB cable there. The Driver Station copies
+# logs only if you ticked *Upload WPILogs*. The next cell answers the question for three robots.
+# Then answer it for yours.
+#
+# <details><summary>For mentors: the log folder, with sources</summary>
+#
 # > **Lesson says:** "the default path is /home/lvuser/logs/. Retrieve them via the Driver Station
 # > log folder tool or AdvantageScope's file fetch feature."
 # >
 # > **Source says:** a USB stick comes first: `/u/logs`. The Driver Station copies logs only if you
 # > ticked *Upload WPILogs* (gear icon), into `C:\Users\Public\Documents\FRC\Log Files\WPILogs`. The
 # > Data Log Tool and AdvantageScope fetch them always, but not through the radio on a competition
-# > field, whose firewall is in the way: use a USB cable there.
-# > ([WPILib docs: Downloading Data Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog-download.html),
-# > [Data Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
+# > field, whose firewall is in the way: use a USB cable there. ([WPILib docs: Downloading Data
+# > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog-download.html), [Data
+# > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
 # >
 # > **Try it:** answer for three robots, in the next cell. Then for yours.
+# </details>
 
 
 # %%
@@ -543,7 +577,9 @@ Table(
 )
 
 # %% [markdown]
-# How to fetch it, and what to expect:
+# How to fetch the log:
+#
+# <details><summary>Four ways to fetch the log, step by step</summary>
 #
 # - **AdvantageScope:** *File* > *Download Logs…*. You should see a list, the newest at the top.
 #   Select, then click the ↓ sign. If it finds no robot: set its address and the log folder in the
@@ -551,14 +587,18 @@ Table(
 # - **Data Log Tool:** type your team number, the user `lvuser` and no password, then *Connect*. Go
 #   to the folder, tick the file, *Select Download Folder…*, *Download*. You should see *Download
 #   complete!*
-# - **Driver Station:** gear icon, *Upload WPILogs*, **before** you run. The file turns up on the
-#   laptop by itself.
+# - **Driver Station:** gear icon, *Upload WPILogs*, **before** you run. The file then appears on
+#   the laptop, in `C:\Users\Public\Documents\FRC\Log Files\WPILogs`.
 # - **The stick:** robot off, pull it out. It has a folder `logs`.
+# </details>
 #
-# (2027: Systemcore and its tools are new. The folders above, and file names that begin with WPILIB
-# where those of 2026 begin with FRC, are those of WPILib's development branch. Where a Systemcore
-# has its stick is not settled: that code says `/u/logs`, teams who test one write `/U/logs`. If
-# something looks different, believe the docs of your season.)
+# <details><summary>For 2027: what is not settled yet</summary>
+#
+# Systemcore and its tools are new. The folders above, and file names that begin with WPILIB instead
+# of FRC, come from WPILib's development branch. The folder of the stick on a Systemcore is not
+# settled: that code says `/u/logs`, teams who test one write `/U/logs`. If something looks
+# different, follow the docs of your season.
+# </details>
 
 # %% [markdown]
 # ## 6 On the real robot, step by step
@@ -567,22 +607,23 @@ Table(
 #    Deploy: in VS Code `Ctrl+Shift+P`, *WPILib: Deploy Robot Code*. *Expect:* the Driver Station
 #    shows *Robot Code* in green.
 # 2. **The five checks.** *Expect:* five times *go*.
-# 3. **Power-cycle** the robot, so that the log holds nothing else.
+# 3. **Power-cycle** the robot (off and on), so that the log contains nothing else.
 # 4. **Driver Station:** choose *Test*, if that is your guard; *Enable*. *Expect:* nothing moves.
 # 5. Hold **quasistatic forward** until the tape. *Expect:* slow, then faster, for 3 s or more.
 # 6. Hold **quasistatic reverse**. *Expect:* the same, back.
-# 7. Hold **dynamic forward**, and let go early. *Expect:* a jerk, then steady speed.
+# 7. Hold **dynamic forward**, and let go early. *Expect:* a sudden start, then a steady speed.
 # 8. Hold **dynamic reverse**. *Expect:* the same, back.
 # 9. **Disable.** Fetch the log (section 5). *Expect:* one new `.wpilog`.
 # 10. `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
 # 11. `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
 #
-# Any order of the four tests will do. Forward, then reverse, has the robot back where it was.
+# You may run the four tests in any order. With forward and then reverse, the robot returns to where
+# it was.
 #
-# **Do step 10 before anybody packs up.** It takes a minute, and a rerun takes five. Tomorrow it
-# takes an evening.
+# **Do step 10 before anybody packs up.** It takes a minute, and repeating a test takes five.
+# Tomorrow it takes an evening.
 #
-# Here are steps 9 to 11 with a log of the bench. `sim.write` makes the kind of file a robot makes:
+# Here are steps 9 to 11 with a simulated log. `sim.write` writes the same kind of file as a robot:
 
 # %%
 with TemporaryDirectory() as place:
@@ -602,7 +643,7 @@ Table(
 )
 
 # %% [markdown]
-# In a terminal, with a file of your own:
+# In a terminal, with your own file:
 #
 # ```
 # sysid inspect FRC_20260214_153000.wpilog
@@ -610,64 +651,76 @@ Table(
 # ```
 #
 # An arm or an elevator needs `--type arm` or `--type elevator`. If your log has several motors,
-# name one: `--motor left`. If its entries have names of their own, say which they are: `--voltage`,
+# name one: `--motor left`. If the entries in your log have other names, give them: `--voltage`,
 # `--position`, `--velocity`, `--state`.
 #
 # **The same file in WPILib's SysId.** In VS Code `Ctrl+Shift+P`, *WPILib: Start Tool*, *SysId*.
 #
+# <details><summary>Five steps in SysId</summary>
+#
 # 1. *Log Loader*: *Open data log file…*
 # 2. Type `sysid-test-state` into *Filter*. Drag that entry to *Test State*.
 # 3. Drag *Position*, *Velocity* and *Voltage* of one motor to their slots.
-# 4. *Analysis Type*: look twice. It starts on *Elevator*. *Units*: those of your log. *Load*.
+# 4. *Analysis Type*: check it. It starts on *Elevator*. *Units*: those of your log. *Load*.
 # 5. Look at the plots first (lesson 6), then at the gains.
 #    ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
+# </details>
 
 # %% [markdown]
-# ### If your motors are CTRE's (Phoenix 6)
+# ### Motors from CTRE or REV?
 #
-# A TalonFX can be logged as in lesson 4. Or let CTRE's *SignalLogger* do it, which records signals
-# as they arrive on the CAN bus, and not once per loop.
+# The steps above work for all motors. Open your vendor's box if you want to use its own logger.
 #
-# 1. In `Config`, the state goes to CTRE's log:
+# <details><summary>If your motors are CTRE's (Phoenix 6)</summary>
+#
+# You can log a TalonFX as in lesson 4. Or use CTRE's *SignalLogger*, which records each signal when
+# it arrives on the CAN bus, and not once per loop.
+#
+# 1. In `Config`, send the state to CTRE's log:
 #    `state -> SignalLogger.writeString("state", state.toString())`. The log callback is `null`.
 # 2. Bind `SignalLogger.start()` and `SignalLogger.stop()` to two buttons. Start, run the four
 #    tests, each once, stop.
-# 3. **Tuner X**, *Log Extractor*: choose the `.hoot` file on the robot and download it. It lands in
-#    the queue on the right. Choose WPILOG, then *Convert*.
+# 3. **Tuner X**, *Log Extractor*: choose the `.hoot` file on the robot and download it. It appears
+#    in the queue on the right. Choose WPILOG, then *Convert*.
 # 4. In SysId, the *Test State* is the entry `state`, as you named it in step 1. Load `Position`,
-#    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is what arrived.
+#    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is the applied voltage.
 #
-# CTRE asks you not to convert with other tools, since signals may be lost on the way.
+# CTRE asks you not to convert with other tools, because they may lose signals.
 # ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
 # Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the
-# motor, and 70 A supply, which is what the controller draws from the battery. You have just seen
-# what a limit does to a log of asked-for volts.
+# motor, and 70 A supply, which is what the controller draws from the battery. You have seen what a
+# limit does to a log of commanded volts.
+# </details>
 #
-# ### If your motors are REV's
+# <details><summary>If your motors are REV's</summary>
 #
-# A SPARK can be logged as in lesson 4: `getAppliedOutput() * getBusVoltage()` is the voltage that
-# arrived. Or use *URCL*, a logger by Team 6328:
+# You can log a SPARK as in lesson 4: `getAppliedOutput() * getBusVoltage()` is the applied voltage.
+# Or use *URCL*, a logger by Team 6328:
 #
 # 1. `URCL.start()` after `DataLogManager.start()`; the log callback of `Mechanism` is `null`.
 # 2. Fetch the log, open it in **AdvantageScope**, *File* > *Export Data…*, format *WPILOG*, field
-#    set *Include Generated*. SysId cannot read it before that.
+#    set *Include Generated*. SysId cannot read the file before that.
 # 3. Load `MotorPositionRotations`, `MotorVelocityRPM` and `AppliedOutputVoltage`.
 #    ([AdvantageScope docs: URCL](https://docs.advantagescope.org/more-features/urcl))
 #
-# Three traps. A SPARK sends most signals only when the robot program asks for them, and what it
-# does not send is not in the log: read position, velocity and output once per loop, or switch them
-# on in the SPARK's `SignalsConfig`. The names say it: position in rotations, velocity in rotations
-# per **minute** (unless you gave the SPARK conversion factors). And a NEO's own encoder filters its
-# velocity so much that it comes about 0.1 s late (lesson 6).
+# There are three traps:
+#
+# - A SPARK sends most signals only when the robot program reads them. Read position, velocity and
+#   output once per loop, or switch them on in the SPARK's `SignalsConfig`; otherwise they are not
+#   in the log.
+# - The units are rotations and rotations per **minute** (unless you set conversion factors in the
+#   SPARK).
+# - A NEO's own encoder filters its velocity so much that it is about 0.1 s late (lesson 6).
+# </details>
 
 # %% [markdown]
 # ## 7 When: not at the first regional
 #
-# The source lesson's author has watched it: teams that "spend their entire practice match window
-# trying to characterize their drivetrain". The pit is as large as a parking space, and there are
-# eight minutes between two matches. The tests themselves are short:
+# Some teams "spend their entire practice match window trying to characterize their drivetrain". But
+# a pit is as small as a parking space, and there are eight minutes between two matches. The tests
+# themselves are short:
 
 # %%
 seconds = sum(float(run.time[-1] - run.time[0]) for run in sound.runs)
@@ -675,19 +728,26 @@ print(f"The four tests take {seconds:.0f} s, {seconds / (8 * 60):.0%} of eight m
 print(f"They need up to {slow.final_position / FOOT:.0f} feet, even at 0.5 V/s.")
 
 # %% [markdown]
-# What takes long is all the rest: room, carpet, a battery, a log, and a second try.
+# Everything else takes long: finding room and carpet, a battery, the log, and a second try.
 #
-# **Plan it for the last two weeks of build season.** Then the robot is mechanically done, and the
-# software still has time to use the gains.
+# **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and
+# you still have time to use the gains.
+#
+# Do gains from the shop work at the competition? Only if the robot and the floor stay the same. The
+# next cell changes one thing at a time. Which gain changes?
+#
+# <details><summary>For mentors: do the gains transfer to competition?</summary>
 #
 # > **Lesson says:** "The gains you collect in the shop will transfer directly to competition."
 # >
 # > **Source says:** as far as everything under and in the robot stays the same. The source lesson
 # > itself says to run again "if drivetrain gearing, wheels, or carpet contact changes", and WPILib
-# > refuses a drive on blocks: what the wheels stand on is part of the gains.
-# > ([WPILib docs: Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
+# > refuses a drive on blocks: what the wheels stand on is part of the gains. ([WPILib docs: Running
+# > the
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell changes one thing at a time. Which gain moves?
+# </details>
 
 # %%
 changes = {
@@ -704,10 +764,10 @@ Table(
 # %% [markdown]
 # ## 8 System check
 #
-# Read it aloud before the first button is pressed. All five, or *no-go*:
+# Read it aloud before you press the first button. If one is missing, it is *no-go*:
 #
-# - [ ] **Room.** The way is clear in both directions, for the way you *computed*. Tape is on the
-#   floor.
+# - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. Tape is on
+#   the floor.
 # - [ ] **Battery.** Charged: 12.5 V or more at rest, 20 mΩ or less.
 # - [ ] **Encoder.** Pushed forward, the position rises smoothly. Plus volts, plus velocity.
 # - [ ] **Log.** You have fetched a log from this robot before, and know its folder. One mechanism
@@ -719,8 +779,7 @@ Table(
 #
 # ## 9 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("always")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -728,11 +787,11 @@ from grader import QuickCheck
 quick = QuickCheck(
     "When is a soft limit bypassed by a SysId test?",
     {
-        "always": "A limit set inside the motor controller goes on acting.",
-        "never": "The test takes the place of your own commands, and of the limits in them.",
+        "always": "A limit inside the motor controller still works.",
+        "never": "The test replaces your own commands, and the limits in them.",
         "where it is in your own commands": (
-            "The test owns the subsystem; what is set in the motor controller still acts, "
-            "and then it is in your data."
+            "The test has the subsystem for itself. A limit in the motor controller still "
+            "acts, and then your data show it."
         ),
     },
     right="where it is in your own commands",
@@ -744,25 +803,25 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Slower needs *more* room for the same speed: d = kV·v²/(2·r). Half the ramp, twice the distance.
-# In a short room take a steeper ramp, and let go earlier.
+# A slower ramp needs *more* room for the same speed: d = kV·v²/(2·r). Half the ramp, twice the
+# distance. In a short room use a steeper ramp and let go earlier.
 # </details>
 #
 # **2.** A teammate says: "SysId switches all limits off, so watch out." Right?
 #
 # <details><summary>Answer</summary>
 #
-# Watch out, yes. But limits that are configured in the motor controller act during a test. What is
-# bypassed is what your other commands would have done. Both sides: set the limits, and if one
-# engages, run that test again, more gently.
+# Watch out, yes. But limits that you configured in the motor controller work during a test. A test
+# only bypasses your other commands. So set the limits, and if one acts, run that test again, more
+# gently.
 # </details>
 #
 # **3.** The tests went well. The Driver Station's folder holds no `.wpilog`. Where do you look?
 #
 # <details><summary>Answer</summary>
 #
-# It only copies if *Upload WPILogs* was ticked. Look into `/u/logs` if a stick is in. Else look
-# into `/home/lvuser/logs` on a roboRIO, and into `/home/systemcore/logs` on a Systemcore. Use
+# It only copies logs if you ticked *Upload WPILogs*. Look into `/u/logs` if a stick is in. Else
+# look into `/home/lvuser/logs` on a roboRIO, and into `/home/systemcore/logs` on a Systemcore. Use
 # AdvantageScope or the Data Log Tool. If the file's name has TBD in it, no Driver Station was
 # connected: fetch it before the program starts again.
 # </details>
@@ -771,32 +830,32 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Plus volts gave minus velocity: an inverted encoder, or an inverted motor. The data are otherwise
-# sound, so you could turn the sign in the log. But the robot's code has the same mistake, so fix it
-# there, and run again.
+# Plus volts gave minus velocity: an inverted encoder, or an inverted motor. Otherwise the data are
+# good, so you could change the sign in the log. But the robot's code has the same mistake, so fix
+# it there, and run again.
 # </details>
 #
 # **5.** When would you do all this, and why not at the first regional?
 #
 # <details><summary>Answer</summary>
 #
-# In the last two weeks of build season: the mechanics are done, there is room, and there is time to
-# use the gains. At an event there is neither room nor time, and no second try.
+# In the last two weeks of build season: the robot is finished, there is room, and there is time to
+# use the gains. At an event you have no room, no time and no second try.
 # </details>
 
 # %% [markdown]
 # ## 10 Practice
 #
-# **Exercise 6, part (b):** a morning of your own. Some of it is not as it should be. Decide *go* or
-# *no-go* for each line, order the four steps, and say where the log is. (Part (a), the four plans,
-# is lesson 3.) Read `exercises/exercise6/README.md`, then
+# **Exercise 6, part (b).** You get a description of a morning. Some things in it are wrong. Decide
+# *go* or *no-go* for each line, put the four steps in order, and say where the log is. (Part (a),
+# the four plans, belongs to lesson 3.) Read `exercises/exercise6/README.md`, then
 #
 # ```
 # grade exercise6
 # ```
 #
-# Or from a notebook, if you like that better. This writes into
-# `exercises/exercise6/answers.toml` and shows the result:
+# Or answer from a notebook. This writes into `exercises/exercise6/answers.toml` and shows the
+# result:
 #
 # ```python
 # from grader import submit
@@ -804,10 +863,10 @@ quick
 # submit("exercise6", check_travel="go", check_battery="no-go", log_2027="/home/systemcore/logs")
 # ```
 #
-# (These words are made up. Yours depend on your morning.) Hints cost nothing:
-# `grade exercise6 --hint`.
+# (These answers are only examples. Yours depend on your morning.) Hints cost nothing: `grade
+# exercise6 --hint`.
 #
-# **On your own robot:** do the five checks with the robot disabled, today. Fetch any log that is on
-# it, and open it in AdvantageScope.
+# **On your own robot:** do the five checks today, with the robot disabled. Fetch any log from it,
+# and open it in AdvantageScope.
 #
-# Next: lesson 6, read the data before you fit it.
+# **Next:** [Lesson 6, read the data](06_read_the_data.ipynb). Can you trust this log?

@@ -14,26 +14,26 @@
 # # Lesson 6: Read the data
 #
 # *About 50 minutes. You need lessons 1 and 3. You do not need to know how a fit works: that is
-# lesson 7. Today you decide whether a log deserves one.*
+# lesson 7. Today you decide whether you can trust a log.*
 #
 # **At the end you can**
 #
-# - say what a sound log looks like, test by test, and why;
-# - name nine ways in which a log is spoiled, and the plot that shows each;
-# - cut away what is not physics, and leave alone what is only ugly;
-# - explain why a good R² does not make a good log, and name five checks that do better.
+# - say what a good log looks like, test by test, and why;
+# - name thirteen ways to damage a log, and the plots that show them;
+# - cut away samples that the model does not describe, and keep samples that are only noisy;
+# - explain why a good R² does not prove a good log, and name five better checks.
 
 # %% [markdown]
 # ## 1 Why: a fit never says "I do not know"
 #
-# Give a fit any log, and it gives you three numbers. It does not know that a wheel slipped, or that
-# the battery was empty. It finds the numbers that miss *those* data least.
+# A fit gives you three numbers for any log. It does not know that a wheel slipped, or that the
+# battery was empty. It finds the numbers that match that data best, good or bad.
 #
-# > The fit believes the log: nonsense in, nonsense out. So somebody has to read the log first. That
-# > is you.
+# > The fit believes the log: nonsense in, nonsense out. So somebody has to check the log first.
+# > That is you.
 #
-# Our robot today is the bench's drivetrain. We know its true gains, so we can tell how wrong an
-# answer is. On your robot you cannot, and that is the point of this lesson.
+# Today's robot is our simulated drivetrain. We know its true gains, so we can say how wrong a fit
+# is. On your robot you do not know them. That is why you need this lesson.
 
 # %%
 from dataclasses import replace
@@ -74,13 +74,14 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
-print(f"kA/kV = {1000 * TAU:.0f} ms: by then nearly two thirds of a new speed is reached")
+print(
+    f"kA/kV = {1000 * TAU:.0f} ms: after this time the robot has nearly two thirds of its new speed"
+)
 
 # %% [markdown]
 # ## 2 The model: what a sound log looks like
 #
-# **Predict first.** In the dynamic test the voltage jumps to 3.5 V and stays. (No buttons on your
-# screen? Type `guess_rise.value = "largest at the start"` in a cell.)
+# **Predict first.** In the dynamic test the voltage jumps to 3.5 V and stays there.
 
 # %%
 guess_rise = Prediction(
@@ -99,35 +100,42 @@ plot_time_series(sound, dynamic_seconds=0.6)
 #
 # - The voltage is a ramp. The velocity stays at zero until the voltage is above kS, then it climbs
 #   in a straight line.
-# - Forward and reverse are mirror images, nearly. (Not for an elevator or an arm: there gravity
-#   helps one of them. Lesson 2.)
+# - Forward and reverse are mirror images, nearly. (For an elevator or an arm they are not, because
+#   gravity helps in one direction: lesson 2.)
 # - Voltage over velocity is a straight line with little scatter: the plot below.
 #
 # **A sound dynamic test** (right):
 #
-# - The voltage jumps, and stays.
+# - The voltage jumps and stays.
 # - The velocity rises at once, steeply, then bends over and goes flat.
-# - It ends by *Disable* or by letting go, not at a wall.
+# - It ends because somebody lets go or presses *Disable*, not at a wall.
 #
-# In both, the samples come every 20 ms, and the position is what the velocity adds up to.
+# In both tests there is a sample every 20 ms, and the slope of the position is the velocity.
 
 # %%
 plot_voltage_velocity(sound)
 
 # %% [markdown]
+# The straight line is a good sign. Look where it meets velocity 0: near kS, but not exactly at kS
+# (lesson 7 explains why). You do not find this plot in SysId 2026: SysId draws velocity over time,
+# acceleration over velocity, and the time steps. And it shows *two* R², which mean different things
+# (section 5).
+#
+# <details><summary>For mentors: the plots of SysId, with source</summary>
+#
 # > **Lesson says:** "Voltage vs. velocity forms a straight line with low scatter. The forward and
 # > reverse runs are near-symmetric. R² value is above 0.9 in the analyzer."
 # >
 # > **Source says:** SysId 2026 has no plot of voltage over velocity. It draws velocity over time,
 # > acceleration over velocity, and the time steps. And it has *two* R², which mean different things
-# > (section 5).
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > (section 5). ([WPILib docs: Viewing
+# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 # >
 # > **Try it:** the straight line is a good sign all the same, and our bench draws it. Look where it
 # > leaves standstill: that is near kS, not at it (lesson 7 says why).
+# </details>
 #
-# Now the rise of the dynamic test: acceleration over velocity. (SysId has a plot of that name. It
-# shows all four tests, and first takes off what the voltage and friction account for.)
+# Now look at the rise of the dynamic test: acceleration over velocity.
 
 # %%
 plot_acceleration_velocity(sound)
@@ -136,7 +144,7 @@ plot_acceleration_velocity(sound)
 rise = sound.runs_of_test("dynamic-forward")[0]
 slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
-print(f"You said: {guess_rise}.")
+print(guess_rise.reveal("largest at the start, then less and less"))
 print(f"Acceleration after  20 ms: {slope[early]:.1f} m/s²")
 print(f"Acceleration {1000 * TAU:.0f} ms later: {slope[later]:.1f} m/s²", end="")
 print(f", {slope[later] / slope[early]:.0%} of it")
@@ -144,12 +152,16 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # %% [markdown]
 # ### Explain
 #
-# The motor pushes with what is left of the voltage: V − kS − kV·v. The faster it goes, the less is
-# left. So the acceleration is **largest at the start** and dies away, by the same share in each
-# equal piece of time. Such a curve is called *exponential*, and kA/kV is its time scale.
+# The motor accelerates with the remaining voltage: V − kS − kV·v. The faster it goes, the less
+# remains. So the acceleration is **largest at the start** and fades, by the same share in each
+# equal piece of time: after each kA/kV, about 37 % remains. Such a curve is called *exponential*.
+# In the plot above it is a straight line that falls: the faster, the less acceleration.
 #
-# (After each kA/kV, about 37 % of the acceleration is left. Noise makes the printed share stray a
-# little.) In the plot above that is a straight line that falls: the faster, the less acceleration.
+# **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test.
+# In section 3, choose *current limit*: that is what a constant acceleration looks like. It is a
+# warning, not a good sign.
+#
+# <details><summary>For mentors: the rise is exponential, with source</summary>
 #
 # > **Lesson says:** "Acceleration is relatively constant during the rising portion."
 # >
@@ -159,51 +171,59 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # >
 # > **Try it:** in section 3, choose *current limit*. A **constant** acceleration is what that looks
 # > like. It is a warning, not a good sign.
+# </details>
 
 # %% [markdown]
-# ## 3 Reading: nine ways to spoil a log
+# ## 3 Reading: thirteen ways to damage a log
 #
-# The source lesson names four *contaminations*. Five more are common in the field.
+# The source lesson names four *contaminations*. Five more are common in the field, and four more
+# are easy to see once you know them. The names are those of exercise 7 and of `sysid inspect`.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
 # | **the source lesson's four** | | |
-# | encoder slip | the encoder loses its grip on the shaft for a while | fix it, run again |
-# | brownout | the battery sinks, and the motors are cut for a moment | charge, run again |
-# | hard stop | it hits its end, the voltage goes on | trim, or run again |
-# | timing gaps | the robot program stalls, samples are missing | find the stall, run again |
+# | encoder slip | the encoder slips on its shaft for a while | fix it, run again |
+# | brownout | the battery voltage drops, the controller turns the motors off | charge, run again |
+# | hard stop | the mechanism hits its end while the voltage stays on | trim, or run again |
+# | loop overrun | the robot program is too slow, samples are missing | find the cause, run again |
 # | **five from the field** | | |
-# | asked-for voltage | the log holds a request, less arrived | log the applied voltage |
-# | velocity filter | the sensor averages, and is late | set a shorter filter |
-# | current limit | the motor gets less than the step | smaller step, or mind the start |
-# | wheel slip | the wheels spin ahead of the robot | smaller step, on carpet |
-# | repeated samples | the log is faster than the sensor's news | log at the sensor's pace |
+# | command logged | the motor got less than the logged voltage | log the applied voltage |
+# | velocity filter | the sensor averages, so its velocity is late | set a shorter filter |
+# | current limit | the controller reduces the voltage of the step | use a smaller step |
+# | wheel slip | the wheels spin faster than the robot moves | smaller step, on carpet |
+# | stale samples | the log samples faster than the sensor updates | log at the sensor's rate |
+# | **four more** | | |
+# | unit error | velocity has another unit than position | fix the code |
+# | mislabelled test | a test has the name of another test | fix the code |
+# | voltage dropout | single voltages are missing in the log | fix the logging |
+# | stuck sensor | position and velocity freeze for a while | check the cable, run again |
 #
 # **Predict:**
 
 # %%
 guess_late = Prediction(
-    "A velocity filter makes the velocity come late. Which plot shows it best?",
+    "A velocity filter makes the velocity late. Which plot shows it best?",
     "voltage over velocity",
     "the time steps",
     "the velocity beside the slope of the position",
 )
 guess_gap = Prediction(
-    "A few samples are missing. Which gain suffers?",
-    "kS most",
-    "kV most",
-    "kA most",
+    "A few samples are missing. Which gain gets the largest error?",
+    "kS",
+    "kV",
+    "kA",
     "all alike",
 )
 display(guess_late, guess_gap)
 
 # %% [markdown]
-# The bench makes a log of each. Then choose a log and a plot. Look at *sound* first, in every plot.
+# The next cell makes one log with each fault. Choose a log and a plot. Look at *clean* in every
+# plot first.
 
 
 # %%
 def spoiled(fault: str, *, test: str | None = None, at: float | None = None) -> sim.Log:
-    """The sound log with one fault in it, as strong as on an ordinary bad day."""
+    """The clean log with one fault in it, of an ordinary size."""
     return contaminate(sound, fault, test=test, at=at, rng=np.random.default_rng(2)).log
 
 
@@ -214,22 +234,26 @@ late_sensor = replace(ROBOT, sensor=replace(ROBOT.sensor, filter=0.224))
 limited = replace(ROBOT, stator=40.0)
 weak = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
 gallery = {
-    "sound": sound,
+    "clean": sound,
     "encoder slip": spoiled("encoder-slip", test=RAMP, at=3.0),
     "brownout": spoiled("brownout", test=RAMP, at=3.0),
     "brownout, applied voltage": simulate(weak, ROUTINE, rng=np.random.default_rng(6)),
     "hard stop": spoiled("hard-stop", test=RAMP, at=4.5),
-    "timing gaps": spoiled("loop-overrun", test=STEP, at=0.04),
-    "asked-for voltage": spoiled("command-logged"),
+    "loop overrun": spoiled("loop-overrun", test=STEP, at=0.04),
+    "command logged": spoiled("command-logged"),
     "velocity filter": simulate(late_sensor, ROUTINE, rng=np.random.default_rng(6)),
     "current limit": simulate(limited, ROUTINE, rng=np.random.default_rng(6)),
     "wheel slip": by_name["wheel slip, 7 V step"].log,
-    "repeated samples": spoiled("stale-samples"),
+    "stale samples": spoiled("stale-samples"),
+    "unit error": spoiled("unit-error"),
+    "mislabelled test": spoiled("mislabelled-test"),
+    "voltage dropout": spoiled("voltage-dropout"),
+    "stuck sensor": spoiled("stuck-sensor", test=RAMP, at=3.0),
 }
 
 
 def position_slope(log: sim.Log) -> Picture:
-    """The first half second of a step: the logged velocity, and what the position says."""
+    """The first half second of a step: the logged velocity, and the slope of the position."""
     run = log.runs_of_test(STEP)[0]
     since = run.time - run.time[0]
     part = since < 0.5
@@ -267,14 +291,15 @@ show_interactive(
 look("current limit", "over time")
 
 # %% [markdown]
-# A velocity filter, in the plot that shows it:
+# Here is a velocity filter, in the plot that shows it best:
 
 # %%
 look("velocity filter", "velocity and position's slope")
 
 # %% [markdown]
-# What each of them does to the gains. (The two **R²** are SysId's scores. 1 is perfect. 0 says: the
-# gains explain nothing. Below zero it is worse than nothing. Section 5 is about them.)
+# The next table shows what each fault does to the gains. (The two **R²** are SysId's scores. 1 is
+# perfect. 0 means that the gains explain nothing, and below zero is even worse. Section 5 explains
+# them.)
 
 
 # %%
@@ -291,26 +316,36 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # %% [markdown]
 # ### What to look for
 #
-# Ask one question of every plot: **could the motor have done that?** A mass cannot change its speed
-# within one sample.
+# Ask one question about every plot: **could the motor have done that?** A mass cannot change its
+# speed within one sample.
 #
-# - **Encoder slip.** The velocity falls by a share of itself from one sample to the next, and comes
-#   back as suddenly. Voltage over velocity gets a second branch.
-# - **Brownout.** The velocity falls along a *curve*, as without a motor, and climbs back along one.
-#   If the log holds the **asked-for** voltage, the voltage goes on as if nothing had happened.
-#   If it holds the **applied** voltage (lesson 4), the voltage is chopped: it drops to 0 and comes
-#   back, again and again. The **bus voltage**, if it is in the log, shows both: it falls below the
-#   threshold.
-# - **Hard stop.** From speed to zero within a few samples. The position stays, the voltage goes on.
-# - **Timing gaps.** Only *time steps* shows them well.
-# - **Asked-for voltage.** The step in the log is perfect, the rise starts in a straight line.
-# - **Current limit.** The same rise, but the *voltage* shows the limit, because it is what arrived.
-#   An honest log: look how little the gains suffer.
-# - **Velocity filter.** The velocity runs behind the slope of the position. The position is not
+# - **Encoder slip.** The velocity drops by a share of its value from one sample to the next, and
+#   comes back just as suddenly. Voltage over velocity gets a second branch.
+# - **Brownout.** The velocity falls along a *curve*, as without a motor, and rises again along a
+#   curve: the controller turned the motors off. If the log holds the **commanded** voltage, it
+#   still shows a voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0 and
+#   comes back, again and again. The **bus voltage**, if the log has it, shows both: it falls below
+#   the threshold.
+# - **Hard stop.** The velocity goes to zero within a few samples. The position stays, the voltage
+#   stays on.
+# - **Loop overrun.** Only *time steps* shows it well.
+# - **Command logged.** The step in the log is perfect, but the velocity starts to rise in a
+#   straight line.
+# - **Current limit.** The velocity rises in the same way, but the *voltage* shows the limit,
+#   because the log holds the applied voltage. This log is correct: look how small the errors of the
+#   gains are.
+# - **Velocity filter.** The velocity is later than the slope of the position. The position is not
 #   filtered.
-# - **Wheel slip.** A surge, a lull, then a slower climb: the wheels were ahead of the robot.
-# - **Repeated samples.** Stairs: the same reading two or three times, then a jump. Some logs write
-#   a value only when it *changes*; that looks alike.
+# - **Wheel slip.** The velocity jumps up, pauses, then rises slowly: the wheels were faster than
+#   the robot.
+# - **Stale samples.** Stairs: the same value two or three times, then a jump. (Some logs write a
+#   value only when it *changes*. That looks the same.)
+# - **Unit error.** The velocity has the right shape but the wrong size compared with the slope of
+#   the position.
+# - **Mislabelled test.** A "ramp" starts with a step, or a "forward" test goes backward.
+# - **Voltage dropout.** The voltage drops to zero for single samples, but the velocity does not
+#   react.
+# - **Stuck sensor.** Position and velocity stay at one value, then jump to where they should be.
 #
 # > **Lesson says:** "Voltage data suddenly drops mid-test, then recovers."
 # >
@@ -323,15 +358,23 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #
 # ### How bad are timing gaps?
 #
+# SysId divides each difference of velocities by the *mean* time step of the test, so a gap gives a
+# wrong acceleration. The normal step is 20 ms, and half of all steps are a bit longer. So count
+# only steps that are longer than 1.5 times the usual one. The next cell makes ten logs each with
+# few or many, short or long gaps.
+#
+# <details><summary>For mentors: gaps and kA, with source</summary>
+#
 # > **Lesson says:** "Timestamps in the log show gaps larger than 20 ms. The regression assumes
 # > uniform sample timing; large gaps produce incorrect kA values".
 # >
 # > **Source says:** right in kind: SysId divides each difference of velocities by the *mean* time
 # > step of the test. But 20 ms is the normal step, so half of all steps are a bit longer. Count the
-# > steps that are longer than 1.5 times the usual one.
-# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > steps that are longer than 1.5 times the usual one. ([SysId's source:
+# > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** the next cell makes ten logs each with few and many, short and long gaps.
+# </details>
 
 
 # %%
@@ -360,12 +403,13 @@ for share, longest in ((0.0, 0.05), (0.05, 0.1), (0.2, 0.1), (0.2, 0.3)):
     name = f"{100 * share:.0f} % of the loops, up to {1000 * longest:.0f} ms" if share else "none"
     rows.append((name, float(np.mean(kv)), float(np.mean(ka)), float(ka.min()), float(ka.max())))
 
-print(f"You said: {guess_late}; {guess_gap}.")
+print(guess_late.reveal("the velocity beside the slope of the position"))
+print(guess_gap.reveal("kA"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
-# kV does not care. kA does, and by luck: it depends on whether a gap falls into the few samples of
-# the rise. A single log cannot tell you how lucky you were.
+# kV hardly changes. kA does, and it depends on luck: does a gap fall into the few samples of the
+# rise? A single log cannot show you how lucky you were.
 #
 # ### How bad are repeated samples?
 #
@@ -389,14 +433,21 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # %% [markdown]
 # ## 4 Doing it: trim what is not physics
 #
-# The equation V = kS·sgn(v) + kV·v + kA·a holds while **the motor alone** moves the mechanism.
+# The equation V = kS·sgn(v) + kV·v + kA·a is true while **the motor alone** moves the mechanism.
 #
-# - At a stop, something else pushes. Not in the equation: **cut it.**
-# - At rest, friction takes whatever voltage there is. Not in the equation: **drop it**, by a
-#   *threshold* on the speed.
-# - A single wild reading is a broken sensor. A **median filter** replaces it: of three neighbors it
-#   takes the middle one.
-# - A noisy stretch is only ugly. The equation holds in it. **Leave it.**
+# - At a stop, something else pushes. The equation does not describe that: **cut it.**
+# - At rest, friction holds the mechanism at any voltage up to kS. The equation does not describe
+#   that either: **drop it**, by a *threshold* on the speed.
+# - A single wild reading is a sensor error. A **median filter** replaces it by the middle one of
+#   three neighboring values.
+# - A noisy part is only ugly: **keep it.**
+#
+# SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
+# (the median filter) and *Test Duration* (dynamic tests only). None of them sets the end of a ramp.
+# Below is a log with a hard stop, a noisy standstill and three wild readings. Which setting repairs
+# which fault?
+#
+# <details><summary>For mentors: trimming in SysId, with source</summary>
 #
 # > **Lesson says:** "You need to trim the data end point in the analyzer, or re-run the test with
 # > more conservative travel limits."
@@ -404,12 +455,14 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # > **Source says:** SysId's window has three knobs. *Velocity Threshold* works on quasistatic tests
 # > only, *Window Size* is the median filter, *Test Duration* works on dynamic tests only. None of
 # > them sets the end of a ramp. Samples at a stop vanish through the threshold, **if** the standing
-# > encoder is quiet.
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
-# > [SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > encoder is quiet. ([WPILib docs: Viewing
+# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > [SysId's source:
+# > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** below is a log with a stop, a trembling standstill, and three wild readings. Which
 # > of the knobs repairs what?
+# </details>
 
 # %%
 messy = contaminate(
@@ -437,7 +490,7 @@ def kept(log: sim.Log, *, end: float, threshold: float) -> sim.Log:
 
 
 def ratios(end: float, threshold: float, median: int) -> dict[str, float]:
-    """The gains that come of a choice, each over its true value."""
+    """The gains of a choice, each over its true value."""
     found = fit(kept(messy, end=end, threshold=threshold), method="sysid", median=median).gains
     return {gain: found[gain] / TRUTH[gain] for gain in ("kS", "kV", "kA")}
 
@@ -485,17 +538,18 @@ tries = {
 Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
-# - Each knob repairs something else. None of them repairs all. (The threshold takes away both the
-#   trembling and the stop, since at this stop the encoder is quiet. The wild readings stay.)
-# - **More is not better.** A median of 15 samples is longer than the rise itself: it flattens what
-#   you came to measure, and half of kA is gone. A threshold of 1 m/s drops the part of the ramp
-#   where kS shows.
+# - Each setting repairs another fault. None of them repairs all. (The threshold removes both the
+#   noisy standstill and the stop, because the encoder is quiet at this stop. The wild readings
+#   stay.)
+# - **More is not better.** A median of 15 samples is longer than the rise itself: it flattens the
+#   rise, and kA is only half its true value. A threshold of 1 m/s drops the part of the ramp that
+#   shows kS.
 #
 # ### Do not trim for beauty
 #
-# The fast end of a ramp is its most valuable part: kV is a slope, and a slope needs a long line.
-# Here is the **sound** log. We keep less and less of its ramps. *One standard error* is how far an
-# estimate typically is from the truth by mere noise.
+# The fast end of a ramp is its most valuable part: kV is a slope, and you need a long line to
+# measure a slope. Here is the **clean** log. We keep less and less of its ramps. *One standard
+# error* is the typical error from noise alone.
 
 # %%
 rows = []
@@ -512,12 +566,11 @@ Table(
 # %% [markdown]
 # ## 5 R² is not a lie detector
 #
-# Now the plots are put away, and you see only a score: SysId's **simulated velocity R²**. Below are
-# many logs of one drivetrain. One is sound. One was spoiled and then repaired. In all others
-# something is wrong, from a single bad reading to an encoder that counts backward.
+# Now you see no plots, only a score: SysId's **simulated velocity R²**. Below are many logs of one
+# drivetrain. One is clean. One was damaged and then repaired. In all others something is wrong,
+# from a single bad reading to an encoder that counts backward.
 #
-# > **Source says:** "A value north of .9 indicates a good fit."
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# The official docs say: "A value north of .9 indicates a good fit." ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 #
 # **Predict:**
 
@@ -531,7 +584,7 @@ guess_count = Prediction(
     "nearly all",
 )
 guess_robust = Prediction(
-    "Which gain is off the most, as a rule?",
+    "Which gain usually has the largest error?",
     "kS",
     "kV",
     "kA",
@@ -559,7 +612,7 @@ KEYS = {
 
 
 def grid(sort: str, truth: str) -> Picture:
-    """All logs with their badges, and how far off their gains are if that is to be told."""
+    """All logs with their scores, and on demand the errors of their gains."""
     scores = {name: SCORES[SIM][name] for name in sorted(SCORES[SIM], key=KEYS[sort])}
     return plot_r2_vs_gain_error(
         scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None
@@ -573,13 +626,13 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus on your screen? Here, sorted by the error of kA:
+# No menus on your screen? Here they are, sorted by the error of kA:
 
 # %%
 grid(sort="error of kA", truth="reveal")
 
 # %% [markdown]
-# Here is what was done to each log, and the whole table with both R²:
+# This is the damage in each log, and the whole table with both R²:
 
 
 # %%
@@ -593,7 +646,7 @@ display(
     Table(
         ("log", "what happened"),
         tuple((case.name, case.story) for case in all_cases),
-        caption="60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V if not said otherwise",
+        caption="60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V unless the name says more",
     ),
     Table(
         ("log", "kS off", "kV off", "kA off", ACC, SIM),
@@ -606,7 +659,7 @@ display(
             )
             for case in all_cases
         ),
-        caption="What SysId's recipe makes of it",
+        caption="The gains that SysId's method finds",
     ),
 )
 
@@ -617,42 +670,41 @@ damage = [
 ]  # without mere changes of units
 typical = {gain: float(np.median([abs(case.gain_error(gain)) for case in damage])) for gain in OFF}
 best = max(wrong, key=lambda case: case.fit.acceleration_r2)
-print(f"You said: {guess_count}; {guess_robust}.")
+print(guess_count.reveal("nearly all"))
+print(guess_robust.reveal("kA"))
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
-print("Half of them are off by more than this:", end=" ")
+print("Half of them have larger errors than this:", end=" ")
 print(", ".join(f"{gain} {100 * size:.1f} %" for gain, size in typical.items()))
 print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, {best.name}.")
 
 # %% [markdown]
 # ### Explain
 #
-# - **The simulated velocity R² asks:** is the simulated velocity near the measured one? Velocity is
-#   mostly kV·v, and kV comes out right in nearly all of them. kA decides a fraction of a second.
-#   So kA may be off by half, and the score hardly changes.
-# - **kV is robust, kA is fragile, kS in between.** Many samples tell kV. A handful tells kA.
+# - **The simulated velocity R² asks:** is the simulated velocity close to the measured one? The
+#   velocity depends mostly on kV, and kV is right in nearly all logs. kA only matters for a
+#   fraction of a second. So kA may be wrong by half, and the score hardly changes.
+# - **kV is robust, kA is fragile, kS is in between.** Many samples contain information about kV,
+#   only a few about kA.
 # - **The acceleration R² is the more sensitive of the two.** Sort by it: spikes, lurch and the
-#   worst slips sink to the bottom. But it is *blind* to a wrong voltage, a wrong ratio and a wrong
-#   sign. And a low one proves nothing: the docs say that it "rarely goes above 0.5, even on very
-#   good datasets".
-# - A repaired log can have a **lower** R² than a wrong one. SysId compares the simulation with what
-#   was recorded, wild readings and all.
+#   worst slips are at the bottom. But it does *not notice* a wrong voltage, a wrong ratio or a
+#   wrong sign. And a low value proves nothing: the docs say that it "rarely goes above 0.5, even on
+#   very good datasets".
+# - A repaired log can have a **lower** R² than a wrong one, because SysId compares the simulation
+#   with the recorded samples, wild readings included.
 #
-# These are single logs of our bench. How far off a log is depends on luck, too: where a gap falls,
-# which sample comes first. The course's own tests make this table five times, and hold the middle
-# values against those of another simulation. Nearly all rows say the same there. Three do not: the
-# repaired spikes, the slow velocity filter, and friction that differs. How a filter is built, and
-# how long the ramps are, matters. So take the *kind* of error from this table, not its digits.
+# These are single simulated logs, and their errors also depend on luck, for example on where a gap
+# falls. So learn the *kind* of error from this table, not its digits.
 #
 # ## 6 What does catch them
 #
-# Five checks that ask something else than "does it fit?":
+# These five checks find more than the question "does it fit?":
 #
-# 1. **Signs.** kV and kA positive, kS not negative.
-# 2. **kV against motors and gears**, within 10 %. (Lesson 1. The bench has no drag; a real robot is
-#    often a few percent above.)
-# 3. **kA against motors and mass**, within 25 %.
-# 4. **Acceleration R² not below 0.2**: below that, the docs call kA dubious.
-# 5. **Somebody looked:** at the plots of section 3. Here a program looks, `inspect`.
+# 1. **Signs.** kV and kA are positive, kS is not negative.
+# 2. **kV agrees with motors and gears**, within 10 %. (Lesson 1. Our simulation has no drag; a real
+#    robot is often a few percent above.)
+# 3. **kA agrees with motors and mass**, within 25 %.
+# 4. **Acceleration R² is not below 0.2**: below that, the docs call kA dubious.
+# 5. **Somebody looked** at the plots of section 3. Here the program `inspect` does it.
 
 # %%
 CHECKS = {
@@ -680,12 +732,12 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"Caught by their signs alone: {by_signs}.  By nothing: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# The sound log is in the list of those that nothing catches, as it should be. The others in that
-# list are spoiled, and only a person who knows the robot will find out. A velocity filter, for
-# example: look into your motor controller's settings.
+# The clean log is in the list that nothing catches, as it should be. The others in that list are
+# damaged, and only a person who knows the robot will find out. To find a velocity filter, for
+# example, look into your motor controller's settings.
 #
-# A sixth check costs one line: **fit forward and reverse apart.** Friction that differs does not
-# show in R², and one kS fits neither direction:
+# A sixth check takes one line of code: **fit forward and reverse apart.** R² does not show that
+# friction differs between the directions, and one kS cannot describe both:
 
 # %%
 leaning = by_name["friction differs"].log
@@ -693,15 +745,15 @@ for way in ("forward", "reverse"):
     run = leaning.runs_of_test(f"quasistatic-{way}")[0]
     moving = np.abs(run.velocity) > 0.1
     _, volts = np.polyfit(np.abs(run.velocity[moving]), np.abs(run.voltage[moving]), 1)
-    print(f"{way}: the ramp's line leaves standstill at {volts:.2f} V")
+    print(f"{way}: the line of the ramp meets velocity 0 at {volts:.2f} V")
 
 # %% [markdown]
-# And one trap before any data: SysId's menu *Analysis Type* starts on **Elevator**. Fit a
-# drivetrain as an elevator, and it looks for gravity where there is none (lesson 2).
+# One trap comes before any data: SysId's menu *Analysis Type* starts on **Elevator**. If you fit a
+# drivetrain as an elevator, the fit looks for gravity where there is none (lesson 2).
 #
 # ### Let the program look, after you did
 #
-# `inspect` says which fault it sees, where, how sure it is, and what to do:
+# `inspect` reports which fault it sees, where, how sure it is, and what to do:
 
 # %%
 print(f"It knows {len(FAULTS)} faults.")
@@ -713,24 +765,24 @@ for damage in seen.damages:
 plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
-# In a terminal: `sysid inspect drive.wpilog`. It is a second pair of eyes. It has never seen *your*
-# robot, so look yourself first.
+# In a terminal: `sysid inspect drive.wpilog`. It gives you a second opinion. But it has never seen
+# *your* robot, so look yourself first.
 
 # %% [markdown]
 # ## 7 System check
 #
-# Before you fit, all five:
+# Before you fit, check all five:
 #
 # - [ ] **Signs:** plus volts, plus velocity, in all four tests.
-# - [ ] **Over time:** nothing that a motor cannot do to a mass. The rise bends from the start.
-# - [ ] **Time steps:** none longer than 1.5 times the usual, or you know how many.
-# - [ ] **Position:** its slope is the velocity, and on time.
-# - [ ] **The voltage** is the one that arrived at the motor.
+# - [ ] **Over time:** you see nothing that a motor cannot do to a mass. The rise bends from the
+#   start.
+# - [ ] **Time steps:** none is longer than 1.5 times the usual one, or you know how many are.
+# - [ ] **Position:** its slope is the velocity, without a delay.
+# - [ ] **The voltage** is the one applied to the motor.
 #
 # ## 8 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("voltage over velocity")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -738,23 +790,23 @@ from grader import QuickCheck
 quick = QuickCheck(
     "Samples come late, some of them by 100 ms. Which plot shows it at a glance?",
     {
-        "voltage over velocity": "Time is in neither axis.",
+        "voltage over velocity": "Neither axis shows the time.",
         "time steps over time": "Every late sample is a point above the line.",
-        "the R² badge": "It may stay green: that is the point of this lesson.",
+        "the R² badge": "It may stay green although the log is wrong.",
     },
     right="time steps over time",
 )
 quick
 
 # %% [markdown]
-# **1.** Which plot reveals which fault? Match: (a) time steps, (b) velocity beside the slope of the
-# position, (c) velocity over time, close up, (d) voltage over time; with (1) a current limit in an
-# honest log, (2) timing gaps, (3) encoder slip, (4) a velocity filter.
+# **1.** Which plot reveals which fault? Match (a) time steps, (b) velocity next to the slope of the
+# position, (c) velocity over time, close up, (d) voltage over time, with (1) a current limit in a
+# log of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a velocity filter.
 #
 # <details><summary>Answer</summary>
 #
-# a2, b4, c3, d1. A current limit shows in the voltage only if the log holds what arrived. If it
-# holds what was asked for, the rise gives it away: it starts as a straight line.
+# a2, b4, c3, d1. You see a current limit in the voltage only if the log holds the applied voltage.
+# If it holds the commanded voltage, look at the rise of the velocity: it starts as a straight line.
 # </details>
 #
 # **2.** In the quasistatic forward test the velocity jumps halfway through; the mechanism lurched.
@@ -762,59 +814,60 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Something mechanical stuck and let go: slack in a chain, a skipped tooth, a tight bearing. (An
-# encoder that slipped only if position, a second sensor or the current show that the mechanism did
-# *not* move.) The few samples of the jump
-# count a lot, because a fit squares its misses: three times as far off counts nine times. So kS
-# comes out too small or negative, kA too large, kV hardly changes, and R² stays above 0.9. See
-# "lurch" in the table. Fix the mechanism and run again. A median filter or a trim only salvages.
+# Something mechanical stuck and let go: slack in a chain, a skipped tooth, a tight bearing. (It was
+# encoder slip only if the position, a second sensor or the current shows that the mechanism did
+# *not* move.) The few samples of the jump count a lot, because a fit squares the errors: an error
+# three times as large counts nine times. So kS is too small or negative, kA is too large, kV hardly
+# changes, and R² stays above 0.9. See "lurch" in the table. Fix the mechanism and run again. A
+# median filter or a trim is only second best.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?
 #
 # <details><summary>Answer</summary>
 #
-# Which R²? Are kV and kA near what motors, gears and mass predict? Was the applied voltage logged?
-# Did anybody look at the plots? In our table nearly all wrong logs would pass.
+# Which R²? Are kV and kA close to the values you expect from motors, gears and mass? Does the log
+# hold the applied voltage? Did anybody look at the plots? In our table nearly all wrong logs would
+# pass.
 # </details>
 #
 # **4.** The end of the ramp is noisy. A teammate wants to cut it, "so that the line looks clean".
 #
 # <details><summary>Answer</summary>
 #
-# No. The equation holds in noisy samples, and the fast ones tell kV best. Cut where something
-# *else than the motor* moves or holds the mechanism: at a stop, at rest.
+# No. The equation is true for noisy samples too, and the fast ones contain the most about kV. Cut
+# only where something *other than the motor* moves or holds the mechanism: at a stop, at rest.
 # </details>
 #
 # **5.** The battery was weak in a test. Do you have to run it again?
 #
 # <details><summary>Answer</summary>
 #
-# If the motors were cut (a brownout): yes, with a charged battery. You see it by the velocity that
-# falls along a curve, or by an applied voltage that drops to 0 and comes back. Either way, the bus
-# voltage shows it. If the voltage only sagged, and
-# the log holds the voltage that arrived: no, the row is true. If it holds the voltage that was
-# asked for: yes, and change the log.
+# If the controller turned the motors off (a brownout): yes, with a charged battery. You see it by
+# the velocity that falls along a curve, or by an applied voltage that drops to 0 and comes back.
+# The bus voltage shows it either way. If the voltage only dropped a little, and the log holds the
+# applied voltage: no, the log is correct. If it holds the commanded voltage: yes, and fix the
+# logging first.
 # </details>
 
 # %% [markdown]
 # ## 9 Practice
 #
-# **Exercise 7, Detective.** Twelve logs, most of them spoiled. Name the fault, where it is, and
-# what to do. Read `exercises/exercise7/README.md`, then
+# **Exercise 7, Detective.** You get twelve logs, most of them damaged. Name the fault, where it is,
+# and what to do. Read `exercises/exercise7/README.md`, then
 #
 # ```
 # grade exercise7
 # ```
 #
-# **Exercise 8, Trim and clean.** One log with a stop, a trembling standstill and wild readings. You
-# choose what to keep. Read `exercises/exercise8/README.md`, then
+# **Exercise 8, Trim and clean.** You get one log with a hard stop, a noisy standstill and wild
+# readings. You choose what to keep. Read `exercises/exercise8/README.md`, then
 #
 # ```
 # grade exercise8
 # ```
 #
-# From a notebook, if you like that better (the values are made up, yours differ):
+# Or answer from a notebook (with your own values):
 #
 # ```python
 # from grader import submit
@@ -828,7 +881,7 @@ quick
 #
 # **On your own robot:** open an old log in AdvantageScope, drag velocity and voltage into a line
 # graph, and go through the list of section 7. Fit it, and note both R². If the simulated velocity
-# R² is below 0.9, write down which of the nine you suspect, and what you would check first. Then
-# run `sysid inspect` on it.
+# R² is below 0.9, write down which fault you suspect, and what you would check first. Then run
+# `sysid inspect` on it.
 #
-# Next: lesson 7, fit it yourself.
+# **Next:** [Lesson 7, fit it yourself](07_fit_it_yourself.ipynb). How does the fit find the gains?

@@ -13,27 +13,25 @@
 # %% [markdown]
 # # Lesson 7: Fit it yourself
 #
-# *About 50 minutes. You need lessons 1 and 3. You do not need to know what a regression is: that is
-# what this lesson is about.*
+# *About 50 minutes. You need lessons 1 and 3. You do not need to know what a regression is: you
+# learn it here.*
 #
 # **At the end you can**
 #
 # - turn a log into gains with five lines of NumPy;
 # - say why SysId puts the *acceleration* on the left side, and what happens if you do not;
-# - tell SysId's two R² apart, compute both, and say what neither of them can see;
-# - explain how kS can come out negative, and why a filter is not free;
-# - read a suggested kP as what it is: a first guess that follows from three settings.
+# - explain SysId's two R², compute both, and say which errors neither of them shows;
+# - explain how kS can become negative, and why a filter has a price;
+# - explain which three settings determine the suggested kP, and why it is only a first guess.
 
 # %% [markdown]
 # ## 1 Why: the analyzer is not magic
 #
-# SysId reads a log and prints gains. Often they are good. Sometimes they are nonsense that
-# looks just as good. If you have built the fit once yourself, you know where it can go wrong.
+# SysId reads a log and prints gains. Often they are good. Sometimes they are nonsense that looks
+# just as good. When you have built the fit yourself, you know where it can go wrong.
 #
-# It is also short. By section 4 you have done most of it.
-#
-# Our robot today is the bench's drivetrain with a bit of play in the gears, so that its velocity
-# reading shakes. We know its true gains, because we built it. A real robot does not tell.
+# Today's robot is our simulated drivetrain with a bit of play in the gears, so its velocity reading
+# is noisy. We know its true gains.
 
 # %%
 from dataclasses import replace
@@ -69,7 +67,7 @@ drivetrain = MECHANISMS["drivetrain"]
 
 
 def shaking(noise: float) -> Mechanism:
-    """The drivetrain with a velocity reading that shakes by so much [m/s] while it moves."""
+    """The drivetrain with this noise [m/s] in its velocity while it moves."""
     return replace(drivetrain, sensor=replace(drivetrain.sensor, velocity_noise=noise))
 
 
@@ -83,22 +81,22 @@ plot_time_series(log, dynamic_seconds=1.0)
 # %% [markdown]
 # ## 2 Look first: voltage over velocity
 #
-# The model says what a motion costs in volts:
+# The model gives the voltage for a motion:
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
-# In the slow ramp (the *quasistatic* test) the acceleration is small. Forget it for a moment. Then
+# In the slow ramp (the *quasistatic* test) the acceleration is small. Ignore it for a moment. Then
 #
 # > V ≈ kS + kV·v
 #
-# is a straight line: it meets standstill at kS and climbs with slope kV. The source lesson reads
-# the gains off this line. `np.polyfit` finds the straight line that misses the samples least.
+# is a straight line: it meets velocity 0 at kS and has the slope kV. You could read the gains off
+# this line. `np.polyfit` finds the straight line that fits the samples best.
 #
-# **Predict** before you run on. (No buttons? Type `guess_line.value = "above it"` in a cell.)
+# **Predict:**
 
 # %%
 guess_line = Prediction(
-    "Does the line meet standstill at the true kS, below it, or above it?",
+    "Does the line meet velocity 0 at the true kS, below it, or above it?",
     "below it",
     "right at it",
     "above it",
@@ -145,7 +143,7 @@ show_interactive(
 ramp_picture(1.0)
 
 # %% [markdown]
-# Measure all four ramps, and hold them against a rule that we explain right after:
+# Now measure all four ramps, and compare them with a rule that we explain right after:
 
 # %%
 timescale = truth["kA"] / truth["kV"]
@@ -156,7 +154,8 @@ for ramp in RAMPS:
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
-print(f"You said: {guess_line}; {guess_ramp}.")
+print(guess_line.reveal("above it"))
+print(guess_ramp.reveal("larger"))
 print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
 Table(
     ("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp [V]", "… + half a loop [V]"), tuple(rows)
@@ -165,13 +164,22 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# A ramp never stops accelerating. When the voltage climbs by `ramp` volts each second, the speed
-# climbs by `ramp/kV` each second, so all the way along `kA·a = (kA/kV)·ramp` volts go into speeding
-# up. The line cannot know that. It books them under kS.
+# A ramp never stops accelerating. When the voltage rises by `ramp` volts each second, the speed
+# rises by `ramp/kV` each second. So during the whole ramp `kA·a = (kA/kV)·ramp` volts go into
+# acceleration. The straight line has no term for acceleration, so it counts these volts as kS.
 #
-# (The last column adds half a loop, 10 ms: a row holds the speed of *now* and the voltage that is
-# applied *from now on*, so in each row the ramp is on average half a loop ahead of the speed. What
-# then remains is noise; section 4 shows how noise bends a line.)
+# <details><summary>Want to know why? The last column</summary>
+#
+# (The last column adds half a loop, 10 ms: a row contains the current speed and the voltage for the
+# *next* 20 ms, so the voltage is on average half a loop ahead. The remaining difference is noise;
+# section 4 shows how noise bends a line.)
+# </details>
+#
+# SysId does not read lines off a plot. It fits all four tests at once, and the quantity it explains
+# is the acceleration. So this plot is only a good *first look*. For kS and kA we need all three
+# terms at once.
+#
+# <details><summary>For mentors: does SysId read an intercept?</summary>
 #
 # > **Lesson says:** the analyzer fits a line, "the intercept is kS" and "the slope is kV"; kA comes
 # > from the voltage that is left over in the dynamic test.
@@ -180,22 +188,23 @@ Table(
 # > thing it explains is the acceleration. Its window has no voltage–velocity plot either: it shows
 # > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
 # > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
-# > [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# > ([WPILib docs: Viewing
+# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > [SysId's source:
+# > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
 # > **Try it:** the slope in the picture above is good. How far off is the intercept at 2 V/s?
-#
-# Keep the picture. It is a good *first look*. For kS and kA we need all three terms at once.
+# </details>
 
 # %% [markdown]
 # ## 3 Three unknowns, a thousand equations
 #
 # Every row of the log is one equation: V, v and a are numbers, the gains are the unknowns. Three
-# rows give three equations, and three equations have one solution. So let us take three rows: one
-# slow, one fast, one that accelerates. (All go forward, so sgn(v) is 1.)
+# rows give three equations, and three equations have one solution. So take three rows: one slow,
+# one fast, one that accelerates. (All go forward, so sgn(v) is 1.)
 #
-# The acceleration is not in the log. `np.gradient` takes it from neighbors: the change of velocity
-# divided by the change of time.
+# The acceleration is not in the log. `np.gradient` computes it from neighboring rows: the change of
+# velocity divided by the change of time.
 
 # %%
 slow, step = log.runs_of_test("quasistatic-forward")[0], log.runs_of_test("dynamic-forward")[0]
@@ -217,14 +226,14 @@ Table(
 )
 
 # %% [markdown]
-# Four times the same robot, four different answers. Each row is a little wrong, and three rows have
-# no way to tell. A thousand rows do: no gains can fit all of them, so we take the gains that **miss
-# them least**.
+# The robot is the same each time, but you get four different answers. Each row is a little wrong,
+# and three rows cannot show that. With a thousand rows, no gains fit all of them exactly, so we
+# take the gains with the **smallest total error**.
 #
-# "Least" needs a rule. Ours is the usual one: square each miss, add them up, make the sum small. It
-# is called **least squares**. (Fitting a model to data in such a way is called a *regression*.)
-# Squares, because a miss up and a miss down must not cancel, and because there is a formula for the
-# answer.
+# "Smallest" needs a rule. The usual rule: square each error, add them up, and make the sum as small
+# as possible. This is called **least squares**. (Fitting a model to data in this way is called a
+# *regression*.) We square the errors so that positive and negative errors do not cancel, and
+# because there is a formula for the answer.
 #
 # **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the bottom is as
 # small as you can make it.
@@ -235,7 +244,7 @@ six_v, six_volts = slow.velocity[some], slow.voltage[some]
 
 
 def by_hand(intercept: float, slope: float) -> Picture:
-    """How far a line of your choice misses six samples."""
+    """The errors of a line of your choice at six samples."""
     labels = {"xlabel": "velocity [m/s]", "ylabel": "voltage [V]"}
     return plot_misses(six_v, six_volts, intercept=intercept, slope=slope, **labels)
 
@@ -257,9 +266,9 @@ show_interactive(
 by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
-# And the formula's answer. `np.linalg.lstsq` ("least squares") wants the equations as a table, one
-# row per sample, one **column per unknown**: what stands next to it. For a line with intercept and
-# slope, the columns are 1 and v.
+# Now compare with the formula. `np.linalg.lstsq` ("least squares") needs the equations as a table:
+# one row per sample, one **column per unknown**. The column contains the factor of this unknown.
+# For a line with intercept and slope, the columns are 1 and v.
 
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
@@ -267,12 +276,12 @@ columns = np.column_stack([np.ones(six_v.size), six_v])
 by_hand(float(intercept), float(slope))
 
 # %% [markdown]
-# Nobody beats that sum with a straight line. That is all a regression is.
+# No straight line has a smaller sum. That is all a regression does.
 
 # %% [markdown]
 # ## 4 The whole fit in five lines
 #
-# Same thing, with three columns and every moving row of all four tests:
+# Now do the same with three columns and every moving row of all four tests:
 
 
 # %%
@@ -300,13 +309,13 @@ Table(
 )
 
 # %% [markdown]
-# kV is excellent. kA is not even close. There are no spikes in this log, no slip, no bad battery.
+# kV is excellent, but kA is far from the truth. This log has no spikes, no slip, no empty battery.
 # What happened?
 #
 # ### Which side is noisy?
 #
-# A small experiment. The truth is y = 2·x. First we add noise to **y**, then, in a second data set,
-# the same noise to **x**. Each time least squares looks for the slope.
+# Try a small experiment. The truth is y = 2·x. First we add noise to **y**, then, in a second data
+# set, the same noise to **x**. Each time least squares finds the slope.
 #
 # **Predict:**
 
@@ -322,25 +331,28 @@ x = rng.uniform(-1, 1, 5000)
 noise = 0.5 * rng.standard_normal(x.size)
 in_y = np.linalg.lstsq(x[:, None], 2 * x + noise, rcond=None)[0][0]
 in_x = np.linalg.lstsq((x + noise)[:, None], 2 * x, rcond=None)[0][0]
-print(f"You said: {guess_noise}.")
+print(guess_noise.reveal("with noise in x"))
 print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2")
 
 # %% [markdown]
-# Noise on the **left** side (the side that is explained) averages out. Noise in a **column** does
-# not: it makes the column look less useful than it is, and its number shrinks. More data does not
-# help. ("Noise averages out" is only true on the left.)
+# Noise on the **left** side of the equation averages out. Noise in a **column** does not: it makes
+# the slope of that column too small. More data does not help. ("Noise averages out" is only true on
+# the left.)
 #
-# Our noisiest signal is the acceleration, because taking differences makes noise larger. In the
-# five lines above it was a column. So move it to the left. Solve the model for a:
+# Our noisiest signal is the acceleration, because differences make noise larger. In the five lines
+# above it was a column. So move it to the left side. Solve the model for a:
 #
 # > a = −(kV/kA)·v + (1/kA)·V − (kS/kA)·sgn(v)
 #
 # Call the three numbers α, β and γ. Then kA = 1/β, kV = −α/β and kS = −γ/β.
 #
-# (That is for the analysis type *Simple*. With gravity, SysId gives the table more columns: ones
-# for *Elevator*, cos θ and sin θ of the arm's angle θ for *Arm*. kG comes out of their numbers, and
-# for an arm the sensor's offset, too.
+# <details><summary>Want to know more? With gravity</summary>
+#
+# (This is for the analysis type *Simple*. With gravity, SysId adds columns: ones for *Elevator*,
+# cos θ and sin θ of the arm's angle θ for *Arm*. From them it computes kG, and for an arm also the
+# sensor's offset.
 # [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# </details>
 
 
 # %%
@@ -363,7 +375,8 @@ Table(
 )
 
 # %% [markdown]
-# How much noise does each of them bear? For each level we make five logs and average:
+# How much noise can each method tolerate? For each noise level we make five logs and average the
+# results:
 
 # %%
 NOISE = [0.0, 0.005, 0.01, 0.015, 0.02, 0.03, 0.04]
@@ -383,29 +396,28 @@ plot_curves(
 )
 
 # %% [markdown]
-# Acceleration on the left is the better choice, and it is SysId's, for this very reason: its source
-# says that least squares "performs best with the noisiest variable as the dependent variable". That
-# is the one on the left. It is not immune: the velocity is still a column, and it is noisy too. So
-# α shrinks, β with it, and kA, which is 1/β, grows. Bear that in mind when somebody shows you gains
-# from a rattling gearbox.
+# Acceleration on the left is the better choice. SysId uses it for this reason: its source says that
+# least squares "performs best with the noisiest variable as the dependent variable". (The dependent
+# variable is the one on the left.) But it is not perfect: the velocity is still a column, and it is
+# noisy too. So α and β shrink, and kA, which is 1/β, grows.
 
 # %% [markdown]
 # ## 5 What SysId does before it fits
 #
-# SysId's fit is the five lines above. Before it come four steps. (In italics: names of boxes in
-# SysId's window.)
+# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps. (The
+# names in italics are boxes in SysId's window.)
 #
-# 1. **Threshold** (*Velocity Threshold*). Quasistatic rows slower than a threshold are dropped: at
-#    standstill, friction is whatever the voltage is, and says nothing about kS.
-# 2. **Median filter** on the velocity, if you ask for it (*Window Size*, up to 15 samples). It
-#    replaces each value by the middle one of its neighbors. Off by default.
+# 1. **Threshold** (*Velocity Threshold*). SysId drops quasistatic rows slower than a threshold: at
+#    standstill, friction simply equals the voltage, so these rows contain nothing about kS.
+# 2. **Median filter** on the velocity, if you switch it on (*Window Size*, up to 15 samples). It
+#    replaces each value by the middle one of its neighbors.
 # 3. **Acceleration** from the two neighbors, divided by the **mean** time step of the test.
-# 4. **Trim the dynamic tests** (*Test Duration*): only from the peak of acceleration to 90 % of the
-#    top speed, unless you set the box.
+# 4. **Trim the dynamic tests** (*Test Duration*): SysId keeps only the rows from the peak of the
+#    acceleration to 90 % of the top speed, unless you set the box.
 #
 # ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 #
-# Here they are. Each is a line or two, and each can be switched.
+# Here they are in code. Each is a line or two, and you can switch each of them.
 
 
 # %%
@@ -461,9 +473,9 @@ Table(
 )
 
 # %% [markdown]
-# Yours and SysId's are close. What is left are details: SysId finds its threshold from the noise,
-# and drops a row here and there. Hand the five lines the very rows that SysId's recipe keeps, and
-# nothing is left:
+# Your gains and SysId's are close. The difference comes from details: SysId finds its threshold
+# from the noise, and drops a row here and there. If your five lines use exactly the rows that SysId
+# keeps, the difference is zero:
 
 # %%
 kept = list(prepare_rows(log).rows.values())
@@ -480,8 +492,13 @@ print(
 )
 
 # %% [markdown]
-# Look at the last line. Of the whole dynamic test only a handful of rows is used, because this
-# robot is up to speed so fast. Much of kA hangs on them.
+# Look at the last line. SysId uses only a handful of rows of the whole dynamic test, because this
+# robot reaches its speed so fast. kA depends mostly on them.
+#
+# SysId trims a long dynamic test by itself. But a home-made fit that does not trim gets a wrong kA:
+# try `trim=False` in the next section. The danger of a long test is to the hardware.
+#
+# <details><summary>For mentors: does a long test hide kA?</summary>
 #
 # > **Lesson says:** run the dynamic test too long, and "kA becomes unobservable".
 # >
@@ -491,19 +508,20 @@ print(
 # > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** `trim=False` in the next section.
+# </details>
 
 # %% [markdown]
 # ## 6 Same data, five choices, five kA's
 #
-# A real robot program misses a loop now and then. Our log shall too: one row in twenty is missing.
-# Then we fit the **same data** with five choices made differently, one at a time:
-# what stands on the left side, the threshold, the filter, the time step, the trim.
+# A real robot program misses a loop now and then. So in our log, too, one row in twenty is missing.
+# We fit the **same data** and change five choices, one at a time: the left side, the threshold, the
+# filter, the time step, the trim.
 #
 # **Predict:**
 
 # %%
 guess_choice = Prediction(
-    "Which choice hurts kA the most?", "side", "threshold", "filter", "time step", "trim"
+    "Which choice changes kA the most?", "side", "threshold", "filter", "time step", "trim"
 )
 guess_choice
 
@@ -535,7 +553,7 @@ for seed in range(8):
     gappy.append(with_missed_loops(simulate(robot, routine, rng=rng), share=0.05, rng=rng))
 
 results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
-print(f"You said: {guess_choice}.")
+print(guess_choice.reveal("side"))
 plot_choices(
     {way: float(np.mean(values)) for way, values in results.items()},
     spreads={way: float(np.std(values)) for way, values in results.items()},
@@ -545,8 +563,8 @@ plot_choices(
 )
 
 # %% [markdown]
-# Dots are the mean of eight logs, bars how much one log differs from the next. None of these is a
-# mistake in the arithmetic. They are decisions, and somebody made them for you.
+# The dots are the mean of eight logs, the bars show how much the logs differ. None of these choices
+# is a calculation error. They are decisions, and somebody made them for you.
 #
 # Try combinations yourself:
 
@@ -580,7 +598,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No controls? Here:
+# No controls? Change the choices here:
 
 # %%
 try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
@@ -588,35 +606,36 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # %% [markdown]
 # ### Explain
 #
-# - **Side** and **filter** matter most: noise in a column shrinks its gain, and so does a window
-#   that is longer than the motion it looks at (section 9).
-# - **Time step.** Where rows are missing, the mean step is wrong for the rows beside the gap. SysId
-#   uses the mean, so gaps in the log cost it accuracy in kA. kV does not care.
-# - **Trim.** Rows at full speed hold no acceleration, only noise. They dilute the few that do.
-# - **Threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy one,
-#   standstill rows have a random sgn(v), and kA suffers, the more the longer it stands. (Try it:
-#   the last point of section 14.)
+# - **Side** and **filter** matter most: noise in a column shrinks its gain, and so does a filter
+#   window that is longer than the rise (section 9).
+# - **Time step.** Where rows are missing, the mean step is wrong for the rows next to the gap.
+#   SysId uses the mean, so gaps in the log make kA less accurate. kV hardly changes.
+# - **Trim.** Rows at full speed contain no acceleration, only noise.
 #
-# And beware of luck: with a filter that makes kA smaller and noise that makes it larger, two wrongs
-# can hit the truth. On another robot they will not.
+# <details><summary>Want to know more? The threshold</summary>
+#
+# - **Threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy one,
+#   standstill rows have a random sgn(v), and kA gets worse the longer the robot stands. (Try it:
+#   the last point of section 14.)
+# </details>
 
 # %% [markdown]
-# ## 7 Two misses, two R²
+# ## 7 Two errors, two R²
 #
 # You now have gains. Are they good? There are two ways to ask, and SysId has a score for each.
 #
-# - **Equation error:** row by row, how far is the measured acceleration from the model's? The rows
-#   do not know of each other. SysId's score is the **acceleration R²**.
-# - **Simulation error:** give the model only the *voltage* of a whole test, let it run, and compare
-#   its velocity with the measured one. Mistakes add up on the way. SysId's score is the
+# - **Equation error:** row by row, how far is the measured acceleration from the model's? SysId's
+#   score is the **acceleration R²**.
+# - **Simulation error:** give the model only the *voltage* of a whole test, simulate, and compare
+#   the simulated velocity with the measured one. Here errors add up over time. SysId's score is the
 #   **simulated velocity R²**.
 #
-# First the picture. The dotted black line is the simulation with the gains of SysId's recipe:
+# The dotted black line in the picture is the simulation with the gains of SysId's method:
 
 
 # %%
 def simulated(log: sim.Log, gains: dict[str, float]) -> sim.Log:
-    """What the gains make of the log's voltages."""
+    """The simulation of the log's voltages with these gains."""
     runs = []
     for run in log.runs:
         moved, velocity = move_gains_only(gains, time=run.time, voltage=run.voltage)
@@ -628,9 +647,9 @@ model = simulated(log, recipe.gains)
 plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
-# Now both numbers, by hand. The textbook defines
+# Now compute both scores by hand. The textbook defines
 #
-# > R² = 1 − (sum of squared misses) / (sum of squared distances from the mean)
+# > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
 # so 1 is perfect, and 0 is no better than always guessing the mean. (For the velocity we take the
 # two forward tests; SysId takes all four.)
@@ -652,31 +671,46 @@ print(f"acceleration R²         by hand {acceleration_r2:.4f}")
 print(f"the same, adjusted      by hand {adjusted:.4f}   SysId {recipe.acceleration_r2:.4f}")
 print(f"simulated velocity R²   by hand {sysids:.3f}    SysId {recipe.simulated_velocity_r2:.3f}")
 print(f"the same, textbook R²   by hand {textbook:.4f}")
-print(f"RMSE, the typical miss  by hand {rmse:.4f} m/s")
-print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} in the textbook's sense (means left in).")
+print(f"RMSE, the typical error by hand {rmse:.4f} m/s")
+print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} by the textbook's formula (without the mean).")
 
 # %% [markdown]
-# *Adjusted* means: a little is taken off for each unknown, because every further column fits some
-# of the noise by luck. With hundreds of rows it hardly matters.
-# ([SysId's source: OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
+#
+# <details><summary>Want to know more? What *adjusted* means</summary>
+#
+# *Adjusted* means that the score is a little lower for each unknown, because every further column
+# fits some of the noise by luck. With hundreds of rows it hardly matters. ([SysId's source:
+# OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
+# </details>
+#
+# **Myth check.** "R² must be above 0.9." *Which one?* The *simulated velocity* R² should be above
+# 0.9. The *acceleration* R² "rarely goes above 0.5, even on very good datasets"; only below about
+# 0.2, kA is doubtful. And the first is not the textbook's R²: SysId computes 1 − RMSE / (root mean
+# square of v), so 0.9 is stricter than it looks. From now on, never write "R²" without saying
+# which.
+#
+# <details><summary>For mentors: SysId's two R², with sources</summary>
 #
 # > **Lesson says:** "R² value is above 0.9 in the analyzer."
 # >
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
 # > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
-# > velocity R²*) should be above 0.9.
-# > ([Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > velocity R²*) should be above 0.9. ([Viewing
+# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 # > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
-# > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to.
-# > ([SysId's source: AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
+# > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to. ([SysId's
+# > source:
+# > AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
 # > (The docs page calls the acceleration the *independent* variable. In the code it is the one that
 # > is explained, on the left.)
 # >
 # > **Try it:** you just did. From now on, never write "R²" without saying which.
+# </details>
 #
-# ### What R² cannot see
+# ### What R² does not show
 #
-# Five logs of the same drivetrain. Cover the two right columns and rank them by R². Then uncover.
+# Here are five logs of the same drivetrain. Cover the two right columns and rank the logs by R².
+# Then uncover them.
 
 # %%
 quiet = simulate(drivetrain, routine, rng=np.random.default_rng(3))
@@ -686,7 +720,7 @@ sag = simulate_duty_cycle(drivetrain, hard, rng=np.random.default_rng(3))
 
 
 def changed(log: sim.Log, *, speed: float = 1.0, asked: bool = False) -> sim.Log:
-    """A log with the encoder's numbers multiplied, or with the voltage that was asked for."""
+    """A log with a different encoder factor, or with the commanded voltage."""
     runs = []
     for run in log.runs:
         volts = 12.0 * run.voltage / run.bus_voltage if asked else run.voltage
@@ -699,8 +733,8 @@ suspects = {
     "clean": quiet,
     "clean, logged at 200 Hz": fast_log,
     "gear ratio typed in wrong (÷ 1.25)": changed(quiet, speed=1 / 1.25),
-    "encoder the wrong way": changed(quiet, speed=-1.0),
-    "asked-for voltage logged, 7 V step": changed(sag, asked=True),
+    "encoder inverted": changed(quiet, speed=-1.0),
+    "commanded voltage logged, 7 V step": changed(sag, asked=True),
 }
 rows = []
 for name, one in suspects.items():
@@ -710,20 +744,20 @@ for name, one in suspects.items():
 Table(("log", "acceleration R²", "simulated velocity R²", "kV ÷ true", "kA ÷ true"), tuple(rows))
 
 # %% [markdown]
-# - **A low R² is not a failure.** Logging faster makes each difference of neighbors noisier, and
-#   the acceleration R² drops. The gains are as good as before.
-# - **A high R² is not a success.** A wrong ratio or a wrong sign gives the *same* R² to the last
-#   digit: it is a perfect log of another robot. And the asked-for voltage gives the highest
+# - **A low R² does not mean bad gains.** Faster logging makes each difference of neighbors noisier,
+#   and the acceleration R² drops. The gains are as good as before.
+# - **A high R² does not mean good gains.** A wrong ratio or a wrong sign gives the *same* R² to the
+#   last digit: it is a perfect log of another robot. And the commanded voltage gives the highest
 #   acceleration R² in the table, with a kA that is far too large.
 #
-# What does catch them: signs, kV and kA against what motors and mass predict (lesson 1), forward
-# against reverse, and looking at the plots (lesson 6).
+# To find such errors, check the signs, compare kV and kA with motors and mass (lesson 1), compare
+# forward with reverse, and look at the plots (lesson 6).
 
 # %% [markdown]
 # ## 8 How can kS be negative?
 #
-# Friction cannot push. Still, SysId prints a negative kS now and then. Here is how. We make the
-# velocity shake more and more, and watch kS, kA, and one more column: **kS + kA·(ramp/kV)**.
+# Friction cannot push. Still, SysId sometimes prints a negative kS. To see how, we make the
+# velocity noisier and noisier, and watch kS, kA, and one more column: **kS + kA·(ramp/kV)**.
 
 # %%
 rows = []
@@ -737,20 +771,20 @@ print(f"true kS {truth['kS']:.3f} V, true kA {truth['kA']:.3f} V·s²/m")
 Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tuple(rows))
 
 # %% [markdown]
-# The last column hardly moves while the noise is moderate. You know it from section 2: it is where
-# the straight line meets standstill. The ramp has many rows, and they pin down this **sum**. They
-# do not say how much of it is kS and how much is kA; only the few rows of the step do. So when
-# noise inflates kA, kS has to give way, down to zero and below.
+# The last column hardly changes while the noise is moderate. You know it from section 2: it is the
+# voltage where the straight line meets velocity 0. The ramp has many rows, and they determine this
+# **sum** well. But they do not show how much of it is kS and how much is kA; only the few rows of
+# the step do. So when noise makes kA too large, kS becomes too small, even negative.
 #
-# A negative kS is therefore rarely about friction. Ask first: **why is kA too large?** Noise, a
-# voltage that was asked for but never arrived, a slipping wheel, a lurch. (For an arm or an
-# elevator, look at the analysis type before that: gravity fitted as *Simple* gives nonsense of
-# either sign, lesson 2.)
+# So a negative kS is rarely about friction. First ask: **why is kA too large?** Possible causes are
+# noise, a log of the commanded voltage, a slipping wheel, a lurch. (For an arm or an elevator,
+# check the analysis type first: gravity fitted as *Simple* gives nonsense of either sign, lesson
+# 2.)
 
 # %% [markdown]
 # ## 9 A filter is not free
 #
-# Noise inflates kA, and a median filter takes noise away. So: turn it up?
+# Noise makes kA too large, and a median filter removes noise. So should you use a large window?
 #
 # **Predict** for our quiet drivetrain:
 
@@ -762,7 +796,7 @@ guess_filter
 
 # %%
 WINDOWS = [1, 3, 5, 7, 9, 11, 13, 15]
-levels = {"a quiet encoder": 0.0075, "an encoder that rattles": 0.06}
+levels = {"a quiet encoder": 0.0075, "a rattling encoder": 0.06}
 by_window = {name: [] for name in levels}
 for name, level in levels.items():
     logs = [simulate(shaking(level), routine, rng=np.random.default_rng(seed)) for seed in range(5)]
@@ -770,7 +804,7 @@ for name, level in levels.items():
         fits = [fit(one, method="sysid", median=window).gains["kA"] for one in logs]
         by_window[name].append(float(np.mean(fits)))
 
-print(f"You said: {guess_filter}.")
+print(guess_filter.reveal("less than half"))
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
 plot_curves(
     WINDOWS,
@@ -781,31 +815,38 @@ plot_curves(
 )
 
 # %% [markdown]
-# After a step the velocity rises with the timescale kA/kV. A window that is longer than that
-# flattens the rise itself: the filter removes what you came to measure. WPILib's docs warn of that
-# for mechanisms that are light for their motors: the filter may "eat" the acceleration data, and kA
-# tends toward zero.
-# ([Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# After a step the velocity rises with the time constant kA/kV. A window that is longer than that
+# flattens the rise itself: the filter removes what you want to measure. WPILib's docs warn about
+# this for mechanisms that are light for their motors: the filter may "eat" the acceleration data,
+# and kA tends toward zero. ([Viewing
+# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 #
-# A window of 3 to 5 helps a rattling encoder on a *slow* mechanism. On a fast one, log faster, or
-# fix the rattle.
+# A window of 3 to 5 helps on a *slow* mechanism. On a fast one, log faster, or repair the encoder.
 
 # %% [markdown]
 # ## 10 From gains to a first kP
 #
-# SysId also suggests a feedback gain, kP: for a velocity loop, how many volts to add per unit of
-# velocity error. It comes out of kV, kA and **three settings**, and the settings are yours (in
-# italics: their names in SysId's window):
+# SysId also suggests a feedback gain, kP. For a velocity loop, kP is the voltage to add per unit of
+# velocity error. SysId computes it from kV, kA and **three settings** that you choose (in italics:
+# their names in SysId's window):
 #
-# - **q**, the velocity error you are willing to see (*Max Velocity Error*);
-# - **r**, the volts you are willing to spend on it (*Max Control Effort*);
+# - **q**, the velocity error that you accept (*Max Velocity Error*);
+# - **r**, the volts that you are willing to spend on it (*Max Control Effort*);
 # - the **delay** of the measurement (*Measurement Delay*).
 #
-# (A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit
-# of its output. Here the last two stay those of WPILib's own loop: 20 ms, and volts.)
+# <details><summary>Want to know more? Gain presets</summary>
 #
-# A method called LQR (*linear-quadratic regulator*) finds the kP that balances the two. Small q and
-# large r mean a large kP. A delay makes it smaller, because late corrections shake.
+# (A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit
+# of its output. Here we keep WPILib's own loop: 20 ms, and volts.)
+# </details>
+#
+# A method called LQR (*linear-quadratic regulator*) finds the kP that balances q and r. A small q
+# and a large r give a large kP. A delay makes kP smaller, because late corrections make the
+# mechanism shake. WPILib's docs call such gains "educated guesses" and a "starting point".
+#
+# Somebody got kP = 0.62 for kS 0.14, kV 2.68, kA 0.34. Which q did they use?
+#
+# <details><summary>For mentors: the source lesson's kP</summary>
 #
 # > **Lesson says:** "SysId suggests kP = 0.62" for kS 0.14, kV 2.68, kA 0.34.
 # >
@@ -813,6 +854,7 @@ plot_curves(
 # > ([WPILib docs: Analyzing Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
 # >
 # > **Try it:** which q does 0.62 stand for?
+# </details>
 
 # %%
 lesson_kv, lesson_ka = 2.68, 0.34
@@ -852,7 +894,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No sliders? Here:
+# No sliders? Change the numbers here:
 
 # %%
 kp_picture(q=1.5, r=7.0, delay=0)
@@ -863,8 +905,8 @@ rows = []
 for name, q, delay in (
     ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
     ("a quarter of the top speed, what its window sets", at_load, 0.0),
-    ("what the source lesson's kP stands for", 3.43, 0.0),
-    ("1.5 m/s, 112 ms late: SysId's number for a NEO's encoder", 1.5, 0.112),
+    ("the q that gives kP = 0.62", 3.43, 0.0),
+    ("1.5 m/s, with a delay of 112 ms: SysId's number for a NEO's encoder", 1.5, 0.112),
 ):
     kp = design_velocity_loop(
         kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay
@@ -873,19 +915,21 @@ for name, q, delay in (
 Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
 # %% [markdown]
-# Same gains, same method, very different kP's. Start with one of them, and tune on the robot.
-# ([SysId's source: Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp)
-# for the quarter, [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h)
+# The gains and the method are the same, but the values of kP are very different. Start with one of
+# them, and tune on the robot. ([SysId's source:
+# Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp)
+# for the quarter,
+# [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h)
 # for the delays)
 #
-# And remember where kA enters here: a kA that is wrong by a factor of two gives a wrong kP, without
+# And remember that kP depends on kA: if kA is wrong by a factor of two, kP is wrong too, without
 # any warning.
 
 # %% [markdown]
 # ## 11 Your own log
 #
-# In exercise 9 you fit a log of a mechanism that only you have. `grade start` makes it, or
-# `grade exercise9` when you grade for the first time. If it is there, the next cell reads it.
+# In exercise 9 you fit a log of your own mechanism. `grade start` makes the log, or the first
+# `grade exercise9`. If it exists, the next cell reads it.
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise9", "data").glob("*/log.wpilog"))
@@ -899,14 +943,13 @@ else:
         rng=np.random.default_rng(9),
     )
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
-    print("Until then, here is a shooter from the bench.")
+    print("Until then, here is a simulated shooter.")
 
 plot_time_series(own, dynamic_seconds=1.0)
 
 # %% [markdown]
-# Fit it with SysId's recipe, and with your own five lines. For a log in rotations, gains per radian
-# (which is what the bench computes in) become gains per rotation: times 2π. *One standard error*
-# is an estimate of how far noise alone moves a gain from its true value.
+# Fit it with SysId's method, and with your own five lines. *One standard error* is the typical
+# error from noise alone.
 
 # %%
 best = fit(own, method="sysid").in_log_units()
@@ -929,7 +972,7 @@ for doubt in best.doubts:
     print(f"Doubt: {doubt.message}")
 
 # %% [markdown]
-# The same in a terminal:
+# You can do the same in a terminal:
 #
 # ```
 # sysid fit exercises/exercise9/data/me/log.wpilog --method sysid
@@ -938,18 +981,17 @@ for doubt in best.doubts:
 # %% [markdown]
 # ## 12 System check
 #
-# Before you trust a fit, all five:
+# Before you trust a fit, check all five:
 #
 # - [ ] All four tests are in the log, and you **looked** at them.
 # - [ ] kV and kA are positive, kS is not negative.
-# - [ ] kV and kA are near what motors, gears and mass predict.
+# - [ ] kV and kA are close to the values you expect from motors, gears and mass.
 # - [ ] You know the window of the median filter, and it is shorter than kA/kV.
-# - [ ] You can say which R² you quote.
+# - [ ] When you write R², you say which one.
 #
 # ## 13 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("friction pushes the robot")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -958,8 +1000,8 @@ quick = QuickCheck(
     "SysId prints a negative kS. What is the most likely reason?",
     {
         "friction pushes the robot": "Friction cannot push. Look at the log, not at the robot.",
-        "noise, or a few wrong samples": "Few samples with leverage bend it; kS gives way first.",
-        "kV is too small": "kV is the gain that such things hardly move.",
+        "noise, or a few wrong samples": "They make kA too large, and then kS too small.",
+        "kV is too small": "Noise hardly changes kV.",
     },
     right="noise, or a few wrong samples",
 )
@@ -970,8 +1012,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# It is the noisiest signal. Noise on the left averages out; noise in a column shrinks that
-# column's number, however long the log is.
+# It is the noisiest signal. Noise on the left averages out; noise in a column makes that column's
+# gain too small, however long the log is.
 # </details>
 #
 # **2.** Somebody's kS is −0.1 V, kA is three times what you expect, the simulated velocity R² is
@@ -979,9 +1021,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# At kA, not at friction. The ramp pins down kS + kA·(ramp/kV), so a kA that is too large pushes kS
-# down. Look for noise in the velocity, for a log of the asked-for voltage, for slip. The R² says
-# little: it does not see any of these well.
+# At kA, not at friction. The ramp determines kS + kA·(ramp/kV), so if kA is too large, kS is too
+# small. Look for noise in the velocity, for a log of the commanded voltage, for slip. R² does not
+# show any of these well.
 # </details>
 #
 # **3.** Your acceleration R² is 0.35. Is the fit bad?
@@ -989,7 +1031,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # Not necessarily. WPILib's docs call values above 0.5 rare even for good data. Below about 0.2, kA
-# is dubious. Compare kA with its prediction, and forward with reverse.
+# is dubious. Compare kA with motors and mass, and forward with reverse.
 # </details>
 #
 # **4.** Your flywheel has kA/kV = 400 ms, your turret 15 ms. For which one is a median window of 5
@@ -997,35 +1039,37 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The flywheel: five samples are 100 ms, a quarter of its timescale. The turret is up to speed
-# within a few samples; the filter erases its kA, and even without one, 20 ms is too slow to see it.
+# For the flywheel: five samples are 100 ms, a quarter of its time constant. The turret reaches its
+# speed within a few samples, so the filter destroys its kA. Even without a filter, 20 ms is too
+# slow for it.
 # </details>
 #
 # **5.** A teammate pastes SysId's kP and the drivetrain shakes. "So SysId is wrong." Is it?
 #
 # <details><summary>Answer</summary>
 #
-# kP follows from q, r and the delay. Was the preset of the right motor controller chosen, and with
-# it the delay? Are the gains per meter and the controller counting in rotations? Then start lower.
-# It is a starting point.
+# Not necessarily. kP depends on q, r and the delay. Did they choose the preset of the right motor
+# controller, and with it the right delay? Are the gains per meter while the controller counts
+# rotations? If all that is right, start with a lower kP. It is only a starting point.
 # </details>
 
 # %% [markdown]
 # ## 14 Practice
 #
-# **Exercise 9.** Write your gains and both R² into `exercises/exercise9/answers.toml`, then
+# **Exercise 9** (`exercises/exercise9/README.md`). Write your gains and both R² into
+# `exercises/exercise9/answers.toml`, then
 #
 # ```
 # grade exercise9
 # ```
 #
-# If a number is off by a factor that has a name (2π, a swapped pair, a sign), it will tell you.
-# Hints cost nothing: `grade exercise9 --hint`.
+# If a number is wrong by a well-known factor (2π, a sign) or if you swapped two numbers, the
+# feedback says so. Hints cost nothing: `grade exercise9 --hint`.
 #
-# **More, if you like.**
+# <details><summary>More, if you like</summary>
 #
 # - Make `my_fit` print how far forward-only and reverse-only gains differ.
-# - Fit the shooter with a window of 15. Why does it survive?
+# - Fit the shooter with a window of 15. Why are its gains still good?
 # - Give the robot a noisy standstill and a slow ramp, and find the threshold that helps kA:
 #
 #   ```python
@@ -1033,5 +1077,7 @@ quick
 #   slow_log = simulate(noisy, sim.Routine(ramp=0.25, step=3.5), rng=np.random.default_rng(0))
 #   my_fit(slow_log, threshold=0.0)
 #   ```
+# </details>
 #
-# Next: lesson 8, from the analyzer to the robot.
+# **Next:** [Lesson 8, from the analyzer to the robot](08_from_analyzer_to_robot.ipynb). Where do
+# the gains go?

@@ -13,27 +13,27 @@
 # %% [markdown]
 # # Lesson 8: From the analyzer to the robot
 #
-# *About 45 minutes. You need lessons 1, 2 and 7. No robot is needed today; if you have one, bring
-# its log.*
+# *About 45 minutes. You need lessons 1, 2 and 7. You need no robot today. If you have a log of one,
+# bring it.*
 #
 # **At the end you can**
 #
 # - turn a fit into constants that somebody else can read, with units;
-# - choose the feedforward class, and hand over its arguments in the right order;
-# - name a wrong unit or a wrong slot from what the robot does;
-# - say what kP can and cannot repair;
+# - choose the feedforward class, and pass its arguments in the right order;
+# - recognize a wrong unit or a wrong argument order from what the robot does;
+# - say what kP can and cannot fix;
 # - decide which mechanisms to characterize, and when in the season.
 
 # %% [markdown]
 # ## 1 Why: no error message
 #
-# The analyzer shows three or four numbers. They have to get into your code. It is a small step, and
-# much goes wrong there: a number per rotation meets code in radians, kG lands in the place of kV, a
-# suggested kP is taken for the last word. **Nothing crashes.** The robot just moves wrong.
+# The analyzer shows three or four numbers, and you put them into your code. It is a small step, but
+# much can go wrong: the gain is per rotation and the code uses radians, kG is in the place of kV,
+# somebody uses the suggested kP without a test. **Nothing crashes.** The robot just moves wrong.
 #
 # A *feedforward* is the part of a controller that computes the voltage from what you **want**: "for
 # 40 rotations per second I need 5 V". *Feedback* looks at what you **get**, and corrects. Today we
-# let both drive on the bench, and make the mistakes on purpose.
+# simulate both, and make the mistakes on purpose.
 
 # %%
 import math
@@ -75,15 +75,21 @@ Table(
 )
 
 # %% [markdown]
-# *One standard error* says how far noise alone may have moved a number. Here it is tiny, because
-# the bench's fit also follows the position, which hardly shakes. It knows nothing of what the model
-# leaves out. On a robot that is far more (lesson 9): believe two or three digits.
+# *One standard error* shows how far noise alone may have moved a number. Here it is tiny, because
+# the fit also uses the position, which has little noise. But it does not include what the model
+# leaves out. On a robot that is far more (lesson 9): trust two or three digits.
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
 #
-# The source lesson puts the numbers into `Constants.java`, in a class of their own, each with its
-# unit in a comment, and above them a note *when to measure again*. Keep all three habits.
+# Put the numbers into `Constants.java`, in a class of their own, each with its unit in a comment,
+# and above them a note *when to measure again*. Keep all three habits.
+#
+# Somebody else's constants are examples to read, not to copy. Take a drivetrain with TalonFX
+# motors, ratio 8.46, 4 inch wheels and `kV = 2.68`. A real kV must be *above* the kV on paper
+# (lesson 1). Is it?
+#
+# <details><summary>For mentors: the source lesson's constants</summary>
 #
 # > **Lesson says:** a drivetrain with TalonFX motors, ratio 8.46 and 4 in wheels has `kV = 2.68`,
 # > and "SysId suggests kP = 0.62".
@@ -94,6 +100,7 @@ Table(
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** the next cell computes that promise for three motors, and holds 2.68 against it.
+# </details>
 
 # %%
 METERS = math.pi * 0.1016 / 8.46  # [m] for one turn of the motor
@@ -105,24 +112,22 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
 Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
 
 # %% [markdown]
-# Below theory by more than a few percent means bookkeeping: another ratio, another wheel, another
-# unit. The constants of the source lesson are an example to read, not to copy. (The 0.62 we took
-# apart in lesson 7.)
+# If kV is more than a few percent below paper, a number is wrong: the ratio, the wheel, or the
+# unit.
 #
-# The bench writes constants for you, with errors as comments. In a terminal:
+# `sysid fit` can write the constants for you, with their errors as comments. In a terminal:
 #
 # ```
 # sysid fit my_log.wpilog --paste java
 # ```
 #
-# Here is the same for our shooter. Each number has as many digits as its error allows:
+# Here is the code for our shooter. Each number has as many digits as its error allows:
 
 # %%
 print(write_robot_code(found, language="java", season=2026, name="shooter"))
 
 # %% [markdown]
-# (No buttons on your screen? Type `guess_season.value = "nothing"` in a cell.) **Predict** what
-# differs between 2026 and 2027:
+# **Predict** what differs between 2026 and 2027:
 
 # %%
 guess_season = Prediction(
@@ -143,18 +148,19 @@ for language in ("java", "python"):
     print(f"{language}, lines that are in one season only:")
     print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
     print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
-print(f"You said: {guess_season}.")
+print(guess_season.reveal("the package and a method's name"))
 
 # %% [markdown]
-# The physics does not change with a season. Names do. (2027's are those of WPILib's development
-# branch; look again when it is released.)
+# The physics does not change with the season, but names do. (The names for 2027 come from WPILib's
+# development branch; check again after the release.)
 #
-# **Units.** `kS` and `kG` are volts, always. `kV` and `kA` are per meter, per rotation or per
-# radian: *as the code counts that calls the feedforward*. Two rules:
+# **Units.** `kS` and `kG` are always volts. `kV` and `kA` are per meter, per rotation or per
+# radian: *they must have the unit of the velocity that your code passes to the feedforward*. Two
+# rules:
 #
-# - **A unit conversion belongs in one place.** In the constant, or at the call; never in both.
+# - **Convert a unit in one place.** Either in the constant or at the call, never in both.
 # - **kP belongs to its loop.** A PIDController whose output you give to `setVoltage` needs a kP in
-#   volts per unit of error. A motor controller's own loop may put out a duty cycle from −1 to 1:
+#   volts per unit of error. A motor controller's own loop may output a duty cycle from −1 to 1:
 #   then divide that kP by 12.
 
 # %% [markdown]
@@ -168,6 +174,11 @@ print(f"You said: {guess_season}.")
 #
 # In Python, the first is `SimpleMotorFeedforwardMeters` or `SimpleMotorFeedforwardRadians`.
 #
+# With gravity there are **four** arguments, and kG is the **second**. All four are plain numbers,
+# so the compiler accepts them in any order.
+#
+# <details><summary>For mentors: the feedforward classes, with source</summary>
+#
 # > **Lesson says:** "Place the analyzed gains into `Constants.java` and connect them to the
 # > appropriate feedforward class"; WPILib's arm and elevator classes "can absorb kG in addition to
 # > the kS/kV/kA values".
@@ -177,11 +188,15 @@ print(f"You said: {guess_season}.")
 # > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
 # > **Try it:** an elevator is told to hold still. Somebody learned "kS, kV, kA" and puts kG last.
+# </details>
+#
+# Now somebody remembers "kS, kV, kA" and puts kG last. The code asks the elevator to hold still.
+# **Predict:**
 
 # %%
 lift = elevator.gains
 guess_slot = Prediction(
-    "new ElevatorFeedforward(kS, kV, kA, kG), told to hold still. What does the carriage do?",
+    "new ElevatorFeedforward(kS, kV, kA, kG), target: hold still. What does the carriage do?",
     "it holds",
     "it sinks",
     "it rises",
@@ -190,8 +205,9 @@ guess_slot = Prediction(
 guess_slot
 
 # %% [markdown]
-# Now we need something that drives. `moved` plays mechanism, one loop of 20 ms after another: the
-# function `volts` is asked what to apply, and sees all positions and velocities so far.
+# Now we need something that drives. `moved` simulates a mechanism, one loop of 20 ms after another.
+# In each loop it calls the function `volts`, which gets all positions and velocities so far and
+# returns a voltage.
 
 
 # %%
@@ -200,7 +216,7 @@ Volts = Callable[[int, list[float], list[float]], float]
 
 
 def moved(gains: dict[str, float], volts: Volts, *, loops: int, arm: bool = False) -> np.ndarray:
-    """Positions and velocities (2, loops + 1) of a mechanism, from rest, under asked-for volts."""
+    """Positions and velocities (2, loops + 1) of a mechanism, from rest, with these volts."""
     x, v = [0.0], [0.0]
     kept = math.exp(-gains["kV"] / gains["kA"] * LOOP / STEPS)
     for loop in range(loops):
@@ -223,7 +239,7 @@ def moved(gains: dict[str, float], volts: Volts, *, loops: int, arm: bool = Fals
 
 
 # %% [markdown]
-# At rest, an elevator's feedforward is what stands in the kG slot and nothing else.
+# At rest, the output of an elevator's feedforward is simply its second argument.
 
 # %%
 orders = {
@@ -236,22 +252,21 @@ for name, order in orders.items():
     slot = lift[order[ORDER["elevator"].index("kG")]]
     seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
     rows.append((name, slot, 100 * float(seconds[0, -1])))
-print(f"You said: {guess_slot}. It needs {lift['kG']:.2f} V, ± {lift['kS']:.2f} V of friction.")
-Table(
-    ("arguments handed over", "volts while holding still [V]", "after one second [cm]"), tuple(rows)
-)
+print(guess_slot.reveal("it rises"))
+print(f"It needs {lift['kG']:.2f} V to hold, ± {lift['kS']:.2f} V of friction.")
+Table(("arguments", "volts while holding still [V]", "after one second [cm]"), tuple(rows))
 
 # %% [markdown]
-# (The bench's elevator may move on forever here; a real one meets its stop, with force.)
+# (Our simulated elevator may move on forever; a real one hits its stop with force.)
 #
 # ### `calculate`: velocities, not an acceleration
 #
-# In Java, `calculate(velocity, acceleration)` is deprecated: in its place comes
-# `calculateWithVelocities(velocity, nextVelocity)`, the velocity now and the one in the next loop.
-# Python's `calculate` takes two velocities, too.
-# ([WPILib Java docs: SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html))
-# (Some pages of WPILib's docs still show the old call. The class's own documentation decides.) An
-# acceleration handed over as a velocity is one more wrong slot.
+# In Java, `calculate(velocity, acceleration)` is deprecated. Use `calculateWithVelocities(velocity,
+# nextVelocity)`: the velocity now and the velocity in the next loop. Python's `calculate` takes two
+# velocities, too. If you pass an acceleration as a velocity, the voltage is wrong. ([WPILib Java
+# docs:
+# SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html);
+# some pages of WPILib's docs still show the old call.)
 #
 # kS gets the sign of the *current* velocity. From rest that velocity is zero, so there is no kS in
 # the first loop. The profile below asks for kS at once.
@@ -289,13 +304,13 @@ print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:
 # %% [markdown]
 # ## 4 A profile follower, and wrong units
 #
-# The shooter shall spin up smoothly, hold, and spin down: a **profile**, a target velocity for each
-# moment. Each loop applies
+# The shooter should spin up smoothly, hold its speed, and spin down. This is a **profile**: a
+# target velocity for each moment. Each loop applies
 #
 # > kS·sgn(v) + kV·v + kA·(v_next − v)/0.02 s &nbsp; + &nbsp; kP·(v − measured)
 #
-# The first part is the feedforward; kP is 0 to begin with. (WPILib computes the kA term a bit more
-# exactly, with the mechanism's timescale.)
+# The first part is the feedforward; kP is 0 at first. (WPILib computes the kA term a bit more
+# exactly, with the time constant of the mechanism.)
 
 # %%
 TIME = np.arange(0.0, 4.0, LOOP)
@@ -342,13 +357,13 @@ GAINS = {
 
 # %%
 guess_radian = Prediction(
-    "kV per radian, the target in rotations. How fast does the wheel get?",
+    "kV is per radian, the target is in rotations. How fast does the wheel turn?",
     "about 6 times too fast",
     "about a sixth of the target",
     "the target, but later",
 )
 guess_rotation = Prediction(
-    "kV per rotation, the target in radians, which is a number 6.28 times as large. The wheel…",
+    "kV is per rotation, the target is in radians: a number 6.28 times as large. The wheel…",
     "stands still",
     "runs as fast as 12 V can make it",
     "follows, a bit too fast",
@@ -356,12 +371,12 @@ guess_rotation = Prediction(
 display(guess_radian, guess_rotation)
 
 # %% [markdown]
-# Choose gains, and a kP. (kP is per rotation, whatever the feedforward's unit.)
+# Choose gains and a kP. (kP is always per rotation.)
 
 
 # %%
 def follower(gains: str, kp: float) -> Picture:
-    """The profile, and what the wheel makes of it."""
+    """The profile, and the velocity of the wheel."""
     title = f"kP = {kp:g} V per rot/s"
     return plot_tracking_error(
         TIME, TARGET, {gains: follow(GAINS[gains], kp)}, unit="rot/s", title=title
@@ -383,13 +398,14 @@ show_interactive(
 follower("per radian, fed rotations", 0.0)
 
 # %% [markdown]
-# And all of them at once, without and with feedback:
+# The next table shows all of them, without and with feedback:
 
 # %%
 SOME = 0.2  # [V per rot/s]
-print(f"You said: {guess_radian}; {guess_rotation}.")
+print(guess_radian.reveal("about a sixth of the target"))
+print(guess_rotation.reveal("runs as fast as 12 V can make it"))
 Table(
-    ("gains", "top speed [rot/s]", "miss [rot/s], kP = 0", f"miss [rot/s], kP = {SOME}"),
+    ("gains", "top speed [rot/s]", "error [rot/s], kP = 0", f"error [rot/s], kP = {SOME}"),
     tuple(
         (name, float(follow(one).max()), measure_tracking_error(TARGET, follow(one)).typical,
          measure_tracking_error(TARGET, follow(one, SOME)).typical)
@@ -402,28 +418,33 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# - **Per radian, fed rotations:** the volts are 2π times too small. The wheel crawls.
-# - **Per rotation, fed radians:** 2π times too large. More than 12 V there is not, so the wheel
-#   runs as fast as it can. On a drivetrain or an arm this is the dangerous one.
-# - **Swapped:** far too much where it speeds up, far too little where it holds its speed.
+# - **Per radian, but the code passes rotations:** the voltage is 2π times too small. The wheel is
+#   very slow.
+# - **Per rotation, but the code passes radians:** the voltage is 2π times too large. There are only
+#   12 V, so the wheel runs as fast as it can. On a drivetrain or an arm this is dangerous.
+# - **Swapped:** far too much voltage where the wheel speeds up, far too little where it holds its
+#   speed.
 # - **kA left out:** good where the target is steady, late on the slopes. For many mechanisms that
-#   is all you need; WPILib's docs say that kA can be left out, and AdvantageKit's swerve template
-#   calls the drive's kA "unnecessary in most cases".
-#   ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
-#   [AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
-# - **kP hides it.** Look at the right column. With feedback, wrong units become a smaller miss: it
-#   "works", only badly, and everybody turns kP. If a good kP does not help, suspect the unit.
+#   is enough: WPILib's docs say that you may leave out kA, and AdvantageKit's swerve template calls
+#   the drive's kA "unnecessary in most cases". ([WPILib docs: Feedforward Control in
+#   WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
+#   [AdvantageKit docs: TalonFX Swerve
+#   Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
+# - **kP hides the mistake.** Look at the right column. With feedback, wrong units only give a
+#   smaller error: it "works", but badly, and everybody changes kP. If a good kP does not help,
+#   check the unit.
 #
-# The cheapest check there is: compute one voltage by hand. `kS + kV · (a speed you know)` must be
-# near what you would expect, between 0 and 12 V.
+# The easiest check: compute one voltage by hand. `kS + kV · (a speed you know)` must be plausible,
+# between 0 and 12 V.
 
 # %% [markdown]
 # ## 5 Droop: what kP can do, and what not
 #
-# A shooter has good gains. It is told 4000 rpm and reaches 3900. In our case the reason is known:
-# the code says `set(volts / 12)`, and the battery has 11.7 V, so 2.5 % of each volt is missing.
+# A shooter has good gains. Its target is 4000 rpm, and it reaches 3900. Here we know the reason:
+# the code calls `set(volts / 12)`, and the battery has 11.7 V, so the motor gets 2.5 % less
+# voltage.
 #
-# Now add kP to it, and nothing else. **Predict:**
+# Now add kP, and change nothing else. **Predict:**
 
 # %%
 guess_kp = Prediction(
@@ -441,7 +462,7 @@ STEADY = wheel["kS"] + wheel["kV"] * WANTED
 
 
 def left_over(kp: float, share: float = 11.7 / 12.0) -> float:
-    """By how many rpm the wheel stays below its target, when a share of each volt arrives."""
+    """By how many rpm the wheel stays below its target, if it gets a share of each volt."""
 
     def volts(_: int, __: list[float], v: list[float]) -> float:
         return share * (STEADY + kp * (WANTED - v[-1]))
@@ -454,7 +475,7 @@ DROOP = [left_over(kp) for kp in KPS.tolist()]
 
 
 def droop(kp: float) -> Picture:
-    """What is left of the error, over kP."""
+    """The remaining error, over kP."""
     return plot_curves(
         KPS,
         {"simulated": DROOP, "error without kP ÷ (1 + kP/kV)": DROOP[0] / (1 + KPS / wheel["kV"])},
@@ -472,15 +493,15 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider? Here:
+# No slider? Change the number here:
 
 # %%
 droop(0.12)
 
 # %%
-print(f"You said: {guess_kp}.")
+print(guess_kp.reveal("half of it"))
 Table(
-    ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "share that is left"),
+    ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "remaining share"),
     tuple(
         (f"{times}", times * wheel["kV"], left_over(times * wheel["kV"]),
          f"{100 * left_over(times * wheel['kV']) / DROOP[0]:.0f} %")
@@ -489,9 +510,8 @@ Table(
 )  # fmt: skip
 
 # %% [markdown]
-# To apply a correction, P feedback needs an error. So it never removes all of it: what is left is
-# about **error ÷ (1 + kP/kV)**. This is called *droop*. A larger kP leaves less. Why not take a
-# huge one?
+# P feedback only acts when there is an error. So it never removes the whole error: about **error ÷
+# (1 + kP/kV)** remains. This is called *droop*. A larger kP leaves less. So why not use a huge kP?
 
 # %%
 late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms late"}
@@ -513,31 +533,37 @@ away = [
     )
     for kp in (0.1, 0.3, 0.6, 1.2)
 ]
-Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical miss [rot/s]")
+Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error [rot/s]")
 
 # %% [markdown]
-# A correction that comes late corrects what is no longer wrong. With a late measurement a large kP
-# makes things worse, until it swings. Motor controllers differ: in SysId's presets a Phoenix 6
-# velocity is 1 ms late, that of a NEO's own encoder 112 ms.
-# ([SysId's source: FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
+# A late measurement makes a late correction: it corrects an error that is already gone. Then a
+# large kP makes things worse, until the speed oscillates. Motor controllers differ: in SysId's
+# presets the velocity of Phoenix 6 is 1 ms late, that of a NEO's own encoder 112 ms. ([SysId's
+# source:
+# FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
+# So choose the preset of your motor controller, and use the suggested kP only as a starting point.
+#
+# <details><summary>For mentors: is the suggested kP final?</summary>
 #
 # > **Lesson says:** "SysId suggests kP = 0.62 — start here, tune on carpet with fresh battery."
 # >
 # > **Source says:** right. The suggested feedback gains are "educated guesses", a "starting point".
-# > ([WPILib docs: Analyzing Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
+# > ([WPILib docs: Analyzing
+# > Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
 # > Which number it suggests depends on settings (lesson 7), among them the delay.
 # >
 # > **Try it:** choose the preset of your motor controller, and see whether kP changes.
+# </details>
 #
-# So for the 3900 rpm: **keep the gains**, mend what takes the volts (`setVoltage` instead of
-# `set(volts / 12)`), then add feedback for the rest. Do *not* raise kV until the display says 4000:
-# the number is then right for one speed and one battery.
+# For the 3900 rpm that means: **keep the gains**, fix the missing voltage (`setVoltage` instead of
+# `set(volts / 12)`), then add feedback for the rest. Do *not* raise kV until the display shows
+# 4000: kV would then be right for one speed and one battery only.
 
 # %% [markdown]
 # ## 6 An arm that droops
 #
-# The same droop with gravity. An arm was characterized **empty**. Now it holds a game piece, out at
-# the end, level. A *position* loop with kP holds it: kP volts for each radian.
+# The same happens with gravity. Somebody characterized an arm **empty**. Now it holds a game piece
+# at its end, level. A *position* loop with kP holds the arm: kP volts for each radian of error.
 #
 # **Predict:**
 
@@ -554,7 +580,7 @@ guess_arm
 # %%
 PIECE, REACH = 1.0, 0.5  # [kg], [m] from the joint
 bare = arm.gains
-torque = 4.0 * 0.5 * 9.81  # [N·m] of the empty arm, level; kG pays for it
+torque = 4.0 * 0.5 * 9.81  # [N·m] of the empty arm, level: kG volts hold it
 inertia = arm.load * (1.0 + arm.spin)  # [kg·m²]
 loaded = bare | {
     "kG": bare["kG"] * (1 + PIECE * REACH * 9.81 / torque),
@@ -563,7 +589,7 @@ loaded = bare | {
 
 
 def sag(kp: float, *, told: dict[str, float]) -> float:
-    """How far the loaded arm hangs below level [degrees], with gains it was told."""
+    """How far the loaded arm hangs below level [degrees] with these gains."""
 
     def volts(_: int, x: list[float], v: list[float]) -> float:
         return told["kG"] * math.cos(0.0) + kp * (0.0 - x[-1]) - 0.1 * v[-1]
@@ -571,7 +597,7 @@ def sag(kp: float, *, told: dict[str, float]) -> float:
     return -math.degrees(float(moved(loaded, volts, loops=200, arm=True)[0, -1])) + 0.0
 
 
-print(f"You said: {guess_arm}.")
+print(guess_arm.reveal("kG and kA"))
 for name, one in (("Empty: ", bare), ("Loaded:", loaded)):
     print(f"{name} kG {one['kG']:.2f} V, kA {one['kA']:.3f} V·s²/rad.")
 print("kV and kS stay.")
@@ -590,10 +616,15 @@ Table(
 )
 
 # %% [markdown]
-# At most, the arm hangs by (missing kG)/kP; friction carries a part of that. A larger kP makes it
-# less, and never zero. The right kG does it without any error. So: measure **with and without** the
-# piece (or compute the second from mass and distance), and switch the gains when the sensor sees a
-# piece.
+# The arm hangs at most (missing kG)/kP below level; friction carries a part of it. A larger kP
+# makes the droop smaller, but never zero. The right kG removes it. So measure **with and without**
+# the piece (or compute the second kG from mass and distance), and switch the gains when a sensor
+# sees the piece.
+#
+# **Myth check.** "kA and kV change with the load." *Half true:* kA and kG grow with the mass. kV
+# does not: it is the motor's back-EMF, seen through the gears. The next cell loads our elevator.
+#
+# <details><summary>For mentors: which gains change with the load?</summary>
 #
 # > **Lesson says:** run the elevator with full payload "since kA and kV change significantly with
 # > load mass".
@@ -603,6 +634,7 @@ Table(
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** the next cell loads the bench's elevator.
+# </details>
 
 # %%
 rows = []
@@ -614,9 +646,9 @@ Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(ro
 # %% [markdown]
 # ## 7 Place three gain sets
 #
-# Three fits, and somebody forgot to write down of what. They come from the bench's **drivetrain**,
-# **elevator** and **shooter**. kV and kA are per meter or per radian; the table does not say which,
-# on purpose. The feedforward must get the right class and the right slots. Whose are they?
+# You find three sets of gains, and somebody forgot to write down which mechanism they belong to.
+# One is from a **drivetrain**, one from an **elevator** and one from a **shooter**. kV and kA are
+# per meter or per radian; the table does not say which. Match each set with its mechanism.
 
 # %%
 sets = {"set 1": "retoohs", "set 2": "niartevird", "set 3": "rotavele"}  # read it backward
@@ -642,7 +674,9 @@ guess_three = Prediction("Set 3 belongs to the…", *OWNERS)
 display(guess_one, guess_two, guess_three)
 
 # %%
-print(f"You said: {guess_one}, {guess_two}, {guess_three}.")
+print(guess_one.reveal(sets["set 1"][::-1]))
+print(guess_two.reveal(sets["set 2"][::-1]))
+print(guess_three.reveal(sets["set 3"][::-1]))
 rows = []
 for name, one in fits.items():
     cls = CLASSES.get(one.type, "SimpleMotorFeedforward")
@@ -651,34 +685,40 @@ for name, one in fits.items():
 Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(rows))
 
 # %% [markdown]
-# The clues: a kG means gravity. (12 − kS)/kV is the top speed (with gravity, take kG off as well):
-# a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV is how slowly it answers: a
-# heavy wheel takes its time.
+# The clues: if there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract
+# kG as well): a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly
+# the mechanism reacts: a heavy wheel takes its time.
 
 # %% [markdown]
 # ## 8 Which mechanisms, and when
 #
-# A test costs time and wear. Ask: **what would be worse with gains that are 5 % off?**
+# A test takes time and wears the robot. Ask: **what would be worse with gains that are 5 % off?**
 #
 # | mechanism | characterize? | because |
 # |---|---|---|
-# | drivetrain | **always** | wrong volts lead away from the path |
+# | drivetrain | **always** | with a wrong voltage it leaves its path |
 # | shooter wheel | **always** | its speed at one moment decides the shot |
-# | arm, pivot | **recommended** | gravity changes with the angle; no one guess fits |
+# | arm, pivot | **recommended** | gravity changes with the angle; a single guess cannot fit |
 # | elevator | **recommended** | gravity pulls all the time, and the load changes kG and kA |
 # | intake rollers | optional | only if their *speed* is controlled |
-# | climber | optional | only if it follows a profile, to be gentle; to get there, a high kP does |
+# | climber | optional | only if it must follow a profile; otherwise a high kP is enough |
 # | conveyor, indexer | usually not | on and off is enough |
 #
-# The fine print:
+# Some details:
 #
-# - **Drivetrain:** kS and kV do most of the work. kA also tells the mass, and a second kA measured
-#   while turning on the spot tells the moment of inertia (below).
-# - **Arm:** first without the game piece, then with it (section 6). A light arm with a short way
-#   may do well with computed gains.
+# - **Drivetrain:** kS and kV do most of the work. From kA you also get the mass, and from a second
+#   kA, measured while turning on the spot, the moment of inertia (below).
+# - **Arm:** first without the game piece, then with it (section 6). For a light, short arm,
+#   computed gains may be enough.
 # - **Elevator:** with its load. kA and kG change with the mass, kV does not.
-# - **Optional** means: it depends on what it has to do on *your* robot. Give the reason, and either
-#   answer is right.
+# - **Optional** means that it depends on the task on *your* robot. Either answer is right if you
+#   give the reason.
+#
+# If you have no room or time, WPILib's docs say that you can compute "reasonable estimates of kG,
+# kV, and kA", while kS "must be measured". For each row of the table, say what your robot would do
+# worse. If you find nothing, do not test it.
+#
+# <details><summary>For mentors: does every team characterize everything?</summary>
 #
 # > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
 # > closed-loop control."
@@ -689,8 +729,15 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
 # > **Try it:** for each row of the table, say what your robot would do worse. No answer? No test.
+# </details>
 #
 # ### PathPlanner, Choreo, AdvantageKit: where the gains come in
+#
+# PathPlanner does not ask for kS or kV. It asks for mass, moment of inertia, wheels, motors and
+# true top speed. From these it plans speeds, and your drive code has to reach them. For that your
+# code needs the feedforward: a robot that is late on the slopes leaves its path in every curve.
+#
+# <details><summary>For mentors: what PathPlanner needs, with source</summary>
 #
 # > **Lesson says:** "The payoff is compounding: a characterized drivetrain lets PathPlanner produce
 # > accurate autonomous trajectories."
@@ -702,9 +749,10 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # >
 # > **Try it:** in section 4, how far from its profile does the shooter stay without kA? A robot
 # > that is late on the slopes is beside its path in every curve.
+# </details>
 #
-# - **PathPlanner's moment of inertia** can be computed from two kA's: one measured while turning on
-#   the spot, one while driving straight. One kA tells mass, the other tells inertia:
+# - **PathPlanner's moment of inertia** follows from two kA values: one measured while turning on
+#   the spot, one while driving straight. One kA gives the mass, the other the inertia:
 #
 #   > I = mass · r · kA_angular / kA_linear
 #
@@ -712,17 +760,17 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   **tank** that is half the trackwidth, r = trackwidth/2, as the same page has it. The modules of
 #   a **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
 #
-# - **Choreo** computes time-optimal paths that respect what you tell it about your robot. The same
-#   holds: a path is only as good as the drive code that follows it.
-#   ([WPILib docs: Choreo](https://docs.wpilib.org/en/latest/docs/software/pathplanning/choreo/index.html))
-# - **AdvantageKit's** swerve templates bring a simple routine for kS and kV of the drive, and
-#   SysId's four tests for those who want kA. Its log counts in **radians**, Phoenix in
-#   **rotations**: 2π again.
-#   ([AdvantageKit docs: TalonFX Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
+# - **Choreo** computes time-optimal paths from what you tell it about your robot. Here too, a path
+#   is only as good as the drive code that follows it. ([WPILib docs:
+#   Choreo](https://docs.wpilib.org/en/latest/docs/software/pathplanning/choreo/index.html))
+# - **AdvantageKit's** swerve templates contain a simple routine for kS and kV of the drive, and
+#   SysId's four tests if you want kA. Its log uses **radians**, Phoenix uses **rotations**: a
+#   factor of 2π again. ([AdvantageKit docs: TalonFX Swerve
+#   Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
 #
-# Why does the formula work? Straight ahead, the wheels push mass; on the spot, they push inertia,
-# with the lever r. The motors are the same, so the ratio of the kA's is the ratio of the loads. On
-# the bench, with the modules of a square swerve:
+# Why does the formula work? Driving straight, the wheels accelerate the mass. Turning on the spot,
+# they accelerate the inertia, with the lever r. The motors are the same, so the ratio of the kA
+# values is the ratio of the loads. Check it in the simulation, with the modules of a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
@@ -737,6 +785,16 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # %% [markdown]
 # ### When
 #
+# Plan the tests for the last two weeks of build season: the robot is mechanically finished, and you
+# are still writing software. You need at least 10 feet to drive, ideally 20, and a pit is too
+# small. Write two evenings into the calendar before your first competition: one to measure, one to
+# measure again.
+#
+# Measure again when mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
+# repaired (kS). Keep the old log: the comparison shows what broke.
+#
+# <details><summary>For mentors: the schedule, with source</summary>
+#
 # > **Lesson says:** "Build characterization time into your schedule during the last two weeks of
 # > build season, when the robot is mechanically done but the software is still being written." And
 # > the gains from the shop "will transfer directly to competition".
@@ -744,14 +802,12 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > **Source says:** the first is good advice; WPILib's docs ask for at least 10 feet to drive,
 # > ideally 20, and a pit does not have that. The second needs fine print: the gains describe *that*
 # > robot on *that* floor. The source lesson says so itself: measure again if gearing, wheels or
-# > carpet contact change.
-# > ([WPILib docs: Characterizing Your Robot Drive](https://docs.wpilib.org/en/stable/docs/software/pathplanning/trajectory-tutorial/characterizing-drive.html))
+# > carpet contact change. ([WPILib docs: Characterizing Your Robot
+# > Drive](https://docs.wpilib.org/en/stable/docs/software/pathplanning/trajectory-tutorial/characterizing-drive.html))
 # >
 # > **Try it:** count back from your first competition. Write two evenings into the calendar: one to
 # > measure, one to measure again.
-#
-# Measure again when: mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
-# mended (kS). Keep the old log; the comparison finds what broke.
+# </details>
 #
 # Gains also drift within a match. Copper that is 50 °C warmer has 20 % more resistance, so the same
 # push takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes no
@@ -761,13 +817,13 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # ## 9 Your own robot
 #
 # 1. Fetch the log (lesson 5), look at it (lesson 6), inspect it: `sysid inspect my_log.wpilog`
-# 2. Fit it in the unit that your code counts in, with its type:
+# 2. Fit it with its type, in the unit that your code uses:
 #
 #    ```
 #    sysid fit my_log.wpilog --type arm --units radians
 #    ```
 #
-# 3. Let it write the code, and paste it into its own file:
+# 3. Let it write the code, and paste it into a new file:
 #
 #    ```
 #    sysid fit my_log.wpilog --paste java
@@ -780,30 +836,31 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #    sysid fit monday_1.wpilog monday_2.wpilog monday_3.wpilog
 #    ```
 #
-#    It fits each alone, compares, and averages. Look at the spread beside the error bars. If it is
-#    larger, something changes between the recordings: the battery, the heat of the motors, a
-#    bearing.
-# 5. Compute one voltage by hand before you enable. Then: small targets, robot on the floor, a hand
-#    on Disable. First with kP = 0, and look whether it *nearly* follows. Then kP.
+#    The command fits each log alone, compares them, and averages. Compare the spread with the error
+#    bars. If it is larger, something changes between the recordings: the battery, the heat of the
+#    motors, a bearing.
+# 5. Compute one voltage by hand before you enable. Then use small targets, with the robot on the
+#    floor and a hand on Disable. Start with kP = 0, and check that the mechanism *nearly* follows.
+#    Then add kP.
 #
-# For an arm the code comes per radian, with the offset that makes your sensor's reading the angle
-# from horizontal. When gains cannot be right, it writes no code and says why.
+# For an arm the code is per radian, with the offset that turns your sensor's reading into the angle
+# from horizontal. If the gains cannot be right, the command writes no code and explains why.
 
 # %% [markdown]
 # ## 10 System check
 #
-# Before you enable with new gains, all five:
+# Before you enable with new gains, check all five:
 #
 # - [ ] Every constant has its unit in a comment, and a note when it was measured.
-# - [ ] The class fits the analysis type, and **kG** is in the second place.
-# - [ ] The unit of kV is the unit in which your code hands over velocities.
-# - [ ] One voltage, computed by hand, lies between 0 and 12 V and makes sense.
-# - [ ] kP is marked as a start, fits its loop's output, and the first try is with kP = 0.
+# - [ ] The class fits the analysis type, and **kG** is the second argument.
+# - [ ] The unit of kV is the unit of the velocities that your code passes.
+# - [ ] One voltage, computed by hand, is between 0 and 12 V and makes sense.
+# - [ ] kP is marked as a starting value and fits the output of its loop. The first try is with kP =
+#   0.
 #
 # ## 11 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("it holds still")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -811,9 +868,9 @@ from grader import QuickCheck
 quick = QuickCheck(
     "new ElevatorFeedforward(kS, kV, kA): what does the elevator do at zero speed?",
     {
-        "it holds still": "Count the slots: kG stands second.",
-        "it gets kV as kG": "The second slot is kG: it is pushed with kV volts, gravity or not.",
-        "it does not compile": "All of them are numbers, and three are enough: nothing complains.",
+        "it holds still": "Count the arguments: kG is the second.",
+        "it gets kV as kG": "The second argument is kG: it gets kV volts, whatever gravity needs.",
+        "it does not compile": "All are numbers, and three are enough: the compiler accepts them.",
     },
     right="it gets kV as kG",
 )
@@ -821,14 +878,14 @@ quick
 
 # %% [markdown]
 # **1.** A shooter has kS = 0.11 V, kV = 0.082 V·s/rot, kA = 0.003. Told 4000 rpm, it stays at 3900.
-# Are the gains bad?
+# Are the gains wrong?
 #
 # <details><summary>Answer</summary>
 #
-# No. 4000 rpm are 66.7 rot/s, so the feedforward asks for 0.11 + 0.082 · 66.7 = 5.58 V. 2.5 % less
-# speed is what a model without feedback leaves. Keep the gains; check units and that the volts
-# arrive (`set(volts / 12)` on an 11.7 V battery does exactly this); then add feedback. kP alone
-# leaves a part.
+# No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. A model
+# without feedback may well be 2.5 % too slow. Keep the gains; check the units, and that the motor
+# gets the full voltage (`set(volts / 12)` on an 11.7 V battery causes exactly this error); then add
+# feedback. kP alone does not remove the whole error.
 # </details>
 #
 # **2.** An arm, characterized empty, droops with a game piece. What changed, and what is the fix?
@@ -845,8 +902,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The order. It should be kS, kG, kV, kA: `new ArmFeedforward(0.2, 1.5, 1.2, 0.08)`. As it stands,
-# 1.2 V are taken for gravity, and 0.08 for kV.
+# The order. It should be kS, kG, kV, kA: `new ArmFeedforward(0.2, 1.5, 1.2, 0.08)`. Now the class
+# uses 1.2 V as kG and 0.08 as kV.
 # </details>
 #
 # **4.** In week 3 a brace of 4 kg is added to the drivetrain. Which constants do you measure again?
@@ -857,20 +914,20 @@ quick
 # kS stay nearly the same.
 # </details>
 #
-# **5.** With kP = 0 your turret hardly moves, with a large kP it gets there, late and shaking. What
-# do you suspect?
+# **5.** With kP = 0 your turret hardly moves. With a large kP it reaches the target late, and
+# shakes. What do you suspect?
 #
 # <details><summary>Answer</summary>
 #
-# The feedforward's unit: per radian where rotations are handed over, 2π too small. kP hid it.
-# Compute one voltage by hand.
+# The unit of the feedforward: the gains are per radian, but the code passes rotations, so the
+# voltage is 2π times too small. kP hid that. Compute one voltage by hand.
 # </details>
 
 # %% [markdown]
 # ## 12 Practice
 #
-# **Exercise 10: from the analyzer to the robot** (`exercises/exercise10/README.md`). Numbers of a
-# mechanism that only you have, and a code file to fill in. Sections 2 to 4 help.
+# **Exercise 10: from the analyzer to the robot** (`exercises/exercise10/README.md`). You get the
+# gains of your own mechanism, and a code file to fill in. Sections 2 to 4 help.
 #
 # ```
 # grade exercise10
@@ -891,7 +948,10 @@ quick
 # submit("exercise11", intake="optional", intake_reason="…", schedule="…")
 # ```
 #
-# **More, if you like.** Put kP = 0.2 into section 4 and find out which of the wrong gain sets you
-# would still notice by eye. What would you log on your robot, to notice it there?
+# <details><summary>More, if you like</summary>
 #
-# Next: lesson 9, what your model does not know.
+# Set kP = 0.2 in section 4. Which of the wrong gain sets would you still
+# notice by eye? What would you log on your robot to notice it there?
+# </details>
+#
+# **Next:** [Lesson 9, the reality gap](09_reality_gap.ipynb). What does your model not know?

@@ -13,29 +13,32 @@
 # %% [markdown]
 # # Lesson 9: The reality gap
 #
-# *About 50 minutes. You need lessons 1 and 7. This is the last lesson: here you find out what your
-# model does not know.*
+# *About 50 minutes. You need lessons 1 and 7. This is the last lesson: you find out what your model
+# does not know.*
 #
 # **At the end you can**
 #
 # - measure how far a simulation with your gains is from your robot: the **gap**;
-# - look at what is missing from four sides, and say which effect leaves such a trace;
-# - add an effect to the model, and decide with *other* data whether it earns its place;
+# - plot the remaining error in four ways, and say which effect could cause it;
+# - add an effect to the model, and decide with *other* data whether to keep it;
 # - explain how a slow sensor makes a robot look heavy;
-# - say when your data cannot tell, and which test would;
-# - let `sysid reconcile` do it, and judge what it says.
+# - say when your data cannot decide, and which test would;
+# - let `sysid reconcile` do it, and judge its answer.
 
 # %% [markdown]
 # ## 1 Why: a good fit of the wrong model
 #
-# You have gains. You put them into a simulation, give it the very voltages that the robot had, and
-# the simulation drives differently. Then something is missing in the model
+# You have gains. You put them into a simulation and give it exactly the voltages that the robot
+# had. But the simulation moves differently. Then something is missing in the model
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# It knows dry friction, back-EMF and inertia, and nothing else. A real robot also has a battery
-# that gives way, grease that sticks, a sensor that comes late. Each such thing is called an
-# **effect**.
+# It contains dry friction, back-EMF and inertia, and nothing else. A real robot also has a battery
+# whose voltage drops, grease that sticks, a sensor that is late. Each of these is called an
+# **effect**. WPILib's docs say the same of this model: it "is not perfect", but usually good
+# enough.
+#
+# <details><summary>For mentors: how true are the gains?</summary>
 #
 # > **Lesson says:** the gains are "grounded in the mechanism's true physics".
 # >
@@ -44,9 +47,10 @@
 # > ([WPILib docs: Introduction to System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
 # > **Try it:** today's robot has two hidden effects. See what the gains are worth.
+# </details>
 #
-# You work in five steps, and so does the program at the end:
-# **fit, simulate, look at what is left, name it, add it**. Then again, until nothing is left.
+# You work in five steps, and so does the program at the end: **fit, simulate, look at the remaining
+# error, name it, add it**. Then you repeat, until only noise remains.
 
 # %%
 from collections.abc import Sequence
@@ -97,29 +101,29 @@ held_out = simulate(
 print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
-# Two of them are in today's robot. Its team does not know which: they have four Kraken X60, 60 kg,
-# and a drivetrain that does not follow its paths.
+# Today's robot contains two of them. Its team does not know which. They have four Kraken X60, 60
+# kg, and a drivetrain that does not follow its paths.
 #
 # They recorded **three logs**, and each has one job:
 #
 # | log | what it is | its job |
 # |---|---|---|
-# | `log` | the four SysId tests, 3 V step | everything is **fitted** to it |
-# | `validation` | the four tests, 2 V step | decides which effects are **kept** |
-# | `held_out` | other motions | is looked at **once**, at the end |
+# | `log` | the four SysId tests, 3 V step | we **fit** everything to it |
+# | `validation` | the four tests, 2 V step | it decides which effects we **keep** |
+# | `held_out` | other motions | we look at it **once**, at the end |
 #
-# Why three? Who chooses a model by the data it was fitted to always finds a winner: more knobs fit
-# better. Only data that had no say can tell whether you learned about the robot or about the log.
-# Section 4 shows it.
+# Why three? If you judge models on the data you fitted, something always wins: more parameters
+# always fit better. Only new data can show whether you learned something about the robot or only
+# about the log. Section 4 shows this.
 
 # %% [markdown]
 # ## 2 Measure the gap
 #
-# **Simulate:** give the model the log's voltages and let it run, from the first sample of a test to
-# its last. It gets no look at the robot on the way. `replay_log` does that.
+# **Simulate:** give the model the voltages of the log and let it run from the first sample of a
+# test to the last. It never sees the measured velocity. `replay_log` does that.
 #
-# **Fit:** change kS, kV and kA until the simulated velocity misses the measured one least. Lesson 7
-# fitted accelerations row by row; this fit follows the whole run.
+# **Fit:** change kS, kV and kA until the simulated velocity is as close as possible to the measured
+# one. In lesson 7 you fitted accelerations row by row; this fit uses the whole run.
 
 
 # %%
@@ -165,15 +169,15 @@ def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
 base = fitted((), Model("simple", truth), log)
 
 # %% [markdown]
-# (`fitted` is the longest function of this course. Half of it keeps the parameters in order. The
-# work is done by one line, `least_squares`: turn all knobs a little, see which way the sum of
-# squared misses falls, go there, repeat.)
+# (`fitted` is the longest function of this course. Half of it keeps the parameters in order. One
+# line does the work, `least_squares`: it changes all parameters a little, finds the direction in
+# which the sum of squared errors falls, goes there, and repeats.)
 #
-# Before you look. The bench knows the true kA of the team's robot; the team does not. **Predict:**
+# We know the true kA of the team's robot; the team does not. **Predict:**
 
 # %%
 guess_ka = Prediction(
-    "Two effects are missing in the model. What does the fit make of kA?",
+    "Two effects are missing in the model. How does the fit change kA?",
     "about right",
     "too small by a third or more",
     "too large by a third or more",
@@ -199,27 +203,26 @@ model_log = replace(
         for run, seen in zip(log.runs, simulated(base, log), strict=True)
     ),
 )
-print(f"You said: {guess_ka}.")
+print(guess_ka.reveal("too large by a third or more"))
 plot_time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
 
 # %% [markdown]
 # The colored curves are the log, the dotted black ones the simulation. Look at the start of the
 # steps: the curves have different *shapes*. No kA makes them agree.
 #
-# (SysId's kA looks fine here. That is luck. The two fits bend in different places: SysId's recipe
-# starts each step at its peak of acceleration, and here it pays with kS instead. Look at it.)
+# (SysId's kA looks good here, but that is luck: its kS is wrong instead.)
 #
 # ### How large is that?
 #
-# In meters per second a gap says little. We count it in **noises**: how far the sensor shakes by
-# itself. To find that, take the change from sample to sample, then the change of these changes, and
-# once more. Of a smooth motion hardly anything is left after three rounds; what is left is shaking.
-# Then a gap of 1 means: nothing is missing but noise.
+# A gap in meters per second is hard to judge. So we divide it by the **noise** of the sensor. To
+# find the noise, take the change from sample to sample, then the change of these changes, and once
+# more. For a smooth motion almost nothing remains after three rounds, so what remains is noise.
+# Then a gap of 1 means: only noise is left, and the model is complete.
 
 
 # %%
 def noise(one: sim.Log) -> float:
-    """The shaking of a velocity, without any model: from third differences, extremes left out."""
+    """The noise of a velocity, without any model: from third differences, without extremes."""
     jerks = [np.diff(run.velocity, 3)[np.abs(run.velocity[3:]) > 0.1] for run in one.runs]
     return 1.4826 * float(np.median(np.abs(np.concatenate(jerks)))) / np.sqrt(20)
 
@@ -228,44 +231,47 @@ shaking = noise(log)
 
 
 def gap(model: Model, one: sim.Log) -> float:
-    """How far a simulation is from a log: the typical miss, in noises."""
+    """How far a simulation is from a log: the typical error, divided by the noise."""
     return float(np.sqrt(np.mean(off(model, one) ** 2))) / shaking
 
 
-print(f"The velocity shakes by {shaking:.4f} m/s.")
+print(f"The noise of the velocity is {shaking:.4f} m/s.")
 print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, validation):.1f}.")
 
 # %% [markdown]
+#
+# <details><summary>Want to know why? The numbers in this cell</summary>
+#
 # (1.4826 turns a median into a standard deviation, the usual measure of scatter. A third difference
-# enlarges the square of noise by 1² + 3² + 3² + 1² = 20.)
+# multiplies the square of the noise by 1² + 3² + 3² + 1² = 20.)
+# </details>
 
 # %% [markdown]
 # ## 3 The residual microscope
 #
-# What is left when you subtract the simulation from the log is called the **residual**. How large
-# it is tells you *that* something is missing. What it depends on tells you *what*.
+# If you subtract the simulation from the log, you get the **residual**. Its size shows *that*
+# something is missing. What it depends on shows *what* is missing.
 #
-# We turn the residual into something with a meaning: how many **volts** would you have to add to
-# the simulation, at this moment, to make it move as the robot did? These are the **missing volts**.
-# Below zero: the robot got less than the model believes. And we look from four sides:
+# We convert the residual into **missing volts**: how many volts would you have to add to the
+# simulation, at this moment, so that it moves like the robot? If the number is negative, the robot
+# got less than the model believes. We plot the missing volts in four ways:
 #
-# | seen over | an effect that shows there |
+# | plotted over | an effect that you see there |
 # |---|---|
 # | speed | friction that changes with speed |
 # | time since the voltage jumped | something late: a delay, a filter |
-# | battery voltage | volts that never arrived |
-# | direction | something that pulls one way only |
+# | battery voltage | volts that never reached the motor |
+# | direction | something that pulls in one direction only |
 #
-# (There is a fifth side, the position: a spring, a bump in the gears. The maps of section 7 have
-# it.)
+# (A fifth plot is over the position: a spring, a bump in the gears. The maps of section 7 show it.)
 #
-# First practice, on four robots with **one** effect each. Here the gains are the true ones (a
-# luxury), so that all you see is the effect.
+# First practice on four robots with **one** effect each. Here we use the true gains, so you see
+# only the effect.
 
 
 # %%
 def as_asked(one: sim.Log) -> sim.Log:
-    """The same log, but with the voltage that was asked for, not the one that arrived."""
+    """The same log, but with the commanded voltage, not the applied one."""
     runs = (replace(run, voltage=12.0 * run.voltage / run.bus_voltage) for run in one.runs)
     return replace(one, runs=tuple(runs))
 
@@ -290,14 +296,14 @@ suspects = {
 }
 
 # %% [markdown]
-# The four hidden things are, in no order:
+# The four hidden effects are, in no particular order:
 #
 # - **friction that differs forward and reverse**;
 # - **a velocity that is averaged** over the last tenth of a second or so;
-# - **a tired battery**, and a log of asked-for volts;
-# - **breakaway friction**, more at a crawl than at speed (its name is *Stribeck*).
+# - **a weak battery**, and a log of the commanded voltage;
+# - **breakaway friction**, larger at very low speed (its name is *Stribeck*).
 #
-# Look at each robot below, then say which is which. (No buttons? `guess_a.value = "battery"`.)
+# Look at each robot below, then match robots and effects.
 
 # %%
 NAMES = ("one-way friction", "averaged velocity", "battery", "breakaway friction")
@@ -310,7 +316,7 @@ display(guess_a, guess_b, guess_c, guess_d)
 
 # %%
 def under_the_microscope(which: str) -> Picture:
-    """The missing volts of one of the four robots, from four sides."""
+    """The missing volts of one of the four robots, in four plots."""
     one = suspects[which]
     return plot_voltage_residual(one, simulated(true_model, one), truth)
 
@@ -326,8 +332,8 @@ show_interactive(
 under_the_microscope("robot B")
 
 # %% [markdown]
-# A percentage stands above each view: how much of the (squared) missing volts is explained if you
-# know only *that*. All sixteen:
+# The percentage above each plot shows how much of the (squared) missing volts this quantity
+# explains. Here are all sixteen:
 
 # %%
 rows = []
@@ -336,38 +342,42 @@ for name, one in suspects.items():
     rows.append((name, *(f"{100 * view.explains:.0f} %" for view in seen.values())))
 sides = tuple(seen)
 
-print(f"You said: A {guess_a}; B {guess_b}; C {guess_c}; D {guess_d}.")
-print("They are: A one-way friction; B averaged velocity; C battery; D breakaway friction.")
-Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that a side explains")
+print("A.", guess_a.reveal("one-way friction"))
+print("B.", guess_b.reveal("averaged velocity"))
+print("C.", guess_c.reveal("battery"))
+print("D.", guess_d.reveal("breakaway friction"))
+Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that each plot explains")
 
 # %% [markdown]
 # ### Explain
 #
-# - **A, direction.** Forward lacks volts, reverse has too many, at every speed alike. (A slope
-#   under the robot looks the same. To tell them apart, turn the robot around.)
+# - **A, direction.** Forward lacks volts and reverse has too many, at every speed. (A sloping floor
+#   looks the same. To separate them, turn the robot around.)
 # - **B, time since the jump.** The mean of the last velocities is *late*. Right after a jump the
-#   robot seems to get volts too few by far, and a moment later nothing is missing.
-# - **C, battery.** The lower the battery, the more is missing. The other view lights up, too: a
-#   battery is lowest just after a jump. Two sides can see the same thing; take the brighter one,
-#   and think of a test that moves one and not the other.
-# - **D, speed.** Volts are missing at a crawl, and nowhere else. (The straight row of points is the
-#   ramp's beginning: the simulation already moves, and the robot still stands.)
+#   robot seems to get far too few volts, and a moment later nothing is missing.
+# - **C, battery.** The lower the battery voltage, the more volts are missing. The plot over time
+#   shows it too, because the battery voltage is lowest just after a jump. Two plots can show the
+#   same effect. Take the stronger one, and think of a test that changes one quantity and not the
+#   other.
+# - **D, speed.** Volts are missing at very low speed and nowhere else. (The straight row of points
+#   is the start of the ramp: the simulation already moves while the robot still stands.)
 #
-# None of them explains 100 %. The rest is noise: taking changes from sample to sample enlarges it.
+# None of them explains 100 %. The rest is noise, because changes from sample to sample make noise
+# larger.
 
 # %% [markdown]
 # ## 4 Doing it: name, add, fit again
 #
-# Now the team's robot. Its gains were **fitted**, so they have bent to hide what is missing. That
-# is the hard part of real life: the fingerprint is smudged.
+# Now look at the team's robot. Its gains were **fitted**, so they are wrong in a way that hides a
+# part of the effects. On a real robot it is the same: the pattern is less clear.
 
 # %%
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
-# The brightest side is the time since the jump. And look at the shape: first volts are missing,
-# then there are too many. Whoever is *late* first loses and then catches up; who is *weak* only
-# loses. At a crawl something is missing, too, but faintly.
+# The time since the jump explains most. And look at the shape: first volts are missing, then there
+# are too many. A late sensor lags and then catches up; a weak battery never does. At very low speed
+# a little is missing, too.
 #
 # **Predict** the first effect to add:
 
@@ -383,8 +393,8 @@ guess_first = Prediction(
 guess_first
 
 # %% [markdown]
-# Try seven, each alone, each with all gains fitted again. Look at two numbers: the gap of the `log`
-# that it was fitted to, and the gap of the `validation`, which it has never seen.
+# Now try seven effects, each alone, and fit all gains again each time. Compare two numbers: the gap
+# of the `log`, which was fitted, and the gap of the `validation`, which the fit never used.
 
 # %%
 TRIED = (
@@ -405,24 +415,25 @@ def both_gaps(model: Model) -> dict[str, float]:
     return {"log": gap(model, log), "validation": gap(model, validation)}
 
 
-print(f"You said: {guess_first}.")
+print(guess_first.reveal("velocity-filter"))
 plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 
 # %% [markdown]
 # **Read the bars.**
 #
-# - The gap of the *log* became narrower, or stayed, with every single effect. It must: another knob
-#   never fits worse. If you judge by it, everything is an improvement.
-# - The gap of the *validation* shows who understood something. Compare `current-limit` there with
-#   the base model: on the log it looks like a find.
-# - `delay` comes close to the best. It is late, too: the two look alike (section 6).
+# - The gap of the *log* became smaller, or stayed the same, with every effect. It must: another
+#   parameter never makes the fit worse. If you judge by this gap, everything is an improvement.
+# - The gap of the *validation* shows which models are really better. Compare `current-limit` there
+#   with the base model: on the log it looks like a success.
+# - `delay` is almost as good as the best. It also makes the velocity late, so the two look alike
+#   (section 6).
 #
-# Look through the microscope with any of them in place:
+# Look at the missing volts with any of them in the model:
 
 
 # %%
 def with_it(model: str) -> list[Picture]:
-    """What is missing once a model is in place, and its gaps beside those of gains alone."""
+    """The missing volts of a model, and its gaps next to those of gains alone."""
     chosen = models[model]
     shown = {"gains alone": both_gaps(base), model: both_gaps(chosen)}
     return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), plot_gap_bars(shown)]
@@ -437,8 +448,8 @@ show_interactive(with_it, model=widgets.Dropdown(options=list(models), descripti
 display(*with_it("+ velocity-filter"))
 
 # %% [markdown]
-# With the filter in place, what happened right after the jumps is gone. And now something shows
-# that it had covered: missing volts at a crawl. So add a second one:
+# With the filter in the model, the error right after the jumps is gone. Now you see something that
+# it had hidden: missing volts at very low speed. So add a second effect:
 
 # %%
 first = models["+ velocity-filter"]
@@ -453,8 +464,8 @@ models["+ velocity-filter, stribeck"] = second
 plot_voltage_residual(log, simulated(second, log), second.gains)
 
 # %% [markdown]
-# Nothing bright is left from any side, and the gap is about 1 on both logs. **Stop here.** A third
-# effect could only fit the noise.
+# No plot shows anything more, and the gap is about 1 on both logs. **Stop here.** A third effect
+# could only fit the noise.
 #
 # ### What the sensor did to the inertia
 
@@ -478,40 +489,40 @@ rows = [
 ]
 print(f"The filter averages over {1000 * last['velocity-filter']['window']:.0f} ms.")
 Table(
-    ("model", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kA ÷ true", "position off by [cm]"),
+    ("model", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kA ÷ true", "position error [cm]"),
     (*rows, ("the truth", *truth.values(), 1.0, "")),
 )
 
 # %% [markdown]
 # Read the column *kA ÷ true* from the top. With gains alone the robot seems to have far more
 # inertia than it has. Nothing is heavy: the **sensor is slow**, and a slow answer looks like a
-# heavy robot. kA is the only knob the model has for "slow". So it took the blame.
+# heavy robot. kA is the only parameter that can make the model slow, so the fit made kA too large.
 #
-# There is a second witness: the **position**. It was never used in these fits, and it does not pass
-# through the filter. The model with the heavy robot misses it by far more than the others do.
+# The **position** confirms this. These fits never used it, and the filter does not change it. The
+# model with the heavy robot has a much larger position error than the others.
 #
 # Remember this when a kA is too large. Before you look for mass, look for filters: a motor
-# controller that averages its velocity, a log that is written late.
+# controller that averages its velocity, or a log that is late.
 #
-# And kS: it came down when breakaway friction got a name of its own.
+# kS also became smaller when the model got breakaway friction.
 
 # %% [markdown]
 # ## 5 The held-out log, once
 #
-# Until now nobody looked at `held_out`. Its motions are others: a triangle, and jumps of many
+# Until now nobody looked at `held_out`. It contains other motions: a triangle, and jumps of many
 # sizes. **Predict:**
 
 # %%
 guess_held = Prediction(
-    "Gap of the held-out log with gains alone, compared with the fitted log's gap?",
+    "How large is the gap of the held-out log with gains alone, compared with the fitted log?",
     "about the same",
-    "twice as wide or more",
-    "narrower",
+    "twice as large or more",
+    "smaller",
 )
 guess_held
 
 # %%
-print(f"You said: {guess_held}.")
+print(guess_held.reveal("twice as large or more"))
 every = {
     "gains alone": base,
     "+ current-limit": models["+ current-limit"],
@@ -523,31 +534,31 @@ plot_gap_bars(
 )
 
 # %% [markdown]
-# The bars shrink term by term, on motions that nothing was fitted to. That is what "we understood
-# the robot" looks like. And the model with a current limit, which had looked so good on the log, is
-# worse than no effect at all. It learned the log, not the robot.
+# The gap shrinks with each effect, on motions that were never fitted. That is how you know that you
+# understood the robot. The model with a current limit looked good on the log, but here it is worse
+# than no effect at all. It learned the log, not the robot.
 #
-# (Why is the last bar a little above 1? The parameters have small errors, and a log full of jumps
+# (Why is the last bar a little above 1? The parameters have small errors, and a log with many jumps
 # shows each of them many times.)
 
 # %% [markdown]
-# ## 6 What your data cannot tell
+# ## 6 When your data cannot decide
 #
-# Another team, another drivetrain, and this one *does* have a current limit: above a certain push,
-# its motors give no more. (The model counts the limit in volts: those that are left to drive the
-# current once the back-EMF is paid for.) They record a gentle log, with a 2.5 V step. Later they
-# drive a 6 V step.
+# Another team has another drivetrain, and this one *does* have a current limit: its motors cannot
+# push harder than a certain limit. (The model counts the limit in volts: those that remain to drive
+# the current after the back-EMF.) They record a gentle log, with a 2.5 V step. Later they drive a 6
+# V step.
 #
-# We give the model limits from very low to very high, and draw the gap of both logs.
+# We give the model limits from very low to very high, and plot the gap of both logs.
 #
 # **Predict:**
 
 # %%
 guess_limit = Prediction(
-    "Fitted to the gentle log only, how well is the limit known?",
+    "How well do you know the limit from the gentle log alone?",
     "to a few percent",
-    "only that it is above some value",
-    "not at all, nor is any bound known",
+    "you only know that it is above some value",
+    "you know nothing about it",
 )
 guess_limit
 
@@ -566,7 +577,7 @@ def gaps_of(one: sim.Log) -> list[float]:
     return [gap(true_model + Part("current-limit", {"limit": x}), one) for x in LIMITS.tolist()]
 
 
-print(f"You said: {guess_limit}.")
+print(guess_limit.reveal("you only know that it is above some value"))
 plot_curves(
     LIMITS,
     {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
@@ -576,31 +587,30 @@ plot_curves(
 )
 
 # %% [markdown]
-# Follow the gentle log's curve to the right: from somewhere on it is **flat**. A limit that was
-# never reached leaves no trace, so every limit above is equally good. The data do not contain the
-# answer, and no program can take it out. People say: the parameter is *not identifiable* from these
+# Follow the curve of the gentle log to the right: from some point on it is **flat**. A limit that
+# was never reached leaves no trace, so every higher limit is equally good. The data do not contain
+# the answer, and no program can find it. We say: the parameter is *not identifiable* from these
 # data.
 #
-# The hard log's curve has a sharp minimum at the true value. Not a better method: **another test.**
-# (On your robot you know the limit, because you set it. Choose the limit first, then measure:
-# lesson 3. With another limit, the hard step is another test.)
+# The curve of the hard log has a sharp minimum at the true value. You do not need a better method;
+# you need **another test.** (On your robot you know the limit, because you set it. Choose the limit
+# first, then measure: lesson 3. With another limit, the hard step is another test.)
 #
-# The same holds for many pairs of look-alikes. The bench's catalogue says for each which test tells
-# it apart:
+# Many pairs of effects look alike. The catalogue says for each pair which test separates them:
 
 # %%
 some = ("battery-sag", "stribeck", "velocity-filter", "asymmetric-friction")
 Table(
-    ("effect", "looks like", "what tells them apart"),
+    ("effect", "looks like", "the test that separates them"),
     tuple((name, other, test) for name in some for other, test in EFFECTS[name].apart.items()),
 )
 
 # %% [markdown]
-# ## 7 Let the bench do it
+# ## 7 Let the program do it
 #
 # `sim.reconcile` does what you did, with all effects of the catalogue: fit, simulate, try every
-# suspect, keep the one that the *validation* confirms, again, until nothing passes. It looks at the
-# position as well as at the velocity. (It takes a few seconds.)
+# effect, keep the one that the *validation* confirms, and repeat until none passes. It uses the
+# position as well as the velocity. (It takes a few seconds.)
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
@@ -611,8 +621,8 @@ make_findings_table(story)
 plot_gap_by_round(story)
 
 # %% [markdown]
-# Where simulation and log disagree, before (left) and after (right). It is a microscope, too: blue
-# where the robot is slower than the model says, orange where it is faster.
+# Here you see where simulation and log disagree, before (left) and after (right): blue where the
+# robot is slower than the model, orange where it is faster.
 
 # %%
 plot_residual_maps(story)
@@ -641,41 +651,42 @@ rows += [
 Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 
 # %% [markdown]
-# Two roads, nearly the same numbers. One difference: its base model starts with a *wider* gap than
-# yours. It has to follow the position as well, which is not averaged and not late. A large kA would
-# make the velocity fit and the position not, so it is torn between the two. That is how it notices
-# a slow sensor.
+# Both ways give nearly the same numbers. One difference: its base model starts with a *larger* gap
+# than yours. It has to follow the position as well, and the position is not averaged and not late.
+# A large kA would make the velocity fit better and the position fit worse. That is how it notices a
+# slow sensor.
 #
 # **How to read its verdict**
 #
 # | verdict | what it means | what you do |
 # |---|---|---|
-# | nothing-missing | gains alone explain the log | be glad |
-# | explained | named, and confirmed by other runs | look at the part of the robot it names |
+# | nothing-missing | gains alone explain the log | nothing |
+# | explained | it names effects, and other runs confirm them | look at that part of the robot |
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
-# | unexplained | a gap is left that nothing in the catalogue fits | look at the robot |
+# | unexplained | a gap remains that no effect in the catalogue explains | look at the robot |
 #
-# It can be wrong. *Minor* findings are small, and on a clean log one of them is now and then a name
-# for nothing. Ask of each what you asked in section 4: does the gap of other data shrink? And then:
-# can I find it on the robot, with a wrench in my hand?
+# It can be wrong. *Minor* findings are small, and on a clean log it sometimes names an effect that
+# is not there. Ask the question of section 4: does the gap of other data shrink? And then: can you
+# find the cause on the robot, with a wrench in your hand?
 
 # %% [markdown]
 # ## 8 Your own robot
 #
-# Run the four tests **twice, with two step voltages**; that tells most look-alikes apart. Drive
-# some other motion for a third log. Log the **applied** voltage (lesson 4). Then, in a terminal:
+# Run the four tests **twice, with two step voltages**; that separates most effects that look alike.
+# Drive some other motion for a third log. Log the **applied** voltage (lesson 4). Then, in a
+# terminal:
 #
 # ```
 # sysid inspect monday.wpilog
 # sysid reconcile monday.wpilog --validation faster.wpilog --held-out other.wpilog --html gap.html
 # ```
 #
-# The first line looks for damage in the record (lesson 6): an encoder that slipped is not physics.
-# `gap.html` holds every picture of section 7 and needs no network. Logs of another type need
-# `--type arm` or `--type elevator`.
+# The first line looks for damage in the log (lesson 6): an encoder that slipped is not an effect of
+# the model. `gap.html` contains every picture of section 7 and works offline. For an arm or an
+# elevator, add `--type arm` or `--type elevator`.
 #
-# Or here, in the notebook. Put the files' names in; if there is a log of exercise 12, it is taken.
-# (Where the battery was not recorded, its view is missing.)
+# You can also do it here. Fill in the names of your files; otherwise the cell uses the log of
+# exercise 12, if you have it. (If the log has no battery voltage, that plot is missing.)
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
@@ -693,18 +704,17 @@ plot_voltage_residual(own, simulated(own_base, own), own_base.gains)
 # %% [markdown]
 # ## 9 System check
 #
-# Before you believe an effect, all five:
+# Before you believe an effect, check all five:
 #
-# - [ ] The record is whole: `sysid inspect` found no damage, or it is cut out.
-# - [ ] The effect narrows the gap of data that it was **not** fitted to.
-# - [ ] No parameter stands at its bound, and none has an error as large as itself.
-# - [ ] You know its look-alikes, and you ran the test that tells them apart.
-# - [ ] You looked at the part of the robot that it blames.
+# - [ ] The log is good: `sysid inspect` found no damage, or you cut it out.
+# - [ ] The effect makes the gap smaller for data that it was **not** fitted to.
+# - [ ] No parameter is at its limit, and none has an error as large as itself.
+# - [ ] You know which effects look alike, and you ran the test that separates them.
+# - [ ] You looked at that part of the robot.
 #
 # ## 10 Knowledge check
 #
-# First one to click; you are told at once. (No buttons on your screen? Type
-# `quick.answer("drag")`, or another of the answers, in a cell.)
+# Click an answer to the first question; you get feedback at once.
 
 # %%
 from grader import QuickCheck
@@ -715,9 +725,9 @@ quick = QuickCheck(
         "jumps. Which family is that?"
     ),
     {
-        "drag": "Drag grows with speed, and is there at a steady speed, too.",
-        "a late or filtered sensor": "It shows where the velocity changes fast, and nowhere else.",
-        "a weak battery": "That follows the battery's voltage, not the time since the jump.",
+        "drag": "Drag grows with speed, and acts at a steady speed, too.",
+        "a late or filtered sensor": "You see it where the velocity changes fast, nowhere else.",
+        "a weak battery": "That depends on the battery voltage, not on the time since the jump.",
     },
     right="a late or filtered sensor",
 )
@@ -729,17 +739,17 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Something late: a delay, or a velocity that is averaged. Look at the position: a delay makes it
-# late, too; a filter of the velocity does not.
+# Something is late: a delay, or an averaged velocity. Look at the position: a delay makes the
+# position late, too; a velocity filter does not.
 # </details>
 #
-# **2.** kA is 60 % above what motors and mass predict, kV is right. A teammate wants to weigh the
-# robot. What do you look at first?
+# **2.** kA is 60 % above the value from motors and mass, kV is right. A teammate wants to weigh the
+# robot. What do you check first?
 #
 # <details><summary>Answer</summary>
 #
-# The velocity's filter in the motor controller, and how the log is written. A slow sensor looks
-# like inertia. (Other causes that you know: asked-for volts in the log, a slipping wheel, noise.)
+# The velocity filter in the motor controller, and how the log is written. A slow sensor looks like
+# inertia. (Other causes that you know: the commanded voltage in the log, a slipping wheel, noise.)
 # </details>
 #
 # **3.** You add "cogging" and the gap of your log falls from 1.3 to 1.1. The gap of the validation
@@ -747,7 +757,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# No. It fitted the noise of one log. The log's gap nearly always falls; it is no argument.
+# No. It fitted the noise of one log. The gap of the fitted log nearly always falls, so that proves
+# nothing.
 # </details>
 #
 # **4.** reconcile says "battery-sag or drag". Your log has one step voltage. What now?
@@ -755,24 +766,23 @@ quick
 # <details><summary>Answer</summary>
 #
 # Record the four tests with a second step voltage, or log the applied voltage. Sag grows with the
-# step, drag with the speed. No thinking about the old log can decide it.
+# step, drag with the speed. The old log cannot decide it.
 # </details>
 #
 # **5.** The gap is 1.05 noises. Are your gains the true ones?
 #
 # <details><summary>Answer</summary>
 #
-# They explain *these* motions. What was never excited is not in there: a current limit that no
-# test reached, heat, a battery at the end of a match. Before you drive harder than you tested, test
-# harder.
+# They explain *these* motions. They do not include what your tests never reached: a current limit,
+# heat, a battery at the end of a match. Before you drive harder than you tested, test harder.
 # </details>
 
 # %% [markdown]
 # ## 11 Practice
 #
-# **Exercise 12: reality gap** (`exercises/exercise12/README.md`). A mechanism that only you have,
-# with one to three hidden effects, and three logs. Look at the gap with gains alone, then try
-# names:
+# **Exercise 12: reality gap** (`exercises/exercise12/README.md`). You get your own mechanism with
+# one to three hidden effects, and three logs. Look at the gap with gains alone, then try the names
+# of effects:
 #
 # ```
 # python exercises/exercise12/try_it.py
@@ -788,13 +798,17 @@ quick
 # submit("exercise12", effects=["delay"], delay={"lag": 0.03}, gap_before=6.5, gap_after=1.2)
 # ```
 #
-# **Practice: characterize one mechanism** (`exercises/practice/README.md`, `grade practice`).
-# Everything from the first line of code to the last look at the numbers. Best on your own robot,
-# with your own `.wpilog`; without a robot, with the log of exercise 9, for exactly the same points.
-# Then reconcile it.
+# **Practice: characterize one mechanism** (`exercises/practice/README.md`, `grade practice`). Do
+# everything once, from the first line of code to the final gains. Best use your own robot and your
+# own `.wpilog`. Without a robot, use the log of exercise 9; you get the same points. Then reconcile
+# it.
 #
-# **More, if you like.** Give section 2 a robot that hides `drag` and `stribeck`. Both change with
-# speed. Can you tell them apart with a 1 V step?
+# <details><summary>More, if you like</summary>
 #
-# That was the last lesson. You can measure gains, say how far to trust them, and find out what your
-# robot does that your model does not.
+# Give section 2 a robot that hides `drag` and `stribeck`. Both change with
+# speed. Can you separate them with a 1 V step?
+# </details>
+#
+# **That was the last lesson.** You can measure gains, say how far to trust them, and find out what
+# your robot does that your model does not. **Next:** `grade` in a terminal shows which exercises
+# are left.

@@ -76,8 +76,9 @@ def run_all(page, address):
     page.locator(".lm-Menu-itemLabel").get_by_text("Run All Cells", exact=True).click()
     page.wait_for_function(
         """() => {
-            const prompts = [...document.querySelectorAll(
-                '.jp-CodeCell .jp-InputPrompt')].map(prompt => prompt.textContent.trim());
+            const shown = '.jp-CodeCell .jp-InputPrompt:not(.jp-Placeholder-prompt)';
+            const prompts = [...document.querySelectorAll(shown)]
+                .map(prompt => prompt.textContent.trim());
             return prompts.length && prompts.every(text => /^\\[\\d+\\]:$/.test(text));
         }""",
         polling=OFTEN,

@@ -28,7 +28,7 @@ def large_enough(number):
 def even(number):
     """The number is even."""
     if number % 1:
-        raise NotReachedError("looked at once it is whole")
+        raise NotReachedError("checked after it is whole")
     return "Zero is even, too." if number == 10 else None
 
 

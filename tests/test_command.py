@@ -3,6 +3,7 @@
 import click
 import pytest
 
+from sim.cli import sysid
 from sim.core.errors import BadRequest
 from sim.support.command_line import run_command
 
@@ -62,3 +63,11 @@ def test_a_developer_can_have_the_traceback(monkeypatch):
 
     with pytest.raises(ZeroDivisionError):
         run_command(command(raiser(ZeroDivisionError())), name="try", arguments=[])
+
+
+def test_a_command_alone_prints_its_help_with_line_breaks(capsys):
+    assert run_command(sysid, name="sysid", arguments=[]) == 0
+
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) > 10
+    assert max(map(len, lines)) <= 100

@@ -73,7 +73,7 @@ PLANTED = {
     ),
     "friction-differs": (
         lambda: each(drawn("drivetrain"), lambda run: replace(run, voltage=run.voltage + 0.15)),
-        "friction that differs",
+        "Friction differs",
     ),
     "back-emf-differs": (
         lambda: each(
@@ -85,7 +85,7 @@ PLANTED = {
     "fine-r2": (lambda: only(drawn("shooter"), "dynamic-forward", slowed), "dynamic-forward at"),
     "repeats-differ": (
         lambda: drawn("turret").join(each(drawn("turret"), lambda run: scaled(run, 0.85))),
-        "SysId reads only the first",
+        "SysId uses only the first",
     ),
     "little-motion": (
         lambda: only(drawn("shooter"), "dynamic-forward", lambda run: first(run, 8)),
@@ -131,6 +131,12 @@ def test_a_delay_is_told_in_milliseconds():
     message = said(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
 
     assert 50 <= int(message.split(" ms")[0].rsplit(" ", 1)[1]) <= 70
+
+
+def test_a_velocity_in_another_unit_is_not_called_late():
+    log = each(drawn("turret"), lambda run: scaled(run, 57.3, only_velocity=True))
+
+    assert "velocity-lags" not in said(log)
 
 
 def test_a_log_without_runs_is_looked_at_all_the_same():

@@ -103,3 +103,26 @@ def test_no_lessons_are_refused(tmp_path):
 
 def test_code_is_escaped():
     assert "&lt;b&gt;" in highlight_python("x = '<b>'")
+
+
+def test_the_code_of_a_quick_check_and_a_repeated_picture_are_left_out():
+    from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output  # noqa: PLC0415 - only here
+
+    from grader.edition.notebook_html import split_notebook  # noqa: PLC0415 - only here
+
+    shown = [new_output("stream", text="seen")]
+    asks, again = {"jupyter": {"source_hidden": True}}, {"jupyter": {"outputs_hidden": True}}
+    notebook = new_notebook(
+        cells=[
+            new_markdown_cell("# Lesson"),
+            new_code_cell('QuickCheck(right="kA")', metadata=asks, outputs=shown),
+            new_markdown_cell("No sliders? Change the numbers here:"),
+            new_code_cell("attempt(0.6)", metadata=again, outputs=shown),
+        ]
+    )
+
+    (part,) = split_notebook(notebook)
+
+    assert part.html.count("seen") == 1
+    assert "kA" not in part.html
+    assert "No sliders" not in part.html

@@ -126,13 +126,13 @@ def test_the_unit_may_be_written_in_many_ways(copy, written):
 @pytest.mark.parametrize(
     ("written", "points", "says"),
     [
-        ('"V·s/ft"', 1, "of the right kind"),
-        ('"V/rpm"', 1, "of the right kind"),
+        ('"V·s/ft"', 1, "the right kind of unit"),
+        ('"V/rpm"', 1, "the right kind of unit"),
         ('"m/s/V"', 0, "upside down"),
         ('"rot/(V·s)"', 0, "upside down"),
-        ('"V·s"', 0, "only volts may be left"),
-        ('"V·s/(m·rot)"', 0, "only volts may be left"),
-        ('"V·s·rot"', 0, "only volts may be left"),
+        ('"V·s"', 0, "multiply it by the unit of your"),
+        ('"V·s/(m·rot)"', 0, "multiply it by the unit of your"),
+        ('"V·s·rot"', 0, "multiply it by the unit of your"),
         ('"V/(s"', 0, "( without )"),
         ('" "', 0, "nothing yet"),
         ("[1, 2]", 0, "which is no unit"),
@@ -188,4 +188,4 @@ def test_a_wrong_sign_or_a_missing_term_is_named(copy, student):
 
         assert says in found.hint, (name, volts)
     turned = graded(copy, f"backward = {speed - friction:.4f}", "backward", student=student)
-    assert "the sign is not right" not in turned.hint
+    assert "the sign is wrong. Moving backward, v" not in turned.hint

@@ -148,8 +148,12 @@ def test_python_is_read_in_many_styles(checked, turret, style):
 @pytest.mark.parametrize(
     ("made", "handed", "says"),
     [
-        ("CharacterizationConstants(kV=load())", "C.kS, C.kV, C.kA", "I cannot tell the number"),
-        ("CharacterizationConstants", "*gains", "I cannot tell by reading"),
+        (
+            "CharacterizationConstants(kV=load())",
+            "C.kS, C.kV, C.kA",
+            "the grader cannot see the number",
+        ),
+        ("CharacterizationConstants", "*gains", "the grader cannot see by reading"),
     ],
 )
 def test_what_reading_cannot_tell_is_asked(checked, turret, made, handed, says):
@@ -187,20 +191,41 @@ def test_constants_may_stand_in_a_file_of_their_own(tmp_path, turret):
     ("old", "new", "check", "points", "says", "code"),
     [
         ("{kV} / (2 * Math.PI)", "{kV}", "conversion", 1, "6.28 times too large", "M-UNITS"),
-        ("{kV} / (2 * Math.PI)", "{kV} * 2 * Math.PI", "kv", 0, "the wrong way round", "M-UNITS"),
+        (
+            "{kV} / (2 * Math.PI)",
+            "{kV} * 2 * Math.PI",
+            "kv",
+            0,
+            "converted in the wrong direction: a larger",
+            "M-UNITS",
+        ),
         ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, "that is the analyzer's kA", "M-ARGORDER"),
         ("{kV} / (2 * Math.PI)", "-{kV}", "kv", 0, "the sign is not", ""),
-        ("{kV} / (2 * Math.PI)", "{kV} / (2 * 3)", "kv", 0, "rounded too far", ""),
-        ("{kV} / (2 * Math.PI)", "{kV} * 60", "kv", 0, "60 times off", "M-UNITS"),
-        ("{kV} / (2 * Math.PI)", "load()", "kv", 0, "I cannot tell the number", ""),
-        ("volts per (rad/s)", "V·s/rot", "units", 0, "not the one of this number", "M-UNITS"),
+        (
+            "{kV} / (2 * Math.PI)",
+            "{kV} / (2 * 3)",
+            "kv",
+            0,
+            "close, but rounded too much. Keep three",
+            "",
+        ),
+        ("{kV} / (2 * Math.PI)", "{kV} * 60", "kv", 0, "wrong by a factor of 60. Did", "M-UNITS"),
+        ("{kV} / (2 * Math.PI)", "load()", "kv", 0, "the grader cannot see the number", ""),
+        ("volts per (rad/s)", "V·s/rot", "units", 0, "This is the right kind of unit", "M-UNITS"),
         ("volts per (rad/s)", "velocity gain", "units", 0, "no unit of kV", ""),
-        ("Constants.kS,", "Constants.kA,", "order", 0, "kA stands where", "M-ARGORDER"),
-        ("Constants.kS,", "kick,", "order", 0, "I cannot tell which gain", ""),
+        ("Constants.kS,", "Constants.kA,", "order", 0, "kA is where", "M-ARGORDER"),
+        ("Constants.kS,", "kick,", "order", 0, "the grader cannot see which gain", ""),
         (", CharacterizationConstants.kA)", ")", "order", 1, "counts as 0", ""),
         (" / (2 * Math.PI); // where", "; // where", "kp", 0.5, "as the analyzer", "M-UNITS"),
         (" / (2 * Math.PI); // where", " / 75.4; // where", "kp", 0.5, "output is not", "M-DUTY"),
-        ("// where tuning starts", "// V·s/rad", "kp", 0.5, "Is this its last word?", ""),
+        (
+            "// where tuning starts",
+            "// V·s/rad",
+            "kp",
+            0.5,
+            "The number fits. Write in a comment",
+            "",
+        ),
     ],
 )
 def test_what_is_not_right_is_told(checked, turret, old, new, check, points, says, code):  # noqa: PLR0917 - a row of the table
@@ -217,8 +242,8 @@ def test_what_is_not_right_is_told(checked, turret, old, new, check, points, say
 @pytest.mark.parametrize(
     ("order", "says"),
     [
-        ("kS kV kA kG", "kV stands where"),
-        ("kG kS kV kA", "kG stands where"),
+        ("kS kV kA kG", "kV is where"),
+        ("kG kS kV kA", "kG is where"),
         ("kS kV kG kA", "expects kG"),
     ],
 )
@@ -254,7 +279,7 @@ def test_a_simple_feedforward_for_an_arm_has_no_place_for_gravity(checked):
     found = checked(text, student=student)["feedforward"]
 
     assert found.misconception == "M-NO-KG-IN-SYSID"
-    assert "no place for kG" in found.hint
+    assert "This class has no argument for kG" in found.hint
 
 
 def test_a_loop_with_duty_cycle_is_told_about_its_output(checked):

@@ -96,7 +96,7 @@ def test_the_second_effect_named_first_costs_three_points(tmp_path):
     results = graded(truth(student, names=swapped), student, tmp_path)
 
     assert results["first-effect"].status == "failed"
-    assert "it is there, but" in results["first-effect"].hint
+    assert "it is one of the hidden effects" in results["first-effect"].hint
     assert {results[one].status for one in ("all-effects", "held-out", "justified")} == {"passed"}
 
 
@@ -109,7 +109,7 @@ def test_one_of_three_alone_is_part_of_the_way(tmp_path):
     assert results["all-effects"].points == 1
     assert "still missing" in results["all-effects"].hint
     assert results["held-out"].points == 2  # most of the gap, not all of it
-    assert "most of the way" in results["held-out"].hint
+    assert "you are close. Is an effect missing" in results["held-out"].hint
 
 
 def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
@@ -167,7 +167,17 @@ def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypa
     assert wide(tried, "validation") < 0.8 * wide(alone, "validation")
     assert wide(tried, "held-out") > 0
     assert f"{name}." in tried
-    assert "Where the validation disagrees most" in alone
+    assert "Where simulation and validation differ most" in alone
+
+
+def test_a_name_that_is_no_effect_is_one_line_with_a_proposal(copy, monkeypatch):
+    script = str(copy.folder / "try_it.py")
+    monkeypatch.setattr(sys, "argv", [script, "filter", "--student", "ann"])
+
+    with pytest.raises(SystemExit) as left:
+        runpy.run_path(script, run_name="__main__")
+
+    assert "Did you mean velocity-filter?" in str(left.value)
 
 
 def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():

@@ -142,7 +142,7 @@ def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
         seen = {
             "gear-ratio": parts["ratio"] != code["ratio"],
             "wheel-size": abs(2.0 * code.get("radius", 0.0) - diameter) > 1e-3,
-            "logged-voltage": "asked" in code["logged_voltage"],
+            "logged-voltage": "commanded" in code["logged_voltage"],
             "tight-belt": "guitar string" in given["noticed"]["mechanic"],
             "dry-bearing": "whistles" in given["noticed"]["mechanic"],
         }
@@ -197,11 +197,11 @@ def test_a_list_may_be_written_in_many_ways(copy, written, status):
     ("listed", "points", "says"),
     [
         (["motor-type", "unpowered-motor"], 2, "is not on your list"),
-        (["unpowered-motor", "wheel-size"], 2, "Look first where looking costs least"),
-        (["wheel-size", "logged-voltage"], 0, "the log has what the motor got"),
-        (["wheel-size", "motor-type", "logged-voltage"], 2, "the log has what the motor got"),
-        (["wheel-size", "motor-type", "mass"], 2, "more mass"),
-        (["wheel-size", "mass"], 0, "more mass"),
+        (["unpowered-motor", "wheel-size"], 2, "Check the easiest first"),
+        (["wheel-size", "logged-voltage"], 0, "contains the applied voltage"),
+        (["wheel-size", "motor-type", "logged-voltage"], 2, "contains the applied voltage"),
+        (["wheel-size", "motor-type", "mass"], 2, "does a heavier robot need more volts"),
+        (["wheel-size", "mass"], 0, "does a heavier robot need more volts"),
         (["wheel-size", "motor-type", "tight-belt"], 2, "nothing gets hot"),
     ],
 )
@@ -324,7 +324,7 @@ def allowed(variant, given):
     shown = {
         "gear-ratio": parts["ratio"] != code["ratio"],
         "wheel-size": diameter is not None and abs(2.0 * code["radius"] - diameter) > 1e-3,
-        "logged-voltage": "asked" in code["logged_voltage"],
+        "logged-voltage": "commanded" in code["logged_voltage"],
         "tight-belt": "guitar" in given["noticed"]["mechanic"],
         "dry-bearing": "whistles" in given["noticed"]["mechanic"],
     }
@@ -377,7 +377,7 @@ def test_whoever_lists_everything_does_not_get_full_marks(copy):
         found = graded(copy, student=student, inspection=words)["inspection"]
 
         assert found.status == "failed"
-        assert ("4 at most" in found.hint) == (len(words) > 4)
+        assert ("at most 4" in found.hint) == (len(words) > 4)
 
 
 def test_a_right_sign_is_not_asked_for_again(copy):

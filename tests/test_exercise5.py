@@ -97,7 +97,7 @@ def test_without_the_subsystem_it_asks_for_it_and_never_guesses(tmp_path):
     found = judged(tmp_path, LESSON)
 
     assert "I cannot see the methods" in found["factories"].seen
-    assert "beside this one" in found["factories"].hint
+    assert "Put the subsystem's file into the same" in found["factories"].hint
     assert found["factories"].points == 0
     assert found["held"].status == found["guard"].status == "passed"
 
@@ -121,11 +121,16 @@ def test_a_robotpy_container_finds_its_subsystem_in_another_file(tmp_path):
     ("change", "check", "points", "says"),
     [
         ((START, "m_driver.rightBumper()"), "held", 3, ""),
-        (("whileTrue", "onTrue"), "held", 1, "even after release"),
-        ((f".and({START})", ""), "guard", 0, "Ask for something"),
+        (("whileTrue", "onTrue"), "held", 1, "Once started, the test runs to its"),
+        ((f".and({START})", ""), "guard", 0, "Use something that never happens in a"),
         (("m_driver.b()", "other()"), "held", 3, ""),
-        ((FIRST, "m_arm.quasistatic(pick())"), "each-once", 0, "I cannot tell the direction"),
-        ((FIRST, "tests[0]"), "held", 2.25, "I cannot tell which test"),
+        (
+            (FIRST, "m_arm.quasistatic(pick())"),
+            "each-once",
+            0,
+            "the grader cannot see the direction",
+        ),
+        ((FIRST, "tests[0]"), "held", 2.25, "the grader cannot see which test"),
         (
             (FIRST, f"{FIRST}.andThen(m_arm.dynamic(Direction.kForward))"),
             "each-once",
@@ -133,10 +138,15 @@ def test_a_robotpy_container_finds_its_subsystem_in_another_file(tmp_path):
             "runs quasistatic forward and dynamic forward",
         ),
         (("public Command dynamic", "Command dynamic"), "factories", 1, "may not call dynamic"),
-        ((START, "() -> true"), "guard", 0, "Ask for something"),
-        ((START, "m_driver.start().negate()"), "guard", 0, "Ask for something"),
+        ((START, "() -> true"), "guard", 0, "Use something that never happens in a"),
+        ((START, "m_driver.start().negate()"), "guard", 0, "Use something that never happens in a"),
         ((START, "m_driver.start().or(m_driver.back())"), "guard", 2, ""),
-        ((START, "RobotModeTriggers.disabled()"), "guard", 0, "a mode other than test mode"),
+        (
+            (START, "RobotModeTriggers.disabled()"),
+            "guard",
+            0,
+            "checks for another mode than test mode",
+        ),
     ],
 )
 def test_what_is_not_right_is_told(tmp_path, change, check, points, says):
@@ -161,7 +171,7 @@ def test_a_method_that_makes_one_test_or_another_is_asked_about(tmp_path):
     )
     found = judged(tmp_path, python(body, more=more), name=PYTHON)
 
-    assert "I cannot tell which test" in found["held"].seen
+    assert "the grader cannot see which test" in found["held"].seen
     assert {found[name].status for name in ("each-once", "guard")} == {"not-reached"}
 
 
@@ -185,7 +195,7 @@ def test_a_chooser_holds_no_button(tmp_path):
     rows = four('m_chooser.addOption("{kind} {way}", m_arm.{kind}(Direction.k{Way}));')
     found = judged(tmp_path, java(rows))
 
-    assert "nobody holds a button" in found["held"].hint
+    assert "Nobody holds a button there, so nobody" in found["held"].hint
     assert 'addOption("quasistatic forward"' in found["held"].seen
 
 
@@ -218,7 +228,7 @@ def test_two_slashes_in_a_text_are_no_comment(tmp_path):
     line = 'System.out.println("// quasistatic: kS and kV");\n'
     found = judged(tmp_path, java(line + PLAIN))["comments"]
 
-    assert "no comment beside" in found.seen
+    assert "no comment next to" in found.seen
 
 
 def test_robotpy_has_no_mode_triggers_and_says_so(tmp_path):
@@ -283,8 +293,8 @@ def test_a_guard_that_asks_for_any_mode_but_test_mode_is_none(tmp_path, guard):
     found = judged(tmp_path, java(PLAIN.replace(START, guard)))["guard"]
 
     assert (found.status, found.points) == ("failed", 0)
-    assert "a mode other than test mode" in found.seen
-    assert "Ask for test mode itself" in found.hint
+    assert "checks for another mode than test mode" in found.seen
+    assert "Then the test can start in a" in found.hint
 
 
 @pytest.mark.parametrize(
@@ -304,7 +314,7 @@ def test_an_inverted_guard_in_robotpy_is_none(tmp_path, guard):
     found = judged(tmp_path, python(body), name=PYTHON)["guard"]
 
     assert (found.status, found.points) == ("failed", 0)
-    assert "a mode other than test mode" in found.seen
+    assert "checks for another mode than test mode" in found.seen
 
 
 @pytest.mark.parametrize(
@@ -352,11 +362,11 @@ HINDERED = {  # what follows the command of each test, and what its author is to
     "withTimeout(0.1)": "early",
     "withTimeout(Seconds.of(0.1))": "early",
     "withTimeout(kShort)": "early",
-    "withTimeout(howLong())": "I cannot tell",
+    "withTimeout(howLong())": "the grader cannot see",
     "raceWith(Commands.waitSeconds(0.1))": "early",
     "raceWith(Commands.none())": "early",
     "withDeadline(Commands.waitSeconds(1))": "early",
-    "butOnlyIfThatIsFine()": "I cannot tell",
+    "butOnlyIfThatIsFine()": "the grader cannot see",
 }
 NEVER = "boolean never() { return false; } static final double kShort = 0.5;"
 

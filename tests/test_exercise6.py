@@ -130,7 +130,7 @@ def test_the_numbers_of_the_source_lesson_do_not_pass_for_a_drivetrain_without_a
         plan = PLAN.Plan(0.5, 3.5, 10.0, math.inf)
         found = graded(copy, student=student, **written("drivetrain", plan))["drivetrain"]
 
-        assert re.search(r"your ramp needs \d+\.\d\d m of run; you have [\d.]+ m", found.hint)
+        assert re.search(r"your ramp needs \d+\.\d\d m; you have [\d.]+ m", found.hint)
 
 
 def test_at_half_a_volt_a_second_for_ten_seconds_the_facts_drivetrain_goes_nine_meters():
@@ -257,7 +257,7 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
     printed = capsys.readouterr().out
     told = " ".join(said)
 
-    assert all(one in printed for one in ("V/s", "of run", "at least 25 %", "does not move it"))
+    assert all(one in printed for one in ("V/s", "you have", "at least 25 %", "does not move it"))
     for machine in variant.machines.values():
         ramp = DRAWN.sound(machine).ramp
         for value, per in ((ramp, "V/s"), *((step, "V") for step in DRAWN.steps(machine))):
@@ -276,10 +276,10 @@ def test_every_broken_rule_is_told_with_its_figure(copy):
     assert found.points == 0
     for figure in (
         r"a timeout of 30 s",
-        r"your step needs [\d.]+ m of run; you have [\d.]+ m",
+        r"your step needs [\d.]+ m; you have [\d.]+ m",
         r"It hits the end at [\d.]+ m/s, [\d.]+ s after the start",
         r"at standstill your step draws \d+ A; the limit is \d+ A",
-        r"your step takes [\d.]+ % of the volts at which the wheels slip",
+        r"your step is [\d.]+ % of V_slip; at most 90 %",
     ):
         assert re.search(figure, found.hint)
 

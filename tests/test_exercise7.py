@@ -164,8 +164,8 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
     [
         ("", "nothing yet"),
         (None, "nothing yet"),
-        (7, "which is not words"),
-        ([1], "which is not words"),
+        (7, "which is not text in quotes"),
+        ([1], "which is not text in quotes"),
         ("the belt is loose", 'in which "belt" is not known'),
         ("rerun", "with no faults in it"),
         ("brownout sign-flip", "with 2 faults in it"),
@@ -210,7 +210,7 @@ def test_no_feedback_names_what_it_really_is():
     [
         ("encoder-slip", "wheel-slip", "When did this begin?"),
         ("brownout", "hard-stop", "speed up again"),
-        ("hard-stop", "brownout", "Does the position?"),
+        ("hard-stop", "brownout", "At a hard stop the mechanism cannot"),
         ("loop-overrun", "stale-samples", "are samples missing"),
     ],
 )

@@ -102,14 +102,24 @@ def test_what_is_lost_costs_half_a_point_for_each_test():
 @pytest.mark.parametrize(
     ("changes", "check", "says", "code"),
     [
-        (dict(keep={}), "ka", "held up by a stop", ""),
+        (dict(keep={}), "ka", "you keep samples in which a hard", ""),
         (dict(median=1), "ka", "Single readings are far off", ""),
-        (dict(median=15), "ka", "bends the rise", "M-FILTER-FREE"),
-        (dict(threshold=0.0), "ks", "before it moves", ""),
+        (dict(median=15), "ka", "A median of so many samples flattens", "M-FILTER-FREE"),
+        (dict(threshold=0.0), "ks", "You keep samples from before the mechanism", ""),
         (dict(keep=dict.fromkeys(STEPS, (0.2, 0.5))), "ka", "first rise", "M-TRIM-PRETTY"),
         (dict(threshold=1e6), "kv", "You cut away too much", "M-TRIM-PRETTY"),
-        (dict(keep=dict.fromkeys(RAMPS, (0.0, 2.0))), "reach", "the lever", "M-TRIM-PRETTY"),
-        (dict(keep=dict.fromkeys(STEPS, (0.2, 0.5))), "reach", "speeds up", "M-TRIM-PRETTY"),
+        (
+            dict(keep=dict.fromkeys(RAMPS, (0.0, 2.0))),
+            "reach",
+            "The fast samples of a ramp determine",
+            "M-TRIM-PRETTY",
+        ),
+        (
+            dict(keep=dict.fromkeys(STEPS, (0.2, 0.5))),
+            "reach",
+            "A step contains kA only in its",
+            "M-TRIM-PRETTY",
+        ),
     ],
 )
 def test_a_wrong_gain_is_put_down_to_the_part_that_bends_it(changes, check, says, code):

@@ -200,7 +200,7 @@ def test_what_all_parts_say_is_said_once(fit_json, tmp_path):
 def test_an_angle_and_a_length_have_no_common_gains():
     length, angle = fit(recorded()), fit(recorded(MECHANISMS["shooter"]))
 
-    with pytest.raises(BadRequest, match="cannot be turned"):
+    with pytest.raises(BadRequest, match="cannot be converted into"):
         pool_fits({"a": length, "b": angle})
 
 

@@ -10,6 +10,7 @@ import pytest
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run_command
+from grader.report import format_points
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -48,7 +49,7 @@ def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys
     assert "got  1" in out
     assert "try  Count again ≈ ±1." in out
     assert "why  A number means something only with its unit." in out
-    assert "looked at once this is right: The size is 3" in out
+    assert "checked after this is right" in out
     assert "Hint 1 of 3: grade exercise1 --hint" in out
     assert max(map(len, out.splitlines())) <= 80
     assert "\x1b" not in out
@@ -282,3 +283,9 @@ def test_a_reader_who_leaves_early_causes_no_traceback(course):
     _, err = writer.communicate(timeout=60)
 
     assert err == b""
+
+
+def test_points_are_rounded_to_two_decimals():
+    assert format_points(13 / 12, 10) == "1.08 of 10"
+    assert format_points(140 / 3, 218.0) == "46.67 of 218"
+    assert format_points(2.5, 3.0) == "2.5 of 3"

@@ -73,6 +73,21 @@ def run(tmp_path_factory):
     return ran
 
 
+def test_what_people_read_is_spelled_right():
+    paths = ["lessons", "exercises", "grader", "sim", "README.md", "INSTRUCTORS.md"]
+
+    done = subprocess.run(
+        [sys.executable, "-m", "codespell_lib", *paths],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+    assert done.returncode == 0, done.stdout
+
+
 def test_there_are_lessons():
     assert [text.stem for text in TEXTS] == [
         notebook.stem for notebook in sorted((ROOT / "lessons").glob("*.ipynb"))
@@ -172,12 +187,55 @@ def test_what_the_lesson_is_said_to_say_it_says(text, shared):
 
 
 @each_lesson
-def test_a_prediction_is_shown_again(text):
+def test_a_picture_that_repeats_its_sliders_is_collapsed(text):
+    cells = nbformat.read(text.with_suffix(".ipynb"), 4).cells
+    for cell, words, code in zip(cells, cells[1:], cells[2:], strict=False):
+        if re.search(r"^show_interactive\(", cell.source, re.MULTILINE):
+            assert words.source.startswith("No ")
+            assert code.metadata["jupyter"]["outputs_hidden"]
+
+
+@each_lesson
+def test_a_lesson_links_to_the_next_one_and_names_the_folder_of_each_exercise(text):
+    source = text.read_text(encoding="utf-8")
+    later = [other.with_suffix(".ipynb").name for other in TEXTS if other > text]
+    assert "**Next:**" in source
+    if later:
+        assert f"]({later[0]})" in source.partition("**Next:**")[2]
+    for number in re.findall(r"^grade exercise(\d+)$", source.replace("# ", ""), re.MULTILINE):
+        assert f"exercises/exercise{number}/" in source
+
+
+def test_lesson_6_names_the_faults_as_exercise_7_and_inspect_do():
+    from sim.inspect.faults import FAULTS  # noqa: PLC0415 - only here
+
+    source = (ROOT / "lessons" / "06_read_the_data.py").read_text(encoding="utf-8")
+    gallery = source.partition("gallery = {")[2].partition("}\n")[0]
+    own = {"clean", "velocity-filter", "current-limit"}  # physics, and no fault of the record
+    names = {
+        name.replace(" ", "-") for name in re.findall(r'^    "([a-z ]+)":', gallery, re.MULTILINE)
+    }
+    assert names - own <= {*FAULTS}
+    assert len(names - own) >= 11
+
+
+@each_lesson
+def test_a_prediction_is_compared_with_the_answer(text):
     source = text.read_text(encoding="utf-8")
     guesses = re.findall(r"^(guess_\w+) = Prediction\(", source, re.MULTILINE)
     assert guesses
     for guess in guesses:
-        assert f"{{{guess}}}" in source
+        assert re.search(rf"print\(.*\b{guess}\.reveal\(", source), guess
+
+
+@each_lesson
+def test_the_code_of_a_question_is_collapsed_as_it_holds_the_answer(text):
+    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells:
+        asks = re.search(
+            r"^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck)\(", cell.source, re.MULTILINE
+        )
+        hidden = cell.metadata.get("jupyter", {}).get("source_hidden", False)
+        assert hidden == bool(cell.cell_type == "code" and asks), cell.source
 
 
 @each_lesson

@@ -168,7 +168,7 @@ def test_a_model_that_does_not_hold_comes_before_the_parts():
     # the errors of such a fit are so wide that nothing surely contradicts the parts
     assert physical_doubts(found, parts=true_parts(mechanism)) == ()
     said = physical_doubts(sure, parts=true_parts(mechanism))
-    assert about(said, "kv-below-theory").endswith("settle that first.")
+    assert about(said, "kv-below-theory").endswith("find it first.")
 
 
 @pytest.mark.parametrize("name", MOTORS)

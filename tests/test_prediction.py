@@ -40,3 +40,26 @@ def test_a_notebook_gets_the_question_and_the_buttons(guess):
     assert question.value == "Which gain is &lt;off&gt;?"
     assert buttons.options == ("kS", "kA")
     assert "application/vnd.jupyter.widget-view+json" in guess._repr_mimebundle_()
+
+
+def test_the_answer_says_whether_the_prediction_was_right_and_keeps_a_score(monkeypatch):
+    monkeypatch.setattr(Prediction, "_results", {})
+    first, second = Prediction("Which gain?", "kS", "kA"), Prediction("Which one?", "up", "down")
+    first.value, second.value = "kA", "up"
+
+    assert first.reveal("kA") == (
+        "You predicted: kA. That is right. (1 of 1 predictions right so far.)"
+    )
+    assert second.reveal("down") == (
+        "You predicted: up. The answer is: down. (1 of 2 predictions right so far.)"
+    )
+    assert first.reveal("kA").endswith("(1 of 2 predictions right so far.)")
+
+
+def test_without_a_prediction_only_the_answer_is_shown(guess):
+    assert guess.reveal("kA") == "Answer: kA."
+
+
+def test_an_answer_that_is_no_option_cannot_be_revealed(guess):
+    with pytest.raises(BadRequest, match="Choose one of: kS, kA"):
+        guess.reveal("kV")

@@ -147,5 +147,7 @@ def test_tests_that_excite_nothing_are_refused_by_the_gain_they_leave_open():
         for test, part in rows.items()
     }
 
-    with pytest.raises(NotIdentifiable, match="cannot tell k. from the other gains. Move at two"):
+    with pytest.raises(
+        NotIdentifiable, match="cannot separate k. from the other gains. Move at two"
+    ):
         regress_acceleration(still, type="simple")

@@ -105,7 +105,7 @@ def test_every_controller_and_every_snippet_is_there(whole):
 
 
 def test_the_learners_own_gains_are_told_on_the_page(whole):
-    assert "The position loop with your own gains swings to and fro" in whole
+    assert "The position loop with your own gains oscillates" in whole
 
 
 def test_the_same_fit_gives_the_same_page(drive, whole):
@@ -179,7 +179,7 @@ def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
 
     assert page_flaws(told) == []
     assert told.count("<h3>Run ") == len(log.runs)
-    assert "<b>Look:</b> A simulation with these gains misses the measured velocity by" in told
+    assert "<b>Look:</b> A simulation with these gains has a velocity error of" in told
 
 
 def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):

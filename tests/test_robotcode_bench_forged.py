@@ -139,7 +139,7 @@ def test_code_that_reaches_into_python_or_wpilib_earns_nothing(mine, trick):
     grade = EXERCISE.grade(mine(TRICKS[trick]), student="ann")
 
     assert (grade.status, grade.score) == ("ungradable", 0)
-    assert "so I cannot tell what this code does" in grade.reason
+    assert "so the grader cannot see what this code does" in grade.reason
     assert "trick.py, line" in grade.reason
     assert "fault of the course" not in grade.reason
 
@@ -177,4 +177,4 @@ def test_a_program_that_knows_it_is_simulated_is_not_settled_by_a_run(mine):
     checks = {one.id: one for one in EXERCISE.grade(mine(asks), student="ann").checks}
 
     assert checks["drive"].status == "failed"
-    assert "asks whether this is a simulation" in checks["drive"].hint
+    assert "checks whether this is a simulation" in checks["drive"].hint

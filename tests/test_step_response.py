@@ -126,7 +126,7 @@ def test_a_negative_gain_runs_away():
     )
 
     assert judge_step_response(took).kind == "runs-away"
-    assert judge_step_response(took).description == "runs away from the target"
+    assert judge_step_response(took).description == "moves away from the target"
 
 
 @pytest.mark.parametrize("loop", ["velocity", "position"])

@@ -120,10 +120,10 @@ def _voltage(name: str, answers: Answers) -> None:
     codes = {slip.misconception for slips in found for slip in slips}
     hint = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
     if found and len(found[0]) > 1:
-        hint = f"maybe two things at once: {hint}"
+        hint = f"maybe there are two mistakes: {hint}"
     if not hint:
-        size = "little" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "lot"
-        hint = f"outside the accepted ±2 %, by a {size}. Write down the three terms one by one"
+        size = "just" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "far"
+        hint = f"{size} outside the accepted ±2 %. Write down the three terms one by one"
     if abs(value) > BATTERY:
         hint = f"no battery of a robot has more than {BATTERY:g} V: {hint}"
     raise WrongAnswer(
@@ -149,7 +149,7 @@ def kv_unit(answers: Answers) -> None:
         return
     alike = given.powers[:2] == right.powers[:2] and sum(given.powers) == sum(right.powers)
     if alike and max(given.powers[2:]) == 0:
-        hint = f"of the right kind, but your velocities are in {symbol}/s"
+        hint = f"the right kind of unit, but your velocities are in {symbol}/s"
         raise WrongAnswer(raw, hint=hint, misconception="M-UNITS", earned=1.0)
     raise WrongAnswer(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
 
@@ -164,7 +164,7 @@ def _about_unit(given: tuple[int, ...]) -> str:
         return "mind the parentheses: dividing by (a/b) is not the same as dividing by a, then by b"
     if (volt, second) == (1, 0) and not any(length):
         return "that belongs to kS, which is multiplied by a bare sign"
-    return "multiply it by the unit of your velocity: only volts may be left"
+    return "multiply it by the unit of your velocity: only volts must remain"
 
 
 @check(points=2)
@@ -181,10 +181,10 @@ def largest(answers: Answers) -> None:
     if word == variant.largest:
         return
     hint = (
-        f"compare volts: work out all three terms at {variant.largest_at}, and look at their size"
+        f"compare volts: compute all three terms at {variant.largest_at}, and compare their sizes"
     )
     if variant.gains[word] == max(variant.gains.values()):
         hint = f"{word} is the largest gain, but a gain is not a voltage yet: {hint}"
     elif variant.largest == "kA" and variant.largest_at == "braking":
-        hint = f"a term below zero may be large, too: {hint}"
+        hint = f"a negative term may be large, too: {hint}"
     raise WrongAnswer(f"{word}, at {variant.largest_at}", hint=hint)

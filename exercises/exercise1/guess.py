@@ -42,30 +42,35 @@ Way = tuple[float, WrongNumber | None]
 
 def _frictions(variant: Variant, name: str) -> list[Way]:
     volts = variant.terms(name)[0]
-    says = "kS·sgn(v) has the sign of v: friction costs volts in the direction of movement"
+    says = (
+        "kS·sgn(v) has the sign of v: the voltage against friction points in the direction "
+        "of motion"
+    )
     if name == "braking":
-        says = "did you take sgn of a? It belongs to v: it looks at which way the mechanism moves"
+        says = "did you use sgn(a)? It must be sgn(v): it depends on the direction of motion"
     if name == "backward":
         says = (
             "friction opposes the motion: moving backward, sgn(v) is -1, so kS·sgn(v) is negative "
             "as kV·v is"
         )
     turned = WrongNumber("sgn", says)
-    missing = "kS is missing. Friction takes its volts at every speed, as long as it moves at all"
+    missing = (
+        "kS is missing. Friction needs its voltage at every speed, as long as the mechanism moves"
+    )
     return [(volts, None), (0.0, WrongNumber("no-ks", missing)), (-volts, turned)]
 
 
 _BACKWARD = WrongNumber(
     "backward",
-    "the sign is not right. Moving backward, v is negative: look at sgn(v), and at kV·v",
+    "the sign is wrong. Moving backward, v is negative: check sgn(v) and kV·v",
 )
 
 
 def _speeds(variant: Variant, name: str) -> list[Way]:
     volts = variant.terms(name)[1]
-    says = "the velocity has the wrong sign. Forward is positive, also while it brakes"
+    says = "the velocity has the wrong sign. Forward is positive, even while it brakes"
     turned = _BACKWARD if name == "backward" else WrongNumber("v-sign", says)
-    missing = "kV·v is missing. Every speed takes its volts, also where the speed changes"
+    missing = "kV·v is missing. Every speed needs its voltage, even while the speed changes"
     return [
         (volts, None),
         (0.0, WrongNumber("no-kv", missing)),
@@ -89,7 +94,9 @@ def _pushes(variant: Variant, name: str) -> list[Way]:
             (-volts, WrongNumber("a-sign", f"a has the wrong sign. Moving forward and {way}")),
             *((volts * times, slip) for times, slip in _units(variant, name)),
         ]
-    extra = WrongNumber("extra-ka", "there is a kA·a too many. At a steady speed, what is a?")
+    extra = WrongNumber(
+        "extra-ka", ("the term kA·a is too much here. What is a at a steady speed?")
+    )
     others = [one.acceleration for one in variant.moments.values() if one.acceleration]
     return [(0.0, None), *((variant.gains["kA"] * a, extra) for a in others)]
 
@@ -99,14 +106,16 @@ def _units(variant: Variant, name: str) -> list[tuple[float, WrongNumber]]:
     (shown, times), right = SHOWN[variant.kind], f"{variant.symbol}/s"
     raw = f"this speed is given in {shown}, and your kV is made for {right}. Convert it first"
     turned = f"from {shown} to {right}, did you multiply where you have to divide?"
-    changed = f"your kV is made for {right}, and so is this speed. Did you turn it into {shown}?"
+    changed = (
+        f"this speed is already in {right}, the unit of your kV. Did you convert it into {shown}?"
+    )
     found = [(times, changed), (1 / times, changed)]
     if name == "forward":
         found = [(times, raw), (times * times, turned)]
     if variant.kind == "drivetrain":
         found.append((60.0, "60 seconds are a minute. Is your velocity per minute?"))
     else:
-        turn = "2π = 6.28. Were radians and rotations taken for each other?"
+        turn = "2π = 6.28. Did you mix up radians and rotations?"
         found += [(2 * math.pi, turn), (0.5 / math.pi, turn)]
     return [(factor, WrongNumber(f"unit {factor:.3g}", says, "M-UNITS")) for factor, says in found]
 
@@ -114,7 +123,7 @@ def _units(variant: Variant, name: str) -> list[tuple[float, WrongNumber]]:
 def _wholes(variant: Variant, name: str) -> list[Guess]:
     """Slips of the whole voltage."""
     volts = sum(variant.terms(name))
-    duty = "12 V is a full battery. Asked for are volts, not an output between -1 and 1"
+    duty = "12 V is a full battery. Write volts, not an output between -1 and 1"
     turned = [(-volts, _BACKWARD)] if name == "backward" else []
     found = [
         *turned,
@@ -125,7 +134,7 @@ def _wholes(variant: Variant, name: str) -> list[Guess]:
         found.append((-volts, WrongNumber("sign", "the size is right, the sign is not")))
     for other in MOMENTS:
         if other != name:
-            says = f"that would be right for {other}. Are two answers swapped?"
+            says = f"that would be right for {other}. Did you swap two answers?"
             found.append((sum(variant.terms(other)), WrongNumber("swapped", says, "M-ARGORDER")))
     return [Guess(value, (slip,)) for value, slip in found]
 

@@ -90,7 +90,7 @@ def read(path: Path, *, student: str) -> Code:
         raise UnreadableFile(
             first.message,
             where=f"{path}, line {first.line}",
-            advice="Mend that line first: code with a mistake like this does not compile.",
+            advice="Fix that line first: code with a mistake like this does not compile.",
         )
     return Code(facts, draw(student))
 
@@ -122,7 +122,7 @@ def named(code: Code) -> None:
     if outside:
         raise WrongAnswer(
             f"{outside[0].name} in line {outside[0].line} is not in {HOLDER}",
-            hint="A class of their own keeps measured gains apart from all other constants.",
+            hint="Put measured gains into a separate class, apart from all other constants.",
             earned=0.5,
         )
 
@@ -167,15 +167,15 @@ def _right(constant: GainConstant, variant: Variant) -> bool:
 def _constant(gain: str, code: Code) -> GainConstant:
     found = code.facts.constant(gain)
     if found is None:
-        raise NotReachedError(f"looked at once there is a constant {gain}")
+        raise NotReachedError(f"checked after you write a constant {gain}")
     return found
 
 
 def _known(value: float | None, text: str, line: int) -> float:
     if value is None:
         raise WrongAnswer(
-            f"I cannot tell the number by reading {text} in line {line}",
-            hint="Write it as a number, or as plain arithmetic of numbers and named constants.",
+            f"the grader cannot see the number by reading {text} in line {line}",
+            hint="Write it as a number, or as a calculation with numbers and named constants.",
         )
     return value
 
@@ -190,19 +190,19 @@ def units(code: Code) -> None:
     """A comment tells the unit of each gain of the feedforward."""
     found = [one for one in code.facts.constants if one.gain in code.variant.gains]
     if not found:
-        raise NotReachedError("looked at once there are gains")
+        raise NotReachedError("checked after you write the gains")
     for one in found:
         verdict = _unit_told(one, code)
         shown = f'"{one.comment[:50]}" beside {one.name}' if one.comment else f"{one.name} alone"
         if verdict is False:
             raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",
-                hint="Write it beside the number: next year nobody knows what it means without.",
+                hint="Write it next to the number: next year nobody will remember it.",
             )
         if verdict is None:
             raise WrongAnswer(
                 f"{shown}, line {one.line}",
-                hint="A unit of the right kind, but not the one of this number.",
+                hint="This is the right kind of unit, but not the unit of this number.",
                 misconception="M-UNITS",
             )
 
@@ -228,9 +228,11 @@ def feedforward(code: Code) -> str:
     gravity = code.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"
     raise WrongAnswer(
         f"{one.kind} in line {one.line}",
-        hint="This class has no place for kG, and gravity pulls at this mechanism all the time."
+        hint=(
+            "This class has no argument for kG, but gravity pulls this mechanism down all the time."
+        )
         if gravity
-        else "What did the analyzer take this mechanism for? Each of its analyses has its class.",
+        else "Which analysis type did the analyzer use? Each type has its own class.",
         misconception="M-NO-KG-IN-SYSID" if gravity else "",
     )
 
@@ -264,10 +266,10 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     constant = code.facts.constant(gain)
     if given is None and one.spread:
         hint = "Write the arguments one by one."
-        raise WrongAnswer(f"I cannot tell by reading what {gain} it gets", hint=hint)
+        raise WrongAnswer(f"the grader cannot see by reading what {gain} it gets", hint=hint)
     if given is None:
         raise WrongAnswer(
-            f"the feedforward in line {one.line} gets no {gain}", hint="Hand it over, too."
+            f"the feedforward in line {one.line} gets no {gain}", hint="Pass it, too."
         )
     if constant is None and given.value is None:
         raise WrongAnswer(f"no constant {gain}", hint="Write it down first.")
@@ -296,8 +298,8 @@ def kp(code: Code) -> None:
         raise WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
     if not marked:
         raise WrongAnswer(
-            f'"{constant.comment[:50]}" beside kP' if constant.comment else "no comment beside kP",
-            hint="The number fits. Say beside it how far to trust it: the analyzer has never seen "
-            "your loop run. Is this its last word?",
+            f'"{constant.comment[:50]}" beside kP' if constant.comment else "no comment next to kP",
+            hint="The number fits. Write in a comment how far to trust it: the analyzer has "
+            "never seen your loop run. Is this the final value?",
             earned=0.5,
         )

@@ -1,4 +1,4 @@
-"""A mechanism that was characterized, and that shall follow a velocity."""
+"""A mechanism that was characterized, and that should follow a velocity."""
 
 from commands2 import Subsystem
 
@@ -8,8 +8,8 @@ from commands2 import Subsystem
 class CharacterizationConstants:
     """What SysId found out. Measured with a fresh battery; again when the mechanism changes."""
 
-    # TODO: 2. One constant for each gain that the analyzer shows, kP among them. Beside each, a
-    #       comment with its unit. Beside kP, also say how far this number can be trusted.
+    # TODO: 2. One constant for each gain that the analyzer shows, kP too. Next to each, a
+    #       comment with its unit. Next to kP, also write how far you trust this number.
 
 
 class ExampleMechanism(Subsystem):

@@ -16,11 +16,11 @@ def feedforward_of(facts: DeployFacts, variant: Variant) -> Feedforward:
         NotReachedError: there is nothing at all yet.
     """
     if not facts.feedforwards and not facts.constants:
-        raise NotReachedError("looked at once there are gains")
+        raise NotReachedError("checked after you write the gains")
     if not facts.feedforwards:
         raise WrongAnswer(
             "no feedforward is made",
-            hint="Make one of WPILib's three, and hand it your constants.",
+            hint="Make one of WPILib's three, and pass your constants to it.",
         )
     right = [one for one in facts.feedforwards if one.kind == variant.made]
     return (right or [*facts.feedforwards])[0]
@@ -39,24 +39,25 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
         if gain and gain != place:
             raise WrongAnswer(
                 at,
-                hint=f"{gain} stands where {one.kind} expects {place}. Look at the order of its "
+                hint=f"{gain} is where {one.kind} expects {place}. Check the order of its "
                 "arguments.",
                 misconception="M-ARGORDER",
             )
     for place, gain in found.items():
         if not gain:
             raise WrongAnswer(
-                f"I cannot tell which gain {one.arguments[place].text} is, in line {one.line}",
-                hint="Hand over the constants by their names.",
+                f"the grader cannot see which gain {one.arguments[place].text} is, "
+                f"in line {one.line}",
+                hint="Pass the constants by their names.",
             )
     if one.spread:
         hint = "Write the arguments one by one."
-        raise WrongAnswer(f"I cannot tell by reading which gains {at} gets", hint=hint)
+        raise WrongAnswer(f"the grader cannot see by reading which gains {at} gets", hint=hint)
     lacking = [place for place in places if place not in found]
     if lacking:
         raise WrongAnswer(
             f"{at} has no {' and no '.join(lacking)}",
-            hint="What is left out counts as 0.",
+            hint="A missing argument counts as 0.",
             earned=points / 2 if lacking == ["kA"] else 0.0,
         )
 

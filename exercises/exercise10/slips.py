@@ -12,9 +12,13 @@ def constant_slip(value: float, gain: str, variant: Variant, *, text: str) -> Wr
     """Why a constant is neither the analyzer's number nor the one the robot needs."""
     shown = variant.shown[gain]
     return _known(value, gain, variant, text=text) or (
-        WrongNumber("rounded", "near it, but rounded too far. Keep three digits or more")
+        WrongNumber("rounded", "close, but rounded too much. Keep three digits or more")
         if near(value, shown, share=ROUNDED) or near(value, variant.needed(gain), share=ROUNDED)
-        else WrongNumber("other", "not what the analyzer showed. Look at given.toml once more")
+        else WrongNumber(
+            "other",
+            "not a gain of this mechanism. In exercise 10 its gains are in given.toml; in practice "
+            "use the gains of your own fit, not those of exercise 10",
+        )
     )
 
 
@@ -51,7 +55,7 @@ def _scaled(gain: str, variant: Variant) -> list[Way]:
     shown, needed, times = variant.shown[gain], variant.needed(gain), variant.times
     both = (shown, needed)
     units = f"{gain} has no velocity in its unit: volts stay volts, nothing to convert"
-    turned = "converted the wrong way round: where the unit is larger, one of it costs more volts"
+    turned = "converted in the wrong direction: a larger unit needs more volts"
     twice = "converted twice. kA has the unit of length only once, too: the seconds are squared"
     ways = [
         ((shown / times,), WrongNumber("turned", turned, "M-UNITS")),
@@ -59,8 +63,8 @@ def _scaled(gain: str, variant: Variant) -> list[Way]:
     ]
     if gain in {"kS", "kG"}:
         ways = [((shown * times, shown / times), WrongNumber("volts", units, "M-UNITS"))]
-    duty = "12 times off. A feedforward's gains are in volts, whatever the loop puts out"
-    minutes = "60 times off. Are these minutes in place of seconds?"
+    duty = "wrong by a factor of 12. A feedforward's gains are in volts, whatever the loop outputs"
+    minutes = "wrong by a factor of 60. Did you use minutes instead of seconds?"
     return [
         ((-shown, -needed), WrongNumber("sign", "the size is right, the sign is not")),
         *ways,
@@ -81,15 +85,15 @@ def handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
         factor = max(times, 1 / times)
         way = "large" if times < 1 else "small"
         says = (
-            f"as the analyzer shows it, for {given}. Your code counts in {used}: its volts will be "
+            f"as the analyzer shows it, for {given}. Your code uses {used}: its voltage will be "
             f"{factor:.3g} times too {way}"
         )
         return WrongNumber("unconverted", says, "M-UNITS")
     if near(value, shown * times * times):
-        says = "converted twice, in the constant and once more here"
+        says = "converted twice, in the constant and again here"
         return WrongNumber("twice", says, "M-UNITS")
     found = _known(value, gain, variant, text="")
-    return found or WrongNumber("other", f"look at the constant {gain} first")
+    return found or WrongNumber("other", f"fix the constant {gain} first")
 
 
 def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
@@ -97,8 +101,8 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
     shown, times, needed = variant.shown["kP"], variant.times, variant.needed("kP")
     used, given = variant.symbol(used=True), variant.symbol(used=False)
     output = "a duty cycle, where 1 is 12 V" if variant.duty else "volts"
-    also = f", and your loop puts out {output}" if variant.duty else ""
-    unmodified = f"as the analyzer shows it, for {given}. Your code counts in {used}{also}"
+    also = f", and your loop outputs {output}" if variant.duty else ""
+    unmodified = f"as the analyzer shows it, for {given}. Your code uses {used}{also}"
     right, still = "the unit is right, the output is not", f"still for {given}"
     ways = [
         ((shown,), WrongNumber("unmodified", unmodified, "M-UNITS")),
@@ -109,21 +113,27 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
         (
             (shown * times * FULL,),
             WrongNumber(
-                "duty-turned", f"the output is {output}: 12 is on the wrong side", "M-DUTY"
+                "duty-turned",
+                (f"the output is {output}: did you multiply by 12 instead of dividing?"),
+                "M-DUTY",
             ),
         ),
         (
             (shown / FULL,),
-            WrongNumber("unit", f"{still}, while your code counts in {used}", "M-UNITS"),
+            WrongNumber("unit", f"{still}, but your code uses {used}", "M-UNITS"),
         ),
         (
             (shown / times, shown / times / FULL),
-            WrongNumber("turned", "the unit is converted the wrong way round", "M-UNITS"),
+            WrongNumber("turned", "the unit is converted in the wrong direction", "M-UNITS"),
         ),
     ]
     found = INTEGER if value == 0 and "/" in text else _first(value, ways)
     if found is None and near(value, needed, share=ROUNDED):
-        found = WrongNumber("rounded", "near it, but rounded too far. Keep three digits or more")
+        found = WrongNumber("rounded", "close, but rounded too much. Keep three digits or more")
     return found or WrongNumber(
-        "other", "not what becomes of the suggestion. Look at given.toml again"
+        "other",
+        (
+            "not the suggested kP. In exercise 10 it is in given.toml; in practice use the kP of "
+            "your own fit"
+        ),
     )

@@ -89,11 +89,11 @@ def _chosen(name: str, answers: Answers) -> Option:
     return QUESTIONS[name].chosen(raw, answers.variant.letters[name])
 
 
-q0_guess = _question("Q0_guess", "What somebody asks who guesses gains.", points=SINGLE)
-q0_sysid = _question("Q0_sysid", "What somebody asks who runs SysId.", points=SINGLE)
+q0_guess = _question("Q0_guess", "The question of somebody who guesses gains.", points=SINGLE)
+q0_sysid = _question("Q0_sysid", "The question of somebody who runs SysId.", points=SINGLE)
 q0_brace = _question("Q0_brace", "The gain that a brace changes.", points=SINGLE)
-ka_use = _question("kA_use", "What a drivetrain's kA tells beside.", points=SINGLE)
-ks_flag = _question("kS_flag", "What to do about a kS that has grown.", points=SINGLE)
+ka_use = _question("kA_use", "What else a drivetrain's kA is good for.", points=SINGLE)
+ks_flag = _question("kS_flag", "What to do when kS has grown.", points=SINGLE)
 step_shape = _question("step_shape", "What a long steady acceleration means.", points=SINGLE)
 step_length = _question("step_length", "What a longer dynamic test gives.", points=SINGLE)
 null_consumer = _question("null_consumer", "Where null sends the test's name.", points=SINGLE)
@@ -118,7 +118,7 @@ def kc2_volts(answers: Answers) -> str | None:
 
 kc2_answer = _question("KC2_answer", "KC2: what to do about the missing speed.", points=TIER)
 kc2_reason = _question("KC2_reason", "KC2: why it is missing.", points=TIER)
-kc3_answer = _question("KC3_answer", "KC3: what keeps an arm up that holds a piece.", points=TIER)
+kc3_answer = _question("KC3_answer", "KC3: how to stop the loaded arm drooping.", points=TIER)
 kc3_reason = _question("KC3_reason", "KC3: why it droops.", points=TIER)
 
 
@@ -129,7 +129,7 @@ def _decision(row: Row) -> Check[Answers]:
         raw = answers.given.get(row.name)
         found = read_choice(raw, DECISIONS, also=ALSO)
         if found != row.decision and row.argues(found, _argued(row, answers)):
-            return "Argued, and accepted: with that reason, yours may be the better choice."
+            return "Accepted: with that reason, your choice may be the better one."
 
         def why(_: str) -> tuple[str, str]:
             return f"{row.ask} Choose one of: {', '.join(DECISIONS)}.", ""
@@ -138,7 +138,7 @@ def _decision(row: Row) -> Check[Answers]:
         return None
 
     look.__name__ = f"decision_{row.name}"
-    look.__doc__ = f"Whether characterizing pays: {row.name}."
+    look.__doc__ = f"Whether to characterize it: {row.name}."
     return check(points=1)(look)
 
 
@@ -150,11 +150,11 @@ def _reason(row: Row) -> Check[Answers]:
         try:
             decided = read_choice(answers.given.get(row.name), DECISIONS, also=ALSO)
         except WrongAnswer:
-            raise NotReachedError("a reason is looked at beside a decision") from None
+            raise NotReachedError("checked together with the decision") from None
         if chosen in row.reasons or row.argues(decided, chosen):
             return
         own, code = WRONG.get(chosen, ("", ""))
-        other = f"that does not carry '{decided}' for this one: {row.told}. {row.ask}"
+        other = f"this is no reason for '{decided}' here: {row.told}. {row.ask}"
         raise WrongAnswer(f'"{REASONS[chosen]}"', hint=own or other, misconception=code)
 
     look.__name__ = f"reason_{row.name}"

@@ -48,7 +48,7 @@ class Variant:
             (kv * rpm / 60.0, "kS is missing. The wheel has friction at every speed", ""),
             (
                 ks + kv * self.numbers["reached"] / 60.0,
-                "that is for the speed it reached. Asked for is what it was told",
+                "this is for the speed it reached. Use the target speed",
                 "",
             ),
             (ks + kv * rpm, says, "M-UNITS"),
@@ -56,7 +56,7 @@ class Variant:
             (60.0 * ks + kv * rpm, says, "M-UNITS"),
             (
                 ks + (kv + 0.003) * rpm / 60.0,
-                "there is a kA·a too many. At a steady speed, what is a?",
+                "the term kA·a is too much here. What is a at a steady speed?",
                 "",
             ),
         )

@@ -14,7 +14,10 @@ holds one."""
 
 SLIP = Option(
     "The encoder slipped, if a second sensor or the current shows that nothing moved.",
-    "Accepted, because you ask a second witness. Without one, a lurch that people saw is a lurch",
+    (
+        "Accepted, because you ask for a second measurement. Without one, believe the people who "
+        "saw the mechanism lurch"
+    ),
     share=1.0,
 )
 
@@ -30,8 +33,8 @@ CHECKS = (
             SLIP,
             Option(
                 "The battery browned out.",
-                "Then the voltage would dip as well, and a mechanism without volts gets slower. "
-                "This one jumped ahead",
+                "Then the voltage would drop as well, and a mechanism without voltage gets "
+                "slower. This one jumped ahead",
             ),
             Option(
                 "The log has a gap in time.",
@@ -49,8 +52,8 @@ CHECKS = (
         "What does it do to the gains?",
         (
             Option(
-                "A few samples with a large acceleration pull hard, because errors are squared: "
-                "kS too small, kA too large, kV about right.",
+                "A few samples with a large acceleration count a lot, because errors are "
+                "squared: kS too small, kA too large, kV about right.",
                 share=1.0,
             ),
             Option(
@@ -61,19 +64,19 @@ CHECKS = (
             ),
             Option(
                 "kV is wrong, kS and kA are not.",
-                "The slope between volts and speed rests on the whole long ramp. Which gain rests "
-                "on the few samples that accelerate?",
+                "The slope of voltage over speed depends on the whole long ramp. Which gain "
+                "depends on the few samples that accelerate?",
             ),
             Option(
                 "Nothing, once that run is deleted: three runs are enough.",
-                "Then the slow forward run is missing, and with it most of what tells friction "
-                "from speed. First mend the mechanism, then run it again",
+                "Then the slow forward run is missing, and with it most of what separates "
+                "friction from speed. First repair the mechanism, then run it again",
                 "M-REVERSE-WASTE",
             ),
             Option(
-                "R² falls below 0.9, so one cannot overlook it.",
+                "R² falls below 0.9, so you cannot overlook it.",
                 "With a lurch like this the simulated velocity R² stays above 0.9. Look at the "
-                "plots first, at R² last",
+                "plots first and at R² last",
                 "M-R2",
             ),
         ),
@@ -83,14 +86,14 @@ CHECKS = (
         "What do you do?",
         (
             Option(
-                "Keep the gains, make sure that units and volts arrive as meant, and add feedback "
-                "for the rest.",
+                "Keep the gains, check the units and the applied voltage, and add feedback for "
+                "the rest.",
                 share=1.0,
             ),
             Option(
-                "Raise kV until it reads what it should.",
-                "It would be right at this speed, with this battery, on this day. A measured gain "
-                "turned into a knob describes nothing any more",
+                "Raise kV until the display shows the target.",
+                "Then kV is right for this speed, this battery and this day only. It no longer "
+                "describes the mechanism",
                 "M-FF-EXACT",
             ),
             Option(
@@ -99,18 +102,21 @@ CHECKS = (
             ),
             Option(
                 "Raise kS: friction must be larger than measured.",
-                "kS is the same number of volts at every speed. If it were that, the shortfall "
-                "would be a larger share at low speed: try a second speed",
+                "kS is the same voltage at every speed. If kS were too small, the error would "
+                "be a larger share at low speed: try a second speed",
             ),
             Option(
                 "Run SysId again: it failed.",
-                "A few percent is what an honest model leaves. Nothing says that the fit failed",
+                (
+                    "A few percent is a normal error of a good model. Nothing shows that the fit "
+                    "failed"
+                ),
                 "M-FF-EXACT",
             ),
             Option(
                 "Add a kP, and leave it at that.",
-                "Feedback is part of it. But what if the volts never arrive as asked for? And a "
-                "kP alone leaves some of the error",
+                "Feedback is part of the answer. But what if the motor never gets the commanded"
+                " voltage? And kP alone does not remove the whole error",
                 "M-KP-EXACT",
                 share=0.6,
             ),
@@ -121,8 +127,8 @@ CHECKS = (
         "Why?",
         (
             Option(
-                "Feedforward never looks at the error, and a small miss of model or conditions is "
-                "normal.",
+                "Feedforward never corrects an error, and a small error of the model or the "
+                "conditions is normal.",
                 share=1.0,
             ),
             Option(
@@ -133,18 +139,16 @@ CHECKS = (
             ),
             Option(
                 "Proportional feedback brings the error to zero.",
-                "The error makes the extra volts. Without error there would be no extra volts: "
-                "1/(1 + kP/kV) of the error is left",
+                "P feedback needs an error to give extra volts: 1/(1 + kP/kV) of the error remains",
                 "M-KP-EXACT",
             ),
             Option(
-                "Getting up to speed costs kA·a, and it did not get there.",
-                "It had time enough: it stays where it is. At a steady speed a is zero",
+                "Reaching the speed takes kA·a, and it did not get there.",
+                "It had enough time: its speed is steady. At a steady speed a is zero",
             ),
             Option(
                 "Friction takes the same share of every speed.",
-                "What takes the same share of every speed is kV·v. Dry friction takes the same "
-                "volts",
+                "kV·v takes the same share at every speed. Dry friction takes the same voltage",
             ),
         ),
     ),
@@ -159,26 +163,26 @@ CHECKS = (
             ),
             Option(
                 "Raise kP until it no longer droops.",
-                "A spring that is stiffer gives way less, but it gives way: what droops is what "
-                "gravity takes, divided by kP. And a large kP shakes the empty arm",
+                "A larger kP makes the droop smaller, but not zero: it is the missing voltage "
+                "divided by kP. And a large kP shakes the empty arm",
                 "M-KP-EXACT",
                 share=0.4,
             ),
             Option(
                 "Add kI.",
-                "It would get there, slowly, and let the arm swing up when the piece is gone. It "
-                "repairs an error that could be known beforehand",
+                "It would get there slowly, and the arm would swing up when the piece is gone. "
+                "It corrects an error that you could know beforehand",
                 share=0.3,
             ),
             Option(
                 "Use the mean of the gains with and without the piece.",
-                "Half as wrong, twice: too little with the piece, too much without. Only a small "
-                "piece forgives that",
+                "Then it is half wrong in both cases: too little with the piece, too much "
+                "without. That is acceptable only for a small piece",
                 share=0.5,
             ),
             Option(
                 "Raise kV.",
-                "An arm that droops stands still. What is kV·v then?",
+                "A drooping arm does not move. What is kV·v then?",
                 "M-KV-MASS",
             ),
             Option(
@@ -197,13 +201,13 @@ CHECKS = (
             ),
             Option(
                 "A heavier arm needs a larger kV.",
-                "kV follows from motor and gears. Mass does not stand in that formula",
+                "kV depends on motor and gears. There is no mass in its formula",
                 "M-KV-MASS",
             ),
             Option(
                 "A heavier arm has more friction: kS grows.",
-                "The bearings feel a little more, but friction helps an arm to stay where it is. "
-                "It would not make it droop",
+                "The friction in the bearings grows a little, but friction helps an arm to stay"
+                " where it is. It does not make it droop",
                 "M-HEAVIER-MORE-KS",
             ),
             Option(

@@ -6,25 +6,31 @@ WEIGHT = "M-KV-MASS"
 
 GUESS = Option(
     "Which gain makes it behave the way I like?",
-    "That question is about behavior, and so it has to be asked anew whenever the mechanism, the "
-    "battery or the taste changes. The other way asks about the mechanism itself",
+    "That question is about behavior, so you have to answer it again whenever the mechanism "
+    "or the battery changes. The other question is about the mechanism itself",
 )
 MODEL = Option(
     "Which model of the physics explains best what this mechanism did?",
-    "Who asks that records tests first. Somebody who turns a knob and looks again asks for less",
+    (
+        "This question needs recorded tests. Somebody who turns a knob and looks again asks a "
+        "simpler one"
+    ),
 )
 SHEET = Option(
-    "Which gain does the data sheet of the motor say?",
-    "A data sheet knows the motor, and nothing of your gears, wheels and bearings. Neither of the "
-    "two ways stops there",
+    "Which gain does the data sheet of the motor give?",
+    "A data sheet describes the motor, but not your gears, wheels and bearings. Neither "
+    "guessing nor SysId stops there",
 )
 OTHERS = Option(
     "Which gain do teams with a similar robot use?",
-    "Other robots are where some begin to guess. It is not the question itself",
+    (
+        "Some people start to guess with the gains of other robots. But that is not the question "
+        "itself"
+    ),
 )
 ZERO = Option(
     "Which kP makes the error zero?",
-    "kP is feedback: it looks at an error. Here the gains of a model are meant, kS, kV and kA",
+    "kP belongs to feedback. This question is about the gains of a model: kS, kV and kA",
 )
 
 
@@ -51,43 +57,43 @@ EVERYDAY = (
             Option("kA", share=1.0),
             Option(
                 "kV",
-                "kV follows from motor, gears and wheel. How heavy the robot is does not stand in "
-                "that formula: at a steady speed nothing is sped up",
+                "kV depends on motor, gears and wheel. There is no mass in its formula: at a "
+                "steady speed nothing accelerates",
                 WEIGHT,
             ),
             Option(
                 "kS",
-                "kS is friction in bearings and gears. A brace adds little to that; look for the "
-                "term that asks how hard it is to get the robot moving faster",
+                "kS is friction in bearings and gears. A brace adds little to it; look for the "
+                "term that contains the acceleration",
                 "M-HEAVIER-MORE-KS",
             ),
             Option(
                 "none, as long as the motors stay the same",
-                "The motors stay the same, but they have more to move. One of the three terms is "
-                "about that",
+                "The motors stay the same, but they have to move more mass. One of the three "
+                "terms contains the mass",
             ),
         ),
     ),
     Question(
         "kA_use",
-        "Beside the feedforward, what is a drivetrain's kA good for?",
+        "What else is a drivetrain's kA good for, besides the feedforward?",
         (
             Option(
-                "It tells the robot's mass and, measured while turning, its moment of inertia, "
-                "which a path planner wants to know.",
+                "It gives the robot's mass and, measured while turning, its moment of inertia, "
+                "which a path planner needs.",
                 share=1.0,
             ),
             Option(
-                "It tells the robot's top speed.",
+                "It gives the robot's top speed.",
                 "At top speed nothing accelerates, and the term of kA is zero. Which gain is left?",
             ),
             Option(
-                "It tells how slippery the carpet is.",
-                "The wheels grip or they slip; kA is measured while they grip. It knows of what "
-                "has to be sped up",
+                "It shows how slippery the carpet is.",
+                "The wheels either grip or slip; you measure kA while they grip. It depends on "
+                "the mass to accelerate",
             ),
             Option(
-                "It tells the state of the battery.",
+                "It shows the state of the battery.",
                 "kA is volts for each unit of acceleration, whatever battery they come from",
             ),
         ),
@@ -98,18 +104,18 @@ EVERYDAY = (
         "kS = {ks_today:.2f} V, and the right side still has {ks_before:.2f} V. What now?",
         (
             Option(
-                "Look for what drags on the left side before anything else: bearing, belt, chain.",
+                "First look for the part that rubs on the left side: bearing, belt, chain.",
                 share=1.0,
             ),
             Option(
                 "Nothing: it is still far below kV times the usual speed.",
-                "That rule only raises its flag when friction eats more than all the speed does. "
-                "kS grew within a week, and on one side only: that alone is worth a look",
+                "That rule only warns when friction needs more voltage than the speed itself. "
+                "kS grew within a week, and on one side only: that is reason enough to look",
             ),
             Option(
-                "Put the new kS into the code: the feedforward pays for it.",
-                "The feedforward would hide it. What rubs gets hot, wears out, and is another "
-                "kS next week",
+                "Put the new kS into the code: then the feedforward compensates for it.",
+                "The feedforward would hide the problem. A part that rubs gets hot and wears "
+                "out, and next week kS is different again",
             ),
             Option(
                 "Take the mean of left and right for both sides.",
@@ -129,57 +135,59 @@ EVERYDAY = (
             Option("Did a current limit act, or did the wheels slip?", share=1.0),
             Option(
                 "Nothing: under a constant voltage the acceleration is constant.",
-                "It would be if all the volts went into acceleration. The faster it goes, the more "
-                "of them kV·v takes. What is left for kA·a then?",
+                "It would be if all the voltage went into acceleration. The faster it goes, the"
+                " more kV·v takes. How much remains for kA·a?",
                 "M-CONST-ACCEL",
             ),
             Option(
                 "Whether kA is zero: nothing held it back.",
-                "Without kA it would be at its speed at once. This one took most of a second",
+                "Without kA it would reach its speed at once. This one took most of a second",
             ),
             Option(
                 "Whether the battery sagged as it got faster.",
-                "The current is largest at the start and gets smaller with speed. A sag would show "
-                "in the first moments, and get better",
+                "The current is largest at the start and gets smaller with speed. The battery "
+                "voltage would drop at the start and then recover",
             ),
             Option(
                 "Whether the encoder counts in other units.",
-                "Another unit makes every acceleration larger or smaller by one factor. The shape "
-                "of the curve stays as it is",
+                "Another unit multiplies every acceleration by one factor. The shape of the "
+                "curve stays the same",
                 "M-UNITS",
             ),
         ),
     ),
     Question(
         "step_length",
-        "A drivetrain has kA/kV = 0.08 s. Its dynamic test took 1 s. Somebody wants a better kA "
-        "and makes the test 5 s long. What comes of it?",
+        "A drivetrain has kA/kV = 0.08 s. Its dynamic test took 1 s. Somebody wants a better kA"
+        " and makes the test 5 s long. What happens?",
         (
             Option(
-                "Much more room is used, and kA is no better: that was told in the first moments.",
+                (
+                    "It needs much more room, and kA is no better: only the first moments contain "
+                    "kA."
+                ),
                 share=1.0,
             ),
             Option(
                 "Five times as many samples: kA gets clearly better.",
-                "Count those in which it still gets faster. After a few times kA/kV it hardly "
-                "does, and what does not accelerate says nothing of kA",
+                "Count the samples in which it still gets faster. After a few times kA/kV it "
+                "hardly does, and samples without acceleration contain nothing about kA",
                 "M-LONG-DYN",
             ),
             Option(
                 "SysId can no longer find kA, since the acceleration is zero most of the time.",
-                "SysId drops what comes after 90 % of the top speed, and fits the beginning, which "
-                "is in a long test as well",
+                "SysId drops everything after 90 % of the top speed, and fits the start, which "
+                "a long test contains as well",
                 "M-LONG-DYN",
             ),
             Option(
                 "kA gets smaller, because the average acceleration is smaller.",
-                "Nobody takes an average: every sample has its own voltage, speed and "
-                "acceleration, and the sum of the terms has to fit for each",
+                "SysId does not use an average: every sample has its own voltage, speed and "
+                "acceleration, and the sum of the terms must fit in each",
             ),
             Option(
                 "kS gets better, because it moves for longer.",
-                "Friction is one of three terms here, and at one steady speed nothing tells kS "
-                "from kV·v. Which test is there for kS?",
+                "At one steady speed nothing separates kS from kV·v. Which test shows kS?",
             ),
         ),
     ),
@@ -191,17 +199,17 @@ EVERYDAY = (
             Option("Into the WPILog of the robot, as a string of its own.", share=1.0),
             Option(
                 "Nowhere: with null nothing is recorded.",
-                "null means: do as usual. If nothing were recorded, the analyzer could not tell "
-                "the four tests apart, and most teams leave null there",
+                "null means: use the default. If nothing were recorded, the analyzer could not "
+                "find the four tests, and most teams use null there",
             ),
             Option(
                 "To the Driver Station's own log only.",
-                "So says a comment that many copy. The analyzer opens another file: which one do "
-                "you load into it?",
+                "A comment that many people copy says so. But the analyzer opens another file: "
+                "which file do you load into it?",
             ),
             Option(
                 "The robot program stops with an error.",
-                "null is allowed there. It stands for what WPILib does by default",
+                "null is allowed there. It means WPILib's default",
             ),
         ),
     ),
@@ -212,12 +220,12 @@ EVERYDAY = (
             Option("In the last two weeks of build season, once the robot is complete.", share=1.0),
             Option(
                 "In the practice match of the first competition.",
-                "A pit is as large as a parking space, there are eight minutes between matches, "
-                "and a drivetrain needs ten feet in both directions",
+                "A pit is as small as a parking space, there are eight minutes between matches,"
+                " and a drivetrain needs ten feet in both directions",
             ),
             Option(
                 "As soon as the bare frame drives, and then never again.",
-                "What comes on top makes it heavier. One of the gains will no longer be true",
+                "Everything you add makes it heavier. One of the gains will then be wrong",
                 WEIGHT,
             ),
             Option(

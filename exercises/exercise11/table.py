@@ -5,21 +5,21 @@ from dataclasses import dataclass
 DECISIONS = ("always", "recommended", "optional", "usually not")
 
 REASONS = {
-    "path": "It follows paths: every wrong volt leads away from the path.",
-    "shot": "Its speed at one moment decides the result, and the feedforward has to hit it.",
-    "angle": "Gravity pulls on it, more or less with its angle, so one guess fits one place only.",
+    "path": "It follows paths: with a wrong voltage it leaves the path.",
+    "shot": "Its speed at one moment decides the result, and the feedforward has to reach it.",
+    "angle": "The effect of gravity changes with its angle, so one guess fits one angle only.",
     "weight": "Gravity pulls on it all the time, and its load changes kG and kA.",
-    "if-speed": "Only if its speed is controlled; for 'fast enough' there is nothing to gain.",
+    "if-speed": ("Only if its speed is controlled; if 'fast enough' is enough, gains do not help."),
     "if-profile": "Only if it moves along a motion profile, to be gentle on the robot.",
     "on-off": "A fixed output switched on and off is enough; its exact speed hardly matters.",
-    "place": "Only where it ends up matters, and a high kP takes it there.",
-    "light": "It is light and its way is short: gains computed from its parts will do.",
+    "place": "Only its final position matters, and a high kP reaches it.",
+    "light": "It is light and its travel is short: gains computed from its parts are enough.",
     "motor": "It has a motor, and whatever has a motor should be characterized.",
     "heavy": "It is heavy, and mass changes kV the most.",
 }
 WRONG = {
-    "motor": ("a test costs time and wear. What would the gains be used for?", ""),
-    "heavy": ("mass does not stand in the formula of kV", "M-KV-MASS"),
+    "motor": ("a test takes time and wears the robot. What would you use the gains for?", ""),
+    "heavy": ("there is no mass in the formula of kV", "M-KV-MASS"),
 }
 
 
@@ -54,7 +54,7 @@ ROWS = (
         "drives paths in autonomous",
         "always",
         ("path",),
-        "What happens to an autonomous path when the wheels do not do as they are told?",
+        "What happens to an autonomous path when the wheels do not follow the commands?",
     ),
     Row(
         "shooter",
@@ -68,7 +68,7 @@ ROWS = (
         "swings a heavy claw from the floor to overhead",
         "recommended",
         ("angle",),
-        "Can one guess of the voltage hold it everywhere?",
+        "Can one guessed voltage hold it at every angle?",
         argued=(("optional", "light"),),
     ),
     Row(
@@ -99,6 +99,6 @@ ROWS = (
         "moves game pieces from sensor to sensor",
         "usually not",
         ("on-off",),
-        "What would a characterized one do better?",
+        "What would it do better with measured gains?",
     ),
 )

@@ -109,9 +109,9 @@ def first_effect(answers: Answers) -> None:
     first = answers.names[0]
     if first == answers.variant.hidden[0]:
         return
-    hint = "there is an effect that narrows the gap of the validation more, alone"
+    hint = "another effect alone makes the gap of the validation smaller"
     if first in answers.variant.hidden:
-        hint = f"it is there, but {hint}"
+        hint = f"it is one of the hidden effects, but {hint}"
     raise WrongAnswer(f'"{first}"', hint=f"{hint}{_alone(answers)}")
 
 
@@ -136,13 +136,17 @@ def all_effects(answers: Answers) -> None:
     named, hidden = {*answers.names}, {*answers.variant.hidden}
     if named == hidden:
         return
-    hint = "each of those is there, and something is still missing: look at what is left"
+    hint = "each of these is right, but something is still missing: look at the remaining gap"
     if named > hidden:
-        hint = "what is missing is among them, and more. Which of them narrows no gap?"
+        hint = (
+            "all hidden effects are in your list, but it also has others. Which of them does"
+            " not make the gap smaller?"
+        )
     elif not named < hidden:
         hint = (
-            "not all of those are there. One that helps a little may stand in for another that "
-            "looks like it: try its look-alikes in its place, and keep what the validation prefers"
+            "not all of these are right. An effect that helps a little may replace another one "
+            "that looks like it: try the effects that look like it, and keep the one with the "
+            "smallest gap of the validation"
         )
     some = named > hidden or named < hidden
     raise WrongAnswer(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
@@ -161,13 +165,14 @@ def held_out(answers: Answers) -> str | None:
         return _reported(answers, before=before, after=after, seen=seen)
     shrunk = (before - after) / (before - floor)
     if shrunk >= SHRINK:
-        hint = "most of the way. Is an effect missing, or a parameter not yet right?"
+        hint = "you are close. Is an effect missing, or is a parameter not yet right?"
         raise WrongAnswer(seen, hint=hint, earned=2.0)
-    hint = "there is much left. Are the parameters those of your own log, in its units?"
+    hint = "a large gap remains. Are the parameters those of your own log, in its units?"
     if after > WORSE * before:
         hint = (
-            "on runs it was not fitted to, your model is worse than none. What fits one log only "
-            "is no physics: choose by the validation, and leave out what does not help there"
+            "on runs that it was not fitted to, your model is worse than gains alone. It only "
+            "fits one log: decide by the validation, and leave out effects that do not help "
+            "there"
         )
     raise WrongAnswer(seen, hint=hint)
 
@@ -186,7 +191,7 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
 
 def _near(value: float, expected: float, bounds: tuple[float, float]) -> None:
     if not bounds[0] * expected <= value <= bounds[1] * expected:
-        hint = "that is not the gap of your model on the held-out log, in noises"
+        hint = "this is not the gap of your model on the held-out log, in times the noise"
         raise WrongAnswer(f"{value:g}", hint=hint)
 
 
@@ -200,9 +205,9 @@ def justified(answers: Answers) -> None:
     for part in parts:
         if stuck := on_a_bound(part):
             raise WrongAnswer(
-                f"{part.effect}.{stuck} is at its bound",
-                hint="there an effect does nothing, or wants to be another one. Leave it out, or "
-                "search again from elsewhere",
+                f"{part.effect}.{stuck} is at its limit",
+                hint="this effect does nothing, or stands in for another. Leave it out, or fit "
+                "again from another start value",
             )
     validation = answers.variant.validation
     whole = gap(answers.fitted(parts), validation)
@@ -212,8 +217,8 @@ def justified(answers: Answers) -> None:
             raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
-                "wide. That is no reason to have it: more effects always fit the log they are "
-                "fitted to, and predict other runs worse",
+                "large. So it does not help: more effects always fit the fitted log "
+                "better, but predict other runs worse",
             )
 
 

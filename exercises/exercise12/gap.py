@@ -113,7 +113,7 @@ def with_effects(log: "Log", names: Sequence[str], *, like: "Model | None" = Non
         if width < smallest:
             best, smallest = model(values), width
     if best is None:
-        raise ValueError("no effect named here leaves a trace to start from")
+        raise ValueError("the log contains no sign of these effects")
     return best
 
 

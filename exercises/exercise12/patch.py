@@ -50,12 +50,13 @@ def _known(name: str) -> None:
     if name in GAINS:
         raise WrongAnswer(
             f'"{name}"',
-            hint="that is a gain, and the base model has it already: its gains are fitted to your "
-            "log as well as they can be. A gain that is bent until one log fits hides what is "
-            f"missing, and fails on the next log; {LIST}",
+            hint="this is a gain, and the model has it already: its gains are fitted to your "
+            "log as well as possible. A gain that is changed until one log fits hides the "
+            f"missing effect, and fails on the next log; {LIST}",
         )
     if name not in EFFECTS:
         near = difflib.get_close_matches(name, EFFECTS, n=1)
+        near = near or [one for one in EFFECTS if name and name in one.split("-")]
         also = f"Did you mean {near[0]}? " if near else ""
         raise WrongAnswer(f'"{name[:40]}", which is no effect', hint=f"{also}{LIST}.")
 

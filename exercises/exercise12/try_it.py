@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from grader.check import WrongAnswer
 from grader.course import find_course, load_progress
 from grader.exercise import find_exercise
 from sim import read
@@ -26,8 +27,12 @@ def main() -> int:
     """Show what some effects do for the gap."""
     parser = argparse.ArgumentParser(description="Try effects on your own logs.")
     parser.add_argument("effects", nargs="*", help="names, as sysid effects lists them")
-    parser.add_argument("--student", help="whose logs; yours if not given")
-    parser.add_argument("--held-out", action="store_true", help="show that gap, too: at the end")
+    parser.add_argument("--student", help="whose logs; yours by default")
+    parser.add_argument(
+        "--held-out",
+        action="store_true",
+        help=("also show the gap of the held-out log: only at the end"),
+    )
     asked = parser.parse_args()
     course = find_course(Path(__file__).resolve().parent)
     exercise = find_exercise("12", course)
@@ -48,7 +53,7 @@ def main() -> int:
         if name != "held-out" or asked.held_out:
             wide = room.gap(model, log) / room.noise(log)
             _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
-    _say("Where the validation disagrees most:")
+    _say("Where simulation and validation differ most:")
     shown = logs["validation"]
     tracks = [np.column_stack((one.position, one.seen)) for one in replay_log(model, shown)]
     found = map_residuals(shown, tracks, compared=room.compared(shown), floor=room.noise(shown))
@@ -69,3 +74,5 @@ if __name__ == "__main__":
         sys.exit(main())
     except Refusal as refusal:
         sys.exit(str(refusal))
+    except WrongAnswer as wrong:
+        sys.exit(f"{wrong.seen}. {wrong.hint}")

@@ -99,7 +99,7 @@ def difference(answers: Answers) -> None:
     if any(_near(value, variant.percent(one), variant) for one in known):
         return
     if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
-        says = "that follows from your kV_theory, but your kV_theory is not right yet"
+        says = "it follows from your kV_theory, but your kV_theory is not right yet"
         raise WrongAnswer(f"{value:.4g} %", hint=says, earned=1.0)
     raise WrongAnswer(f"{value:.4g} %", hint=_about_percent(value, variant))
 
@@ -131,10 +131,16 @@ def _about_percent(value: float, variant: Variant) -> str:
     """What a wrong percentage may have been."""
     percent = variant.percent(variant.parts.paper)
     undone = (
-        (100.0 * value, "that is a share. Asked for is percent, 100 times as much"),
+        (100.0 * value, "this is a fraction. Write percent, 100 times as much"),
         (-value, "the size is right, the sign is not: above theory is positive, below negative"),
-        (value - 100.0, "that is measured in percent of theory. How much more than 100 % is it?"),
-        (100.0 * value - 100.0, "that is measured over theory. How much more than 1 is it?"),
+        (
+            value - 100.0,
+            ("this is the measured kV in percent of theory. How much more than 100 % is it?"),
+        ),
+        (
+            100.0 * value - 100.0,
+            ("this is measured divided by theory. How much more than 1 is it?"),
+        ),
     )
     for once, says in undone:
         if _near(once, percent, variant):
@@ -142,7 +148,7 @@ def _about_percent(value: float, variant: Variant) -> str:
     of_measured = 100.0 * (1.0 - variant.parts.paper / variant.measured)
     if _near(value, of_measured, variant):
         return "percent of what? Divide by the kV on paper, not by the measured one"
-    return "outside the accepted ±1 %. Take measured less theory, and divide by theory"
+    return "outside the accepted ±1 %. Compute measured minus theory, and divide by theory"
 
 
 @check(points=2)
@@ -155,15 +161,15 @@ def verdict(answers: Answers) -> None:
     def why(found: str) -> tuple[str, str]:
         if right == "bookkeeping":
             says = "can a mechanism be faster than its motor's free speed allows?"
-            more = "Your difference is below zero: which line of the README's table is that?"
+            more = "Your difference is below zero: which line of the table in the README is that?"
             if not sound:
-                more = "Look at the sign of your difference"
+                more = "Check the sign of your difference"
             return f"{says} {more}", "M-BELOW-THEORY-OK"
         if found == "bookkeeping":
             says = "that is for a kV below the one on paper."
             more = "Your difference is above zero" if sound else "Which sign has your difference?"
             return f"{says} {more}", ""
-        return "find your difference in the README's table, sign and all", ""
+        return "find your difference, with its sign, in the table of the README", ""
 
     check_choice(answers.given.get("verdict"), right, VERDICTS, why=why)
 
@@ -180,11 +186,11 @@ def ks_flag(answers: Answers) -> None:
 
     def why(found: str) -> tuple[str, str]:
         if found == "stop":
-            says = "stop is for more than kV times the typical speed. Work that out in volts"
+            says = "stop is for a kS above kV times the typical speed. Compute that in volts"
         elif found == "watch":
-            says = "hold kS against both bounds: 0.5 V, and kV times the typical speed"
+            says = "compare kS with both limits: 0.5 V, and kV times the typical speed"
         else:
-            says = "is it less than 0.5 V? Then hold it against kV times the typical speed, too"
+            says = "is it less than 0.5 V? Then compare it with kV times the typical speed, too"
         return says, ""
 
     check_choice(answers.given.get("ks_flag"), answers.variant.flag, FLAGS, why=why)

@@ -39,10 +39,10 @@ CREEP = (0.7, 1.0)  # [V] that it takes where a mechanism creeps, and less than 
 OFF = (0.08, 0.35)  # [share] that a wrong ratio is off by
 CLEAR = 0.7  # [%] from a verdict's bound, whichever theory is taken
 APART = 0.045  # [share] two slips, and a slip and the key, are apart
-STIFF = "stiff by hand, as stiff slowly as fast; nothing gets hot"  # friction of kS, not of kV
+STIFF = "hard to turn by hand, slowly and fast alike; nothing gets hot"  # friction of kS, not of kV
 BRAKING = {
-    "tight-belt": "a belt is as hard as a guitar string",
-    "dry-bearing": "a bearing is dry, and whistles",
+    "tight-belt": "a belt is as tight as a guitar string",
+    "dry-bearing": "a bearing is dry and whistles",
 }
 MOST_DRAWS = 2000  # a few are enough; so many would be our fault
 
@@ -85,8 +85,8 @@ def _gone_wrong(
     """By how much kV is off, the words that name why, and what the team can see of it."""
     factor, words = 1.0 + float(rng.uniform(*FREE_DRAG)), ()
     ratio, radius, battery = parts.ratio, parts.diameter / 2.0, float(rng.uniform(12.2, 12.6))
-    drive, logged = "motor.setVoltage(volts)", "what the motor got"
-    mechanic = "everything turns by hand as it did when it was new, and stays cool"
+    drive, logged = "motor.setVoltage(volts)", "the applied volts"
+    mechanic = "everything turns by hand as easily as when it was new, and stays cool"
     if cause == "ratio":
         ratio = _one(tuple(one for one in ratios if one != parts.ratio), rng)
         factor, words = factor * ratio / parts.ratio, ("gear-ratio",)
@@ -96,7 +96,7 @@ def _gone_wrong(
         factor, words = factor / times, ("wheel-size",)
     elif cause == "voltage":
         battery = round(float(rng.uniform(*TIRED)), 1)
-        drive, logged = "motor.set(volts / 12)", "volts, as it was asked for"
+        drive, logged = "motor.set(volts / 12)", "the commanded volts"
         factor, words = factor * 12.0 / battery, ("logged-voltage",)
     elif cause == "belt":
         part = _one(tuple(BRAKING), rng)

@@ -11,8 +11,10 @@ Problem = tuple[str, str]  # what to tell the student, and the misconception's c
 DISAGREES = {  # line of the student's file -> what it says of a cause it rules out
     "ratio": "your file has the same ratio in [code] as in [parts]",
     "radius": "twice the radius in [code] is the diameter in [parts]",
-    "logged_voltage": "your file says that the log has what the motor got",
-    "mechanic": "read what your mechanic noticed: nothing gets hot or brakes with the speed",
+    "logged_voltage": "your file says that the log contains the applied voltage",
+    "mechanic": (
+        "read what your mechanic noticed: nothing gets hot, and nothing brakes more at high speed"
+    ),
 }
 
 
@@ -30,7 +32,7 @@ def judge_list(raw: object, variant: Variant) -> None:
     possible = [one for one in causes if one not in refused]
     found = [(f"{one}: {says}", code) for one, (says, code) in refused.items()]
     if len(causes) > MOST:
-        found.append((f"name {MOST} at most: the list says where to look first", ""))
+        found.append((f"name at most {MOST}: the list says what to check first", ""))
     lost = 1 if found else 0
     if len(possible) < LEAST:
         found.append((f"name at least {LEAST} causes that are possible", ""))
@@ -64,8 +66,8 @@ def _about_order(causes: list[str], variant: Variant) -> str:
     if rest == sorted(rest, key=ORDER.index):
         return ""
     return (
-        "which can you check at a desk, and which needs a wrench? Look first where looking costs "
-        "least; only what your file already shows may go before that"
+        "which can you check at a desk, and which needs a wrench? Check the easiest first; only"
+        " a cause that your file already shows may come before that"
     )
 
 
@@ -75,13 +77,13 @@ def _about_evidence(causes: list[str], variant: Variant) -> str:
         if variant.evident in causes:
             return ""
         return (
-            "one line of your given.toml does not fit the others, or is not as it should be, and "
-            "what it points to is not on your list. Read it line by line"
+            "one line of your given.toml does not agree with the others, or is not as it should"
+            " be, and its cause is not on your list. Read the file line by line"
         )
     if len({KINDS[one] for one in causes}) < LEAST:
         return (
-            "all of one kind. Nothing is wrong yet, so name causes of two kinds at least: "
-            "mechanical, written down wrong, electrical"
+            "all are of one kind. Nothing is wrong yet, so name causes of at least two kinds: "
+            "written numbers, electrical, mechanical"
         )
     return ""
 
@@ -101,14 +103,16 @@ def _read(raw: object) -> list[str]:
 def _impossible(cause: str, variant: Variant) -> tuple[str, str]:
     """Why a cause cannot be behind this kV, and the misconception's code."""
     if cause == "mass":
-        return "at a steady speed, does it take more volts to move more mass?", "M-KV-MASS"
+        return "does a heavier robot need more volts at a steady speed?", "M-KV-MASS"
     if cause == "constant-friction":
-        return "what takes the same volts at every speed shows in another gain than kV", ""
+        return (
+            "friction that needs the same voltage at every speed changes another gain than kV"
+        ), ""
     if cause == "sensor-noise":
-        return "noise scatters to both sides; it does not make a sound velocity slower", ""
+        return "noise goes to both sides; it does not make the velocity slower", ""
     if cause == "wheel-size" and not variant.parts.diameter:
-        return "there is no wheel between your motor and the angle that is logged", ""
+        return "there is no wheel between your motor and the logged angle", ""
     if cause == "unpowered-motor" and variant.parts.motors == 1:
-        return "you have one motor, and it moves", ""
-    says = "that makes a mechanism slower. Yours is faster than its motor allows"
+        return "you have only one motor, and it turns", ""
+    says = "this makes a mechanism slower. Yours is faster than its motor allows"
     return says, "M-BELOW-THEORY-OK"

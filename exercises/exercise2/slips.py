@@ -13,11 +13,15 @@ UNITS = "M-UNITS"
 def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
     """What the known slips make of a learner's own parts; the measured kV comes first."""
     parts = variant.parts
-    gears = "Free speed is the motor's. How fast is the output then? Mind the gear ratio"
+    gears = "the free speed is that of the motor. How fast is the output then? Use the gear ratio"
     found = [
-        (variant.measured, "that is the measured kV. Asked for is the one on paper", ""),
+        (variant.measured, "this is the measured kV. Compute the one on paper", ""),
         (parts.paper / 60.0, "60 seconds are a minute. Did you divide by rpm?", UNITS),
-        (parts.paper * 60.0, "60 seconds are a minute. Did you multiply by 60 too often?", UNITS),
+        (
+            parts.paper * 60.0,
+            "60 seconds are a minute. Did you multiply by 60 once too often?",
+            UNITS,
+        ),
         (parts.paper / parts.ratio, gears, UNITS),
         (
             parts.paper / parts.ratio**2,
@@ -31,21 +35,24 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
     for count in range(2, len(skipped) + 1):
         for steps in combinations(skipped, count):
             missing = " and ".join(name for _, name in steps)
-            says = f"12 V over a free speed that is not in your unit yet. Still missing: {missing}"
+            says = (
+                "12 V divided by a free speed that is not in your unit yet. Still missing: "
+                f"{missing}"
+            )
             found.append((parts.paper / math.prod(times for times, _ in steps), says, UNITS))
     coded = float(variant.told["code"]["ratio"])
     if coded != parts.ratio:
-        says = "that is with the ratio in the code. What counts is what is built in"
+        says = "this uses the ratio in the code. Use the real ratio"
         found.append((parts.paper * coded / parts.ratio, says, ""))
     if parts.diameter:
-        radius = "2 lies between a diameter and a radius. Did you take one for the other?"
+        radius = "a factor of 2: did you mix up diameter and radius?"
         around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
         still = "that is volts for each turn of the wheel in a second. How far does one turn go?"
         found += [(parts.paper * times, radius, UNITS) for times in (0.5, 2.0)]
         found += [(parts.paper * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)]
         found += [(parts.paper * math.pi * parts.diameter, still, UNITS)]
     else:
-        turn = "2π = 6.28. Is this volts for radians, where rotations are asked for?"
+        turn = "2π = 6.28. Is this per radian? Write it per rotation"
         found += [(parts.paper * times, turn, UNITS) for times in (2 * math.pi, 0.5 / math.pi)]
         found += [(parts.paper / 360.0, "a rotation is 360°. Is your speed in degrees?", UNITS)]
     if parts.motors == 4:

@@ -159,9 +159,11 @@ def _word(name: str, right: str, answers: Answers, *, choices: Sequence[str]) ->
     def why(found: str) -> tuple[str, str]:
         ask = f"Choose one of: {', '.join(choices)}."
         if found.startswith("Simple"):
-            says = "Simple knows no gravity. Does yours stay where it is without a voltage? "
+            says = "Simple has no gravity term. Does yours stay where it is without a voltage? "
             return says + ask, "M-NO-KG-IN-SYSID"
-        says = "What gravity takes: is it the same everywhere, or does it change with an angle? "
+        says = (
+            "Is the voltage against gravity the same everywhere, or does it change with an angle? "
+        )
         return says + ask, ""
 
     check_choice(answers.given.get(name), right, choices, why=why, also=also)

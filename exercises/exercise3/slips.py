@@ -12,7 +12,7 @@ NEAR = (0.985, 1.0, 1.015)  # [share] a slip is named for who rounds, too
 
 EDGE = WrongNumber(
     "edge",
-    "that is an edge of the band in which nothing moves. On an edge friction has its say, too",
+    "that is an edge of the band in which nothing moves. At an edge, friction is included",
     "M-KG-EDGE",
 )
 WIDTH = WrongNumber(
@@ -25,15 +25,17 @@ QUARTER = WrongNumber(
     "that is a quarter of the width of the band. How far is it from the middle to an edge?",
     "M-KG-EDGE",
 )
-BOTH = WrongNumber("both", "that is both edges added up. What lies between them?", "M-KG-EDGE")
+BOTH = WrongNumber(
+    "both", "this is the sum of both edges. What is in the middle between them?", "M-KG-EDGE"
+)
 SIMPLE = WrongNumber(
     "simple",
-    "that is what the analysis type Simple would make of it: gravity and friction in one",
+    "this is what the analysis type Simple would give: gravity and friction in one number",
     "M-NO-KG-IN-SYSID",
 )
 NONE = WrongNumber(
     "none",
-    "that says gravity takes nothing. Would it stay up without a voltage?",
+    "this means that gravity needs no voltage. Would it stay up without a voltage?",
     "M-NO-KG-IN-SYSID",
 )
 AS_READ = WrongNumber(
@@ -46,7 +48,7 @@ LARGEST = WrongNumber(
 )
 DEGREES = WrongNumber(
     "degrees",
-    "it looks as if degrees went into a cosine that counts in radians",
+    "it looks as if you put degrees into a cosine that uses radians",
     "M-UNITS",
 )
 
@@ -111,8 +113,8 @@ def offset_slips(value: float, variant: Variant) -> Iterator[tuple[str, str]]:
     """What a wrong offset [deg] may have been: a sentence and its misconception."""
     nearest = max(variant.arm, key=lambda hold: hold.middle)
     slips = (
-        (-value, "the size is right, the sign is not. Asked for is what you add to a reading", ""),
-        (math.degrees(value), "57.3 = 180/π. Is this in radians? Asked for are degrees", "M-UNITS"),
+        (-value, "the size is right, the sign is not. The offset is what you add to a reading", ""),
+        (math.degrees(value), "57.3 = 180/π. Is this in radians? Write degrees", "M-UNITS"),
         (360.0 * value, "a rotation is 360°. Is this in rotations?", "M-UNITS"),
         (value + 90.0, "it is 90° off. Is this measured from vertical?", ""),
         (value - 90.0, "it is 90° off. Is this measured from vertical?", ""),

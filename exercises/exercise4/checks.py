@@ -80,7 +80,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:  # noqa: ARG001
         raise UnreadableFile(
             first.message,
             where=f"{path}, line {first.line}",
-            advice="Mend that line first: code with a mistake like this does not compile.",
+            advice="Fix that line first: code with a mistake like this does not compile.",
         )
     if facts.language == "python":
         bench.refuse_tampering(path)
@@ -158,7 +158,7 @@ def step(code: Code) -> str | None:
 
 def _about_step(value: float) -> tuple[str, str]:
     if value == LESSON_STEP:
-        return "3 V is the lesson's own example, and no mistake in itself.", ""
+        return "3 V is an example in many lessons, and fine on many robots.", ""
     if value >= STEP.default:
         return f"{STEP.default:g} V, WPILib's default, is almost always too much.", "M-BIG-STEP"
     return "", ""
@@ -167,7 +167,7 @@ def _about_step(value: float) -> tuple[str, str]:
 @check(points=1, after=routine)
 def timeout(code: Code) -> str | None:
     """A test ends by itself after 10 s."""
-    return _number(code, TIMEOUT, "a test that was left alone ended after")
+    return _number(code, TIMEOUT, "a test that nobody stopped ended after")
 
 
 @check(points=3, after=routine)
@@ -196,7 +196,7 @@ def _drive(facts: RoutineFacts) -> str | None:
     if not facts.drive:
         raise WrongAnswer(
             "the drive callback moves no motor" if facts.drive_found else "no drive callback",
-            hint="It gets the voltage of the test: hand it to setVoltage() of every motor.",
+            hint="It gets the voltage of the test: pass it to setVoltage() of every motor.",
         )
     wrong: list[WrongAnswer] = []
     for motor in motors:
@@ -223,7 +223,10 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
         first = facts.unread[0]
         raise WrongAnswer(
             explain_doubt("what is out of sight", f"line {first.line}: {first.message}"),
-            hint="Write the callback where it can be read: in this class, or in this folder.",
+            hint=(
+                "Write the callback in this class or in this folder, so that the grader can "
+                "read it."
+            ),
         )
 
 
@@ -249,8 +252,11 @@ def _log(facts: RoutineFacts, demanded: int) -> None:
         )
     if facts.log_is_null:
         raise WrongAnswer(
-            "null in place of the log callback: then WPILib records nothing",
-            hint="That is for vendors' own loggers. Here, write a callback that fills the log.",
+            "null instead of the log callback: then WPILib records nothing",
+            hint=(
+                "null is for the loggers of CTRE and REV. Here, write a callback that fills "
+                "the log."
+            ),
         )
     motors = dict.fromkeys(one.motor for one in facts.logged)
     recorded = {(one.motor, one.signal) for one in facts.logged}
@@ -282,7 +288,7 @@ def _moved(ran: RunFacts) -> bool:
 def _units(facts: RoutineFacts) -> None:
     signals = [one for one in facts.logged if one.signal in {"position", "velocity"}]
     if not signals:
-        raise NotReachedError("looked at once position and velocity are recorded")
+        raise NotReachedError("checked after you record position and velocity")
     task = facts.class_name == TASK
     check_units(signals, mechanism="Drivetrain" if task else facts.class_name)
     check_sources(signals, geared=facts.geared)
@@ -314,7 +320,7 @@ def _assembled(facts: RoutineFacts) -> None:
     if facts.subsystem_passed is None:
         raise WrongAnswer(
             explain_doubt("which subsystem the Mechanism gets", ""),
-            hint=f"Pass {this}: the tests have to require the subsystem they drive.",
+            hint=f"Pass {this}: the tests must require the subsystem that they drive.",
         )
     if not facts.subsystem_passed:
         raise WrongAnswer(
@@ -331,7 +337,7 @@ def _assembled(facts: RoutineFacts) -> None:
         empty = "null" if facts.language == "java" else "None"
         raise WrongAnswer(
             f"line {facts.routine_lost} sets the field of the SysIdRoutine to {empty}",
-            hint="The routine is lost then, and no test can start. Remove that line.",
+            hint="Then there is no routine, and no test can start. Remove that line.",
         )
     check_compiles(facts.compile_errors, language=facts.language)
 
@@ -350,6 +356,6 @@ def _as_a_share(ran: RunFacts) -> RunFault | None:
 
 def _open_loop(facts: RoutineFacts) -> None:
     if not facts.drive:
-        raise NotReachedError("looked at once the drive callback moves a motor")
+        raise NotReachedError("checked after the drive callback moves a motor")
     for call in facts.drive:
         check_open_loop(call)

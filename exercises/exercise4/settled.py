@@ -71,11 +71,17 @@ def settle(
             raise
         _fail(running(ran), points)
         if isinstance(open_still, WrongAnswer) and ran.aware:
-            said = f"{ran.aware}, asks whether this is a simulation, and may differ on a robot"
+            said = (
+                f"{ran.aware}, checks whether this is a simulation, and may behave "
+                "differently on a robot"
+            )
             _unsettled(open_still, said)
         if not answered(ran):
             raise
-        return f"Reading cannot tell, so it was run {IN}: there this is right."
+        return (
+            f"The grader could not decide this by reading, so it ran the code {IN}: there it "
+            "is right."
+        )
     if ran is not None:
         _fail(running(ran), points)
     return note

@@ -21,7 +21,7 @@ from .pressed import agreed, press
 
 FILES = ("RobotContainer.java", "robotcontainer.py")
 WRITE_IT = "Write Direction.kForward or Direction.kReverse there."
-READ = "looked at once a test is bound to a button"
+READ = "checked after you bind a test"
 
 
 def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa: ARG001 - one task for everyone
@@ -42,7 +42,7 @@ def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa
         raise UnreadableFile(
             first.message,
             where=f"{path}, line {first.line}",
-            advice="Mend that line first: code with a mistake like this does not compile.",
+            advice="Fix that line first: code with a mistake like this does not compile.",
         )
     if facts.language == "python":
         bench.refuse_tampering(path)
@@ -70,20 +70,26 @@ def factories(facts: BindingFacts) -> None:
     if not made and any(not test.read for one in facts.bindings for test in one.tests):
         raise WrongAnswer(
             f"I cannot see the methods that {facts.bindings[0].text} calls",
-            hint="Put the subsystem's file beside this one, or its class into it, and grade again.",
+            hint=(
+                "Put the subsystem's file into the same folder, or its class into this file, "
+                "and grade again."
+            ),
         )
     if any(not one.test.direction for one in facts.factories):
         one = next(one for one in facts.factories if not one.test.direction)
         raise WrongAnswer(
-            f"I cannot tell the direction of {one.method} by reading",
-            hint="Hand it Direction.kForward or kReverse, or let it be the method's parameter.",
+            f"the grader cannot see the direction of {one.method} by reading",
+            hint=(
+                "Pass Direction.kForward or kReverse, or make the direction a parameter of the"
+                " method."
+            ),
             earned=earned,
         )
     lacking = named(TESTS - public)
     raise WrongAnswer(
         f"no method makes {lacking}" if made else "no method makes the command of a test",
-        hint="The routine makes the commands: quasistatic(direction) and dynamic(direction). Hand "
-        "them out from public methods of the subsystem.",
+        hint="The routine makes the commands: quasistatic(direction) and dynamic(direction). "
+        "Return them from public methods of the subsystem.",
         earned=earned,
     )
 
@@ -120,21 +126,27 @@ def each_once(facts: BindingFacts) -> None:
             raise WrongAnswer(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
         if not all_of(one.tests) or one.tests[0].direction == "any":
             raise WrongAnswer(
-                f"I cannot tell the direction in line {one.line} by reading {one.text}",
+                f"the grader cannot see the direction in line {one.line} by reading {one.text}",
                 hint=WRITE_IT,
             )
     twice = [test for test in TESTS if len(times(facts, test)) > 1]
     if twice:
         first = min(twice, key=lambda test: times(facts, test)[0])
         lines = " and ".join(f"line {line}" for line in times(facts, first))
-        hint = "Copied and not changed? Look at the kind and the direction in both lines."
+        hint = (
+            "Did you copy a line and forget to change it? Check the kind and the direction "
+            "in both lines."
+        )
         raise WrongAnswer(f"{' '.join(first)} twice: {lines}", hint=hint)
     lacking = missing(facts)
     if lacking:
         only = {way for _, way in lacking} == {"reverse"}
         raise WrongAnswer(
             f"{named(lacking)} missing",
-            hint="The reverse runs are no luxury: friction and gravity show only in both."
+            hint=(
+                "You need the reverse runs: only both directions together show friction and "
+                "gravity."
+            )
             if only
             else "Two kinds, each forward and reverse.",
             misconception="M-REVERSE-WASTE" if only else "",
@@ -180,14 +192,14 @@ def bound(facts: BindingFacts) -> None:
         text, line = facts.elsewhere[0]
         raise WrongAnswer(
             f"{text} in line {line}",
-            hint="There nobody holds a button, and nobody can let it go. Bind the test to one.",
+            hint="Nobody holds a button there, so nobody can let go. Bind the test to a button.",
         )
     _readable(facts, earned=0.0)
     if all_of(one.test for one in facts.factories) >= TESTS:
         raise WrongAnswer(
             "no button runs a test",
-            hint="Bind each of the four to a button. If you did: is the line reached, or does a "
-            "return or a condition come before it?",
+            hint="Bind each of the four to a button. If you did: does the program reach that "
+            "line, or is there a return or a condition before it?",
         )
     reached(facts)
 
@@ -205,12 +217,12 @@ def reached(facts: BindingFacts) -> None:
 def _readable(facts: BindingFacts, *, earned: float) -> None:
     """Ask, where a test that is missing may be one that cannot be read."""
     for first in facts.unread[:1]:
-        hint = "Write the test into the line that binds it: then I can read it."
+        hint = "Write the test into the line that binds it, so that the grader can read it."
         raise WrongAnswer(f"line {first.line}: {first.message}", hint=hint, earned=earned)
     for one in facts.bindings:
         if not all_of(one.tests):
             raise WrongAnswer(
-                f"I cannot tell the direction in line {one.line} by reading {one.text}",
+                f"the grader cannot see the direction in line {one.line} by reading {one.text}",
                 hint=WRITE_IT,
                 earned=earned,
             )

@@ -32,8 +32,8 @@ def check_comment(one: Binding) -> None:
     said = one.comment
     if not said:
         raise WrongAnswer(
-            f"no comment beside {one.text} in line {one.line}",
-            hint="Write one above it, or behind it: which test, and what does it measure?",
+            f"no comment next to {one.text} in line {one.line}",
+            hint="Write one above it or after it: which test, and what does it measure?",
         )
     seen = f'"{said[:60]}" beside line {one.line}'
     opposite = re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE)
@@ -45,7 +45,7 @@ def check_comment(one: Binding) -> None:
     if not test and TEST[other].search(said):
         raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")
     if not property_ and PROPERTY[other].search(said):
-        hint = f"That is what the {other} test measures. What is left for the {kind} one?"
+        hint = f"That is what the {other} test measures. What does the {kind} test measure?"
         raise WrongAnswer(seen, hint=hint)
     if test:
         hint = "It names the test. Which property of the mechanism does the test measure?"

@@ -6,8 +6,8 @@ from grader.robotcode.binding_facts import Binding, BindingFacts, Controller, Gu
 from .four import TESTS
 
 WAYS = (
-    "Ask for something a driver never does in a match: test mode, a second button held along, a "
-    "switch on the dashboard, or a controller that is not plugged in then."
+    "Use something that never happens in a match: test mode, a second button that you hold at"
+    " the same time, a switch on the dashboard, or a controller that is not plugged in."
 )
 NOT_IN_ROBOTPY = "RobotModeTriggers"  # as of 2026
 UTILITY = 2027  # the season from which test mode is called utility mode
@@ -27,7 +27,7 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
     open_ = [one for one in facts.bindings if not _guarded(one, facts)]
     bound = len(facts.bindings)
     if not open_ and bound < len(TESTS):
-        hint = "The guard is right. It counts for the whole once all four tests are there."
+        hint = "The guard is right. It earns all its points when you have bound all four tests."
         earned = points * bound / len(TESTS)
         raise WrongAnswer(f"{bound} of {len(TESTS)} tests bound", hint=hint, earned=earned)
     if not open_:
@@ -36,27 +36,31 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
     seen = f"nothing guards {first.text} in line {first.line}"
     if Guard.ASKED_ONCE in first.guards:
         raise WrongAnswer(
-            f"test mode is asked once for line {first.line}, while the program starts",
-            hint="The robot is not in test mode then, and the answer never changes. "
-            "Let the trigger ask, every time.",
+            f"line {first.line} checks test mode only once, while the program starts",
+            hint="The robot is not in test mode then, and the answer never changes. Let the "
+            "trigger check it every time.",
         )
     if Guard.OTHER_MODE in first.guards:
         raise WrongAnswer(
-            f"the guard of {first.text} in line {first.line} asks for a mode other than test mode",
-            hint="Then the test can start in a match, and in test mode it cannot. Ask for test "
-            "mode itself, without negate(), ! or not.",
+            (
+                f"the guard of {first.text} in line {first.line} checks for another mode than test "
+                "mode"
+            ),
+            hint="Then the test can start in a match, and in test mode it cannot. Check for "
+            "test mode itself, without negate(), ! or not.",
         )
     guarded = bound - len(open_)
     if guarded:
         lines = ", ".join(str(one.line) for one in open_)
         said = f"{guarded} of {bound} bindings are guarded; not so: line {lines}"
-        hint = "One open door is enough. Guard all four the same way."
+        hint = "One test without a guard is enough for an accident. Guard all four in the same way."
         raise WrongAnswer(said, hint=hint, earned=points * guarded / max(bound, len(TESTS)))
     used = [one for one in _controllers(first, facts) if one.uses]
     if used and len(facts.controllers) > 1:
         text, line = used[0].uses[0]
         raise WrongAnswer(
-            seen, hint=f"Its controller is in use in a match: {text} in line {line}. {WAYS}"
+            seen,
+            hint=(f"The driver uses this controller in a match: {text} in line {line}. {WAYS}"),
         )
     raise WrongAnswer(seen, hint=WAYS)
 
@@ -64,14 +68,14 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
 def _note(facts: BindingFacts) -> str | None:
     """What to say about guards that are right."""
     if facts.language == "python" and any(NOT_IN_ROBOTPY in one.trigger for one in facts.bindings):
-        return f"RobotPy of 2026 has no {NOT_IN_ROBOTPY}; DriverStation.isTest asks the same."
+        return f"RobotPy 2026 has no {NOT_IN_ROBOTPY}; DriverStation.isTest checks the same."
     if facts.season >= UTILITY and any(OLD_MODE in one.trigger for one in facts.bindings):
         return (
             "WPILib 2027 calls test mode utility mode: RobotModeTriggers.utility(). Early alphas "
             "still have test(); the development branch does not."
         )
     if any(not HOLDS.intersection(one.guards) for one in facts.bindings):
-        return "Unplug that controller before a match: only then nobody touches it."
+        return "Unplug that controller before a match, so that nobody touches it."
     return None
 
 

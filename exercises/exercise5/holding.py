@@ -13,39 +13,48 @@ from .four import TESTS
 PRESSED = 1 / 3  # [share] of the points for a test that starts, but does not stop on release
 
 SAYS = {
-    Hold.PRESS: "Once started, the test runs to its timeout even after release. It has to stop "
-    "when the button is let go",
-    Hold.TOGGLE: "It takes a second press to stop, and in a hurry nobody finds the button. It has "
-    "to stop when the button is let go",
-    Hold.RELEASED: "Then it runs as long as nobody presses anything. It has to run while the "
-    "button is held",
-    Hold.UNKNOWN: "It has to run while the button is held",
+    Hold.PRESS: "Once started, the test runs to its timeout even after you release the button. "
+    "It must stop when you let go",
+    Hold.TOGGLE: "You need a second press to stop it, and in a hurry nobody finds the button. "
+    "It must stop when you let go",
+    Hold.RELEASED: "Then it runs as long as nobody presses the button. It must run while you "
+    "hold the button",
+    Hold.UNKNOWN: "It must run while you hold the button",
 }
 
 HINDERED = {  # what is seen, and what to do about it
     HindranceKind.NEVER: (
         "{text} keeps the test of line {line} from starting",
-        "Whoever holds the button waits in vain. Remove it, or ask for something that changes.",
+        (
+            "The test never starts, although somebody holds the button. Remove it, or check "
+            "something that can change."
+        ),
     ),
     HindranceKind.CLOSED: (
         "the trigger of line {line} never becomes true: {text}",
-        "A part of it is always false. Ask for something that can become true.",
+        "A part of it is always false. Use a condition that can become true.",
     ),
     HindranceKind.CUT: (
         "{text} ends the test of line {line} early",
-        "The test has to run while its button is held, up to the routine's own timeout. Remove it.",
+        (
+            "The test must run while you hold its button, up to the routine's own timeout. Remove "
+            "it."
+        ),
     ),
     HindranceKind.DELAYED: (
         "{text} delays the trigger of line {line}",
-        "The test has to start and stop with its button. Debounce for 0.5 s at most, as a number.",
+        (
+            "The test must start and stop with its button. Debounce for at most 0.5 s, written as a"
+            " number."
+        ),
     ),
     HindranceKind.CLEARED: (
         "{text} removes the binding of line {line} again",
         "After it this button does nothing. Remove it.",
     ),
     HindranceKind.UNREAD: (
-        "I cannot tell by reading whether {text} lets the test of line {line} run",
-        "Hand the test itself to whileTrue(), or use WPILib's decorators with written numbers.",
+        "the grader cannot see by reading whether {text} lets the test of line {line} run",
+        "Pass the test itself to whileTrue(), or use WPILib's decorators with numbers.",
     ),
 }
 
@@ -64,13 +73,13 @@ def check_hold(one: Binding, facts: BindingFacts, *, earned: float) -> None:
     at = f"{one.text} in line {one.line}"
     if one.hold is not Hold.WHILE and one.stopped:
         hint = "There is a simpler way to run it while the button is held: whileTrue()."
-        raise WrongAnswer(f"I cannot tell when {at} stops", hint=hint, earned=earned)
+        raise WrongAnswer(f"the grader cannot see when {at} stops", hint=hint, earned=earned)
     if one.hold is not Hold.WHILE:
         raise WrongAnswer(at, hint=f"{SAYS[one.hold]}: whileTrue().", earned=earned)
     if one.scheduled:
         hint = (
-            "The command that is held only starts another one, which then runs to its timeout. "
-            "Hand the test itself to whileTrue()."
+            "The button only starts another command, which then runs to its timeout. Pass the "
+            "test itself to whileTrue()."
         )
         raise WrongAnswer(at, hint=hint, earned=earned)
     for first in one.hindrances:
@@ -83,16 +92,16 @@ def check_hold(one: Binding, facts: BindingFacts, *, earned: float) -> None:
             earned=earned,
         )
     if not one.trigger:
-        hint = "Write the button into the line that binds it: controller.a(), say."
+        hint = "Write the button into the line that binds it, for example controller.a()."
         raise WrongAnswer(
-            f"I cannot tell which button line {one.line} binds", hint=hint, earned=earned
+            f"the grader cannot see which button line {one.line} binds", hint=hint, earned=earned
         )
     for other in facts.bindings:
         if other.line != one.line and other.trigger == one.trigger and other.tests != one.tests:
             raise WrongAnswer(
                 f"lines {one.line} and {other.line} share the trigger {one.trigger}",
-                hint="Both tests start at once, and each wants the motors for itself. Give each "
-                "its own button.",
+                hint="Both tests would start at the same time and fight for the motors. Give "
+                "each its own button.",
                 earned=earned,
             )
 

@@ -22,7 +22,7 @@ class ExampleSubsystem(Subsystem):
             SysIdRoutine.Mechanism(self.drive, self.record, self),
         )
 
-    # TODO: 1. Let other classes have the four tests as commands: a method that makes the
+    # TODO: 1. Give other classes the four tests as commands: a method that makes the
     #       quasistatic test of a direction, and one that makes the dynamic test.
 
     def turn(self, output: Callable[[], float]) -> Command:
@@ -51,5 +51,5 @@ class RobotContainer:
     def configure_bindings(self) -> None:
         """Say which button does what."""
         # TODO: 2. Bind the four tests to four buttons, so that each runs while its button is
-        #       held, and never by accident in a match. Beside each, a comment: which test is it,
+        #       held, and never by accident in a match. Next to each, a comment: which test is it,
         #       and which property of the mechanism does it measure?

@@ -129,9 +129,9 @@ def _planned(kind: str, answers: Answers) -> str:
     found = broken(machine, plan)
     slow, fast = quasistatic(machine, plan), dynamic(machine, plan)
     if not found:
-        run = f"{slow.rests:.2f} {machine.symbol} and {fast.rests:.2f} {machine.symbol} of run"
+        run = f"{slow.rests:.2f} {machine.symbol} and {fast.rests:.2f} {machine.symbol}"
         share = 100.0 * slow.fastest / machine.free
-        return f"ramp and step take {run}; the ramp gets to {share:.0f} % of the free speed"
+        return f"ramp and step need {run}; the ramp reaches {share:.0f} % of the free speed"
     codes = {one.misconception for one in found} - {""}
     mark = "timeout" if math.isinf(plan.release) else f"{plan.release:g} {machine.symbol}"
     raise WrongAnswer(

@@ -14,13 +14,16 @@ SEEN: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # item -> decision -> wha
             "nothing in the way for 12 m ahead and 12 m behind; tape on the floor",
         ),
         "no-go": (
-            "free carpet ahead; right behind the robot stands the table with the laptops",
+            "free carpet ahead; the table with the laptops is right behind the robot",
             "the robot stands on blocks, its wheels in the air",
         ),
     },
     "battery": {
-        "go": ("12.8 V at rest, just off the charger", "12.6 V at rest, charged over night"),
-        "no-go": ("11.7 V at rest; it has driven since nine", "11.4 V at rest; no other at hand"),
+        "go": ("12.8 V at rest, just off the charger", "12.6 V at rest, charged overnight"),
+        "no-go": (
+            "11.7 V at rest; the robot has driven since nine o'clock",
+            ("11.4 V at rest; there is no other battery"),
+        ),
     },
     "encoder": {
         "go": (
@@ -39,13 +42,13 @@ SEEN: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # item -> decision -> wha
         ),
         "no-go": (
             "we will look for the file in the evening",
-            "nobody knows yet where the robot keeps it",
+            "nobody knows yet where the robot saves it",
         ),
     },
     "guard": {
         "go": (
             "the test buttons do nothing until the characterization switch is on",
-            "the tests are on a controller of their own, which is not plugged in for matches",
+            "the tests are on a separate controller, which is not plugged in during matches",
         ),
         "no-go": (
             "the tests are on the driver's A, B, X and Y, at all times",
@@ -55,11 +58,11 @@ SEEN: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # item -> decision -> wha
     "driver_station": {
         "go": (
             "one of us sits at the Driver Station and does nothing but wait to disable",
-            "a finger is on the key that disables, and stays there",
+            "one of us keeps a finger on the key that disables",
         ),
         "no-go": (
-            "all of us stand at the robot, to see it better",
-            "whoever disables also holds the gamepad and reads the plot",
+            "we all stand next to the robot, to see it better",
+            "the person who disables also holds the gamepad and reads the plot",
         ),
     },
 }

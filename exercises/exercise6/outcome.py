@@ -87,13 +87,13 @@ def _long_enough(ramp: Test) -> dict[str, Test]:
     if ramp.fastest >= LESS * enough:
         return {}
     lasts = ramp.still + ramp.when(ramp.speed, enough)
-    return {"the ramp until it tells enough": replace(ramp, release=math.inf, timeout=lasts)}
+    return {"the ramp until it is fast enough": replace(ramp, release=math.inf, timeout=lasts)}
 
 
 def _words(name: str, test: Test, travel: float) -> str:
     symbol = test.machine.symbol
-    says = f"The {test.machine.kind}: {name} takes {_size(test.rests)} {symbol} of run"
-    return f"{says}; {travel:g} {symbol} are free."
+    says = f"The {test.machine.kind}: {name} needs {_size(test.rests)} {symbol}"
+    return f"{says}; there are {travel:g} {symbol}."
 
 
 def _size(run: float) -> str:

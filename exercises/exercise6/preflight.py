@@ -12,12 +12,14 @@ DECISIONS = ("go", "no-go")
 STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
 LISTED = tuple(sorted(STEPS))
 WHY = {  # item of the checklist -> what a wrong decision overlooks
-    "travel": "what does the ramp need, forward and back, and what do the wheels push against?",
-    "battery": "a battery below 12.5 V at rest sags under a step, and a charged one does not.",
-    "encoder": "positive volts have to give a rising position, without jumps.",
-    "log": "what use is a test whose record nobody finds, and what speaks against one that is?",
-    "guard": "can a test be started by a thumb that means something else?",
-    "driver_station": "who can stop the robot at once, and has nothing else to do?",
+    "travel": ("how much room does the ramp need, forward and back? Do the wheels push the robot?"),
+    "battery": "below 12.5 V at rest, the voltage drops too far in a step.",
+    "encoder": "a positive voltage must give a rising position, without jumps.",
+    "log": "you need the log after the test. Has anybody fetched one from this robot before?",
+    "guard": "can somebody start a test by accident?",
+    "driver_station": (
+        "is there a person who can stop the robot at once and has nothing else to do?"
+    ),
 }
 
 
@@ -48,28 +50,32 @@ def _folder_2026(found: str) -> tuple[str, str]:
     if "systemcore" in found:
         return "that is on another controller than the roboRIO", ""
     if found.endswith("deploy"):
-        return "there your program lies, not what it writes down", ""
+        return "your program is there, but not its logs", ""
     return "does your roboRIO have a USB stick? A log goes there first, if there is one", ""
 
 
 def _folder_2027(found: str) -> tuple[str, str]:
     if found.startswith("/u/"):
-        return "a USB stick goes first there, too; asked is where it goes without one", ""
-    return "a Systemcore has another user than a roboRIO, and its home is called after it", ""
+        return (
+            "that is the folder of a USB stick; the question is about a Systemcore without one"
+        ), ""
+    return (
+        "a Systemcore has another user name than a roboRIO, and its home folder has that name"
+    ), ""
 
 
 def _limit(found: str) -> tuple[str, str]:
-    who = "who keeps this limit, and does that one still run while the test command has the motor?"
+    who = "where is this limit set? Does that code still run while the test command has the motor?"
     return who, "M-LIMITS-BYPASSED" if found == "bypassed" else ""
 
 
 def _season(found: str) -> tuple[str, str]:
     if found == "kickoff-week":
-        return "there is no mechanism yet whose friction and weight will stay", ""
+        return "the friction and the weight of the robot will still change", ""
     if found == "after-the-season":
-        return "whom would the gains help then?", ""
+        return "then nobody can use the gains this season", ""
     return (
-        "eight minutes between matches, a pit as large as a parking space: where is room?",
+        "there are eight minutes between matches, and a pit is as small as a parking space",
         "",
     )
 
@@ -139,4 +145,4 @@ def judge_steps(raw: object) -> None:
         raise WrongAnswer(seen, hint=f"each of the four once. {ask}")
     late = next((one for one, right in zip(found, STEPS, strict=True) if one != right), "")
     if late:
-        raise WrongAnswer(seen, hint=f"{late} comes too early. What has to be there before it?")
+        raise WrongAnswer(seen, hint=f"{late} comes too early. What must happen before it?")

@@ -33,36 +33,42 @@ def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
         yield Broken(f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s")
     if machine.travel is not None and MORE * machine.travel < plan.release < math.inf:
         room = f"{machine.travel:g} {machine.symbol}"
-        yield Broken(f"your mark is at {plan.release:g} {machine.symbol}; your run ends at {room}")
+        yield Broken(
+            f"your mark is at {plan.release:g} {machine.symbol}; the travel ends at {room}"
+        )
     slow = quasistatic(machine, plan)
     asks = plan.ramp * (slow.still + slow.lasts)
     if asks > MORE * BATTERY:
-        yield Broken(f"your ramp asks for {asks:.1f} V in the end; the battery has {BATTERY:g} V")
+        yield Broken(f"your ramp reaches {asks:.1f} V; the battery has {BATTERY:g} V")
     for name, test in (("ramp", slow), ("step", dynamic(machine, plan))):
         if machine.travel is not None and test.rests > MORE * machine.travel:
             yield Broken(_too_far(name, test, machine.travel))
     amps = plan.step / BATTERY * machine.stall
     if amps > MORE * machine.limit:
         says = f"at standstill your step draws {amps:.0f} A; the limit is {machine.limit:g} A. The "
-        yield Broken(f"{says}controller takes volts away, and the log shows a gentler start", BIG)
+        yield Broken(
+            (f"{says}controller reduces the voltage, and the mechanism starts more slowly"), BIG
+        )
     if plan.step > MORE * GRIP * machine.slip:
         share = 100.0 * plan.step / machine.slip
-        says = f"your step takes {share:.1f} % of the volts at which the wheels slip; at most 90 %"
+        says = f"your step is {share:.1f} % of V_slip; at most 90 %"
         if plan.step > machine.slip:
-            says += ". They spin, and the encoder counts meters that the robot does not go"
+            says += ". The wheels spin, and the encoder counts meters that the robot does not move"
         yield Broken(says, BIG)
 
 
 def _too_far(name: str, test: Test, travel: float) -> str:
     """The run a test needs, and how it ends."""
     symbol = test.machine.symbol
-    says = f"your {name} needs {test.rests:.2f} {symbol} of run; you have {travel:g} {symbol}. "
+    says = f"your {name} needs {test.rests:.2f} {symbol}; you have {travel:g} {symbol}.  "
     hit = test.when(test.place, travel)
     if hit < test.lasts:
         says += f"It hits the end at {test.speed(hit):.2f} {symbol}/s, {test.still + hit:.1f} s "
         return says + "after the start, with the voltage still on"
-    late = "the thumb is late, and " if test.by_mark else ""
-    return f"{says}At its end it does {test.fastest:.2f} {symbol}/s: {late}it cannot stand at once"
+    late = "the thumb needs time to react, and " if test.by_mark else ""
+    return (
+        f"{says}At its end it moves at {test.fastest:.2f} {symbol}/s: {late}it cannot stop at once"
+    )
 
 
 def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
@@ -74,19 +80,19 @@ def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
         yield _too_slow(slow, end)
     push = plan.step - machine.hold
     if push <= 0.0:
-        yield Broken("your step does not move it: friction, or gravity with it, takes all of it")
+        yield Broken("your step does not move it: friction (and gravity) need more voltage")
     elif push / machine.ka < LESS * SIGNAL * machine.scatter:
         times = push / machine.ka / machine.scatter
-        says = f"your step's acceleration is {times:.2f} times its scatter; at least {SIGNAL:g}"
-        yield Broken(f"{says} times. It drowns in noise")
+        says = f"your step's acceleration is {times:.2f} times its noise; at least {SIGNAL:g}"
+        yield Broken(f"{says} times. You cannot see it in the noise")
 
 
 def _too_slow(slow: Test, end: str) -> Broken:
     machine = slow.machine
     share = 100.0 * slow.fastest / machine.free
-    says = f"your ramp gets to {share:.1f} % of the free speed until {end}; at least 25 %"
+    says = f"your ramp reaches {share:.1f} % of the free speed at {end}; at least 25 %"
     run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
     if machine.travel is None or run <= machine.travel:
         return Broken(says)
-    says += f". To get there, your ramp needs {run:.1f} {machine.symbol} of run; you have "
+    says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; you have "
     return Broken(f"{says}{machine.travel:g} {machine.symbol}", SLOW)

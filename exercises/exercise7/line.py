@@ -106,16 +106,20 @@ def read_claims(raw: object) -> tuple[Claim, ...]:
         WrongAnswer: there is nothing, no fault in it, or a word that nobody knows.
     """
     if raw is None or raw in ("", []):
-        raise WrongAnswer("nothing yet", hint=f'Write "{CLEAN}", or what, where, and what to do.')
+        raise WrongAnswer(
+            "nothing yet", hint=(f'Write "{CLEAN}", or the fault, the place, and what to do.')
+        )
     parts = raw if isinstance(raw, list) else [raw]
     if not all(isinstance(part, str) for part in parts):
-        raise WrongAnswer(f"{raw}, which is not words", hint=f"Write words in quotes. {_listed()}")
+        raise WrongAnswer(
+            f"{raw}, which is not text in quotes", hint=f"Write words in quotes. {_listed()}"
+        )
     said = [part for whole in parts for part in re.split(r"[+;&\n]|\band\b", whole)]
     claims = tuple(_claim(part) for part in said if part.strip())
     if not claims or len(claims) > MANY:
         raise WrongAnswer(f"{len(claims)} faults", hint=f"Name those you can see. {_listed()}")
     if len(claims) > 1 and any(one.fault == CLEAN for one in claims):
-        raise WrongAnswer(f'"{CLEAN}" and a fault', hint="It cannot be both. Say which.")
+        raise WrongAnswer(f'"{CLEAN}" and a fault', hint="It cannot be both. Write only one.")
     return claims
 
 
@@ -139,11 +143,9 @@ def _claim(text: str) -> Claim:
             f"{shown}, with {len(faults) or 'no'} faults in it", hint=_one_each(faults)
         )
     if len(actions) > 1:
-        raise WrongAnswer(
-            f"{shown}, with {len(actions)} actions", hint="Give the one you would take."
-        )
+        raise WrongAnswer(f"{shown}, with {len(actions)} actions", hint="Write only one.")
     if len(times) not in (0, 2):
-        hint = "Give two times, where it begins and where it ends: 1.20 to 1.66."
+        hint = "Write two times, the start and the end: 1.20 to 1.66."
         raise WrongAnswer(f"{shown}, with {len(times)} number(s)", hint=hint)
     span = (min(times), max(times)) if times else None
     return Claim(faults[0], tuple(places), span, "".join(actions))

@@ -78,32 +78,32 @@ def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]
     if claim.action in ACCEPTED[damaged.fault]:
         share += ACTION
     elif claim.action:
-        says.append(f"{ACTS[claim.action]}: not here. What would keep it from happening again?")
+        says.append(f"{ACTS[claim.action]}: not here. What would prevent it from happening again?")
     else:
-        says.append("What is to be done? Add one of: rerun, trim, filter, fix-config.")
+        says.append("What should you do? Add one of: rerun, trim, filter, fix-config.")
     return share, " ".join(says)
 
 
 def _place(claim: Claim, *, whole: bool) -> str:
     if not claim.places and claim.times is None:
-        return "Where is it? Add the test, and the times where it begins and ends."
+        return "Where is it? Add the test, and the times when it starts and ends."
     if whole:
-        return "This damage spoils whole tests. Which ones? Look at each of the four."
+        return "This fault damages whole tests. Which ones? Look at each of the four."
     if not claim.places:
         return (
-            "The fault is right, the place is not. Add the name of the test: without it, times "
-            "count from the beginning of the log."
+            "The fault is right, but not the place. Add the name of the test: without it, times"
+            " count from the start of the log."
         )
     return (
-        "The fault is right, the place is not: from the first sample that is wrong to the last. "
-        "Is it in this test, and is it as long as you say?"
+        "The fault is right, but not the place: write the times of the first and the last wrong"
+        " sample. Is it in this test, and is it as long as you wrote?"
     )
 
 
 def _alarm(claim: Claim) -> str:
     return (
-        f"{would_show(claim.fault)} Show it on a plot before you say it: what looks odd may be "
-        "how a sound mechanism moves. Is it the same in the test the other way?"
+        f"{would_show(claim.fault)} Find it in a plot first: what looks odd may be normal for a "
+        "good mechanism. Does it look the same in the other direction?"
     )
 
 

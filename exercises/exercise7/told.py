@@ -20,75 +20,84 @@ ACCEPTED = {  # fault -> what helps
 }
 
 LOOKS = {  # fault -> how it would look, if it were there
-    "encoder-slip": "the velocity hops by a share of itself within one sample and hops back, which "
-    "no mass can do",
-    "brownout": "the velocity sinks gradually, as with the motor off, and climbs back gradually, "
-    "while the voltage stays as it was",
-    "hard-stop": "the velocity is gone within a few samples, never comes back in that test, and "
-    "the position stays, while the voltage pushes on",
+    "encoder-slip": "the velocity jumps by a share of its value within one sample and jumps "
+    "back, which no mass can do",
+    "brownout": "the velocity falls gradually, as with the motor off, and rises again "
+    "gradually, while the voltage stays as it was",
+    "hard-stop": "the velocity drops to zero within a few samples and stays there, the position"
+    " stays, and the voltage stays on",
     "loop-overrun": "samples are missing: two neighbors are 80 ms or more apart",
-    "stale-samples": "every reading is repeated several times, all through the log: stairs",
-    "command-logged": "the dynamic voltage is a perfect step, yet the velocity first rises along "
-    "a straight line and only then bends",
-    "unit-error": "the velocity is many times, or a small part of, the slope of the position",
+    "stale-samples": "every reading is repeated several times in the whole log: stairs",
+    "command-logged": "the dynamic voltage is a perfect step, but the velocity first rises "
+    "along a straight line and bends only later",
+    "unit-error": "the velocity is much larger or much smaller than the slope of the position",
     "sign-flip": "voltage and velocity, or velocity and the slope of the position, have opposite "
     "signs in a whole test",
     "mislabelled-test": "a test called dynamic has a ramp, or a test called forward goes backward "
     "with a negative voltage",
-    "noisy-standstill": "the velocity trembles at the beginning of a ramp, while the position "
-    "does not change",
-    "voltage-dropout": "the voltage falls for a sample or two and is back, over and over, and the "
-    "velocity does not care",
+    "noisy-standstill": "the velocity is noisy at the start of a ramp, while the position does "
+    "not change",
+    "voltage-dropout": "the voltage drops for a sample or two, again and again, and the "
+    "velocity does not react",
     "stuck-sensor": "position and velocity both freeze at one value, and then jump to where they "
     "should be",
-    "wheel-slip": "a dynamic test surges at its start, lulls, and only then climbs as a mass does",
+    "wheel-slip": (
+        "in a dynamic test the velocity jumps up at the start, pauses, and only then "
+        "rises like that of a mass"
+    ),
 }
 
 PLOTS = {  # what it really is -> which plot tells, without its name
     "encoder-slip": "Plot the velocity close up: from one sample to the next, how much can a mass "
     "change its speed?",
-    "brownout": "Plot velocity and voltage one above the other: does the one do what the other "
-    "says? How fast does it go, and how does it come back?",
-    "hard-stop": "Plot velocity, voltage and position of each test's last second.",
+    "brownout": "Plot velocity and voltage one above the other: does the velocity follow the "
+    "voltage? How does it fall, and how does it rise again?",
+    "hard-stop": "Plot velocity, voltage and position of the last second of each test.",
     "loop-overrun": "Plot the time from each sample to the next.",
     "stale-samples": "Plot the velocity close up with a dot for each sample: is each one new?",
-    "command-logged": "Plot voltage and velocity of the dynamic tests' first half second: which "
-    "shape should the rise have?",
-    "unit-error": "Plot the position: is its slope the velocity? Work it out at one place.",
+    "command-logged": "Plot voltage and velocity of the first half second of the dynamic tests:"
+    " which shape should the rise have?",
+    "unit-error": "Plot the position: is its slope the velocity? Compute it at one point.",
     "sign-flip": "Plot all three signals of each test and write down their signs.",
-    "mislabelled-test": "Plot the voltage of each test beside the name it has.",
-    "noisy-standstill": "Plot velocity and position before the ramp begins to move.",
+    "mislabelled-test": (
+        "Plot the voltage of each test, and compare it with the name of the test."
+    ),
+    "noisy-standstill": "Plot velocity and position before the mechanism starts to move.",
     "voltage-dropout": "Plot the voltage close up, with a dot for each sample.",
     "stuck-sensor": "Plot velocity and position close up with a dot for each sample.",
-    "wheel-slip": "Plot the dynamic tests' first half second: does the velocity bend only once?",
+    "wheel-slip": (
+        "Plot the first half second of the dynamic tests: does the velocity bend only once?"
+    ),
 }
 
 APART = {  # (said, is) -> the question that tells the two apart
     ("encoder-slip", "wheel-slip"): "A sensor can slip at any speed. When did this begin?",
-    ("wheel-slip", "encoder-slip"): "A lurch of the wheels belongs to the first push of a step. "
-    "When did this begin?",
-    ("brownout", "hard-stop"): "Without a motor it would coast, and speed up again. Does it?",
-    ("hard-stop", "brownout"): "Who stands against metal does not move on. Does the position?",
-    ("encoder-slip", "brownout"): "Is it gone at once, or along a curve?",
-    ("brownout", "encoder-slip"): "Is it gone along a curve, or at once?",
+    ("wheel-slip", "encoder-slip"): "Wheels slip at the start of a step. When did this begin?",
+    ("brownout", "hard-stop"): (
+        "Without power the mechanism would coast, and later speed up again. Does it?"
+    ),
+    ("hard-stop", "brownout"): (
+        "At a hard stop the mechanism cannot move. Does the position change?"
+    ),
+    ("encoder-slip", "brownout"): "Does the velocity drop at once, or along a curve?",
+    ("brownout", "encoder-slip"): "Does the velocity drop along a curve, or at once?",
     ("loop-overrun", "stale-samples"): "Count: are samples missing, or are there too many alike?",
     ("stale-samples", "loop-overrun"): "Count: are readings repeated, or are there too few?",
     ("stuck-sensor", "stale-samples"): "Once, or all the time?",
     ("stale-samples", "stuck-sensor"): "All the time, or once?",
     ("hard-stop", "stuck-sensor"): "At a stop the velocity is zero. Is it?",
     ("stuck-sensor", "hard-stop"): "A frozen sensor shows any velocity. Which does yours show?",
-    ("brownout", "voltage-dropout"): "The log of a brownout goes on to tell the voltage. Does it?",
-    ("voltage-dropout", "brownout"): "Does the velocity care?",
+    ("brownout", "voltage-dropout"): "In a brownout the log still shows a voltage. Does yours?",
+    ("voltage-dropout", "brownout"): "Does the velocity react?",
     ("command-logged", "wheel-slip"): "Too slow at first, or too fast?",
     ("wheel-slip", "command-logged"): "Too fast at first, or too slow?",
 }
 
 ACTS = {  # what an action is for
-    "rerun": "rerun helps where the next recording would be better by itself, or once a part is "
-    "mended",
-    "trim": "trim helps where one part is bad and the rest of the test is sound",
-    "filter": "filter helps where single samples tremble and the others are sound",
-    "fix-config": "fix-config helps where the program or a setting makes every recording wrong",
+    "rerun": "rerun helps if the next recording will be better, or after you repaired a part",
+    "trim": "trim helps if one part is bad and the rest of the test is good",
+    "filter": "filter helps if single samples are noisy and the others are good",
+    "fix-config": "fix-config helps if the program or a setting makes every recording wrong",
 }
 
 
@@ -100,12 +109,11 @@ def mixed_up(said: str, really: str) -> str:
 
 def would_show(said: str) -> str:
     """How a fault would look, if it were there."""
-    return f"{said} would show like this: {LOOKS[said]}."
+    return f"{said} would look like this: {LOOKS[said]}."
 
 
 def overlooked(really: str) -> str:
     """What to say of a fault that nobody named."""
     return (
-        f"Something is wrong here. A fit may have a fine R² all the same: look at the signals. "
-        f"{PLOTS[really]}"
+        f"Something is wrong here. The R² may be good anyway: look at the signals. {PLOTS[really]}"
     )

@@ -14,17 +14,18 @@ HELPS = 0.9  # [times the error] what leaves more than that is not to blame
 Said = tuple[str, str]  # what to say, and the misconception's code, or empty
 
 LONG = (
-    "A median of that many samples bends the rise of the steps: how many samples does the rise "
-    "take? Take the shortest window that outvotes a reading that is off."
+    "A median of so many samples flattens the rise of the steps: how many samples does the "
+    "rise take? Use the shortest window that removes the wrong readings."
 )
 SHORT = (
-    "Single readings are far off, in the steps, too, and one of them passes for the largest "
-    "acceleration. What outvotes a single reading?"
+    "Single readings are far off, also in the steps, and SysId takes one of them for the "
+    "largest acceleration. What removes a single wrong reading?"
 )
-HIGH = "Your threshold drops samples that do move, and are sound."
+HIGH = "Your threshold drops good samples, in which the mechanism moves."
 LOW = (
-    "Samples from before it moves get through: there, voltage brings neither speed nor "
-    "acceleration. How fast does the velocity tremble while the position stands?"
+    "You keep samples from before the mechanism moves: there, the voltage causes neither "
+    "speed nor acceleration. How large is the noise of the velocity while the position does "
+    "not change?"
 )
 
 
@@ -37,7 +38,7 @@ def blame(gain: str, variant: "Variant", preparation: Preparation) -> Said:
     limit = HELPS * _error(gain, variant, preparation)
     helped = [one for one in errors if one[0] < limit]
     if not helped:
-        return ("Several things at once are in the way: begin with the hard stops.", "")
+        return ("Several things are wrong: start with the hard stops.", "")
     return min(helped, key=lambda one: one[0])[1]
 
 
@@ -76,10 +77,10 @@ def _threshold(reference: Preparation, given: Preparation) -> Said:
 def _window(test: str, reference: Preparation, given: Preparation) -> Said:
     begin, end = given.keep.get(test, (0.0, float("inf")))
     if end > reference.keep.get(test, (0.0, float("inf")))[1]:
-        return (f"{test}: you keep samples from where the mechanism is held up by a stop.", "")
+        return (f"{test}: you keep samples in which a hard stop holds the mechanism.", "")
     if test.startswith("dynamic") and begin > 0.0:
         return (
-            f"{test}: its first rise is cut away or cut into. It is all that tells kA.",
+            f"{test}: you cut away its first rise, or a part of it. Only this rise contains kA.",
             "M-TRIM-PRETTY",
         )
-    return (f"{test}: you cut away samples that are sound.", "M-TRIM-PRETTY")
+    return (f"{test}: you cut away good samples.", "M-TRIM-PRETTY")

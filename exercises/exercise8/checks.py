@@ -59,8 +59,9 @@ def kept(answers: Answers) -> None:
     tests = ", ".join(one.test for one in short)
     raise WrongAnswer(
         f"too little is left of {tests}",
-        hint="Cut only what is not the mechanism's own motion. Noise in sound samples averages "
-        "out in a fit; samples that are gone tell nothing.",
+        hint="Cut only samples in which something other than the motor moves or holds the "
+        "mechanism. A fit averages out the noise of good samples; missing samples help "
+        "nobody.",
         misconception="M-TRIM-PRETTY",
         earned=2 * (1 - len(short) / len(TESTS)),
     )
@@ -75,10 +76,10 @@ def reach(answers: Answers) -> None:
     tests = ", ".join(one.test for one in short)
     ramps = any(one.test.startswith("quasi") for one in short)
     why = (
-        "The fast samples of a ramp are the far end of the lever that kV hangs on: without them "
-        "a little noise turns the line."
+        "The fast samples of a ramp determine kV: without them a little noise changes the slope"
+        " of the line."
         if ramps
-        else "A step tells kA only while it speeds up, right after the voltage comes."
+        else "A step contains kA only in its first rise, right after the voltage jumps."
     )
     raise WrongAnswer(
         f"cut off in {tests}",
@@ -108,7 +109,7 @@ def ka(answers: Answers) -> None:
 
 def _preparation(answers: Answers) -> Preparation:
     if isinstance(answers.preparation, WrongAnswer):
-        raise NotReachedError("looked at once all six lines can be read")
+        raise NotReachedError("checked after all six lines are filled in")
     return answers.preparation
 
 
@@ -116,7 +117,7 @@ def _left(answers: Answers) -> tuple[Left, ...]:
     """What is left of each test; who does nothing at all keeps everything, and earns nothing."""
     preparation = _preparation(answers)
     if preparation == NOTHING:
-        raise NotReachedError("looked at once you cut or filter something")
+        raise NotReachedError("checked after you cut or filter something")
     variant = answers.variant
     return left(variant.log, preparation, valid=variant.valid, clean=variant.clean)
 

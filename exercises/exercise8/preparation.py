@@ -63,7 +63,7 @@ def read_preparation(given: Mapping[str, object], *, symbol: str, si: float) -> 
         raise WrongAnswer(
             f"threshold {threshold:g}", hint="A speed has no sign here. 0 drops nothing."
         )
-    whole = f"Give a whole number of samples from 1, which filters nothing, to {LONGEST}."
+    whole = f"Write a whole number of samples from 1 (no filter) to {LONGEST}."
     try:
         window = _number(given.get("median"), AskedNumber("median", 1.0, "", ANY))
     except WrongAnswer as wrong:
@@ -90,7 +90,8 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
     """What to keep of one test; None for all of it."""
     name = test.replace("-", "_")
     ask = (
-        'Write what to keep, from and to, in seconds since the test began: "0.4 to 5.2", or "all".'
+        'Write which part to keep, from and to, in seconds since the start of the test: "0.4 '
+        'to 5.2", or "all".'
     )
     if raw is None or raw == "":
         raise WrongAnswer(f"{name}: nothing yet", hint=ask)

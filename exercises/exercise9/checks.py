@@ -33,7 +33,7 @@ REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time t
 MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
-PERFECT = "An R² of 1 is a model without any error. Write down the digits that your fit prints."
+PERFECT = "An R² of 1 would mean a model without any error. Write the digits that your fit prints."
 METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
 
 
@@ -193,11 +193,11 @@ def _metric(name: str, answers: Answers) -> None:
         return
     (other,) = set(METRICS) - {name}
     if value > 1:
-        hint = "R² is at most 1: a share, not percent."
+        hint = "R² is at most 1: write a fraction, not percent."
     elif value == 1:
         hint = PERFECT
     elif asked[other].right(value):
-        hint = f"That is the {other}. Are the two swapped?"
+        hint = f"That is the {other}. Did you swap the two?"
     else:
         hint = "sysid fit --method sysid prints both; its R² are SysId's own."
     raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
@@ -234,8 +234,8 @@ def _missed(answers: Answers) -> str:
     if not np.isfinite(mine):
         return ""
     return (
-        f". Your three gains miss the voltage in the log by {_volts(mine)} (RMS); a good fit "
-        f"misses it by {_volts(best)}"
+        f". With your three gains, the voltage error in the log is {_volts(mine)} (RMS); with a "
+        f"good fit it is {_volts(best)}"
     )
 
 

@@ -15,14 +15,14 @@ USUAL = 0.02  # [s] between two samples of a robot program, and of the learner's
 
 EXPLAINED = WrongNumber(
     "voltage-explained",
-    "it is what comes out when the voltage is explained by velocity and acceleration. Explain "
-    "the acceleration instead",
+    "this is the result with the voltage on the left side of the fit. Put the acceleration on"
+    " the left side instead",
     "M-NOISE-AVERAGES",
 )
 ASSUMED = WrongNumber(
     "period-assumed",
-    "it is what comes out when samples are taken to be 0.02 s apart. Here they are not: divide "
-    "by the difference of the times",
+    "this is the result if you assume 0.02 s between samples. Here the time step differs: "
+    "divide by the difference of the times",
 )
 
 

@@ -10,7 +10,14 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from grader.answer import AnswerKey, AskedNumber, ask_gains, diagnose_number, judge_number
+from grader.answer import (
+    UNIT_ASSUMED,
+    AnswerKey,
+    AskedNumber,
+    ask_gains,
+    diagnose_number,
+    judge_number,
+)
 from grader.check import NotReachedError, NotRunError, WrongAnswer
 from grader.variant import derive_student_seed, make_student_rng
 
@@ -64,7 +71,10 @@ RECIPES = (
         "turret",
         0.02,
         3.0,
-        note="Its velocity is noisy: which column do you explain, and which rows stand still",
+        note=(
+            "Its velocity is noisy: which quantity is on the left side of your fit, and in "
+            "which rows does it stand still"
+        ),
         misconception="M-NOISE-AVERAGES",
     ),
     Recipe("shooter", 0.008, 0.5, note="Its samples are 0.008 s apart, not 0.02 s"),
@@ -73,7 +83,7 @@ RECIPES = (
         0.01,
         0.7,
         without="quasistatic-forward",
-        note="Its quasistatic-forward test was not run. The other three are enough: use them all",
+        note="Its quasistatic-forward test is missing. The other three are enough: use them all",
         misconception="M-REVERSE-WASTE",
     ),
 )
@@ -183,7 +193,7 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
 
     if not path.is_file():
         raise NotReachedError(
-            f"there is no {NAME} beside your answers; the exercise's folder has one"
+            f"there is no {NAME} next to your answers; copy it from the exercise's folder"
         )
     text = read_text(path).encode()
     if not run:
@@ -245,7 +255,7 @@ def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
     misses = (_judge_gain(name, log, answer) for name in log.key.asked)
     found = [miss for miss in misses if miss]
     for miss in found:
-        miss.why.seen = f"{where}: {miss.why.seen.removesuffix(' (no unit given: read as asked)')}"
+        miss.why.seen = f"{where}: {miss.why.seen.partition(UNIT_ASSUMED)[0]}"
     return found
 
 

@@ -185,7 +185,7 @@ def r2(answers: Answers) -> None:
     asked = AskedNumber("simulated_velocity_r2", found, "", Band(0.0, 0.0, 0.02, 0.02))
     value = read_answer_number(answers.given.get("simulated_velocity_r2"), asked)
     if not NINTH.is_measured_r2(value, asked):
-        hint = "There are two R². Asked for is the simulated velocity's, a share of 1."
+        hint = "There are two R². Write the simulated velocity R², a number up to 1."
         if value == 1:
             hint = NINTH.PERFECT
         raise WrongAnswer(f"{value:.4g}", hint=hint, misconception="M-R2")
@@ -197,11 +197,11 @@ def hypothesis(answers: Answers) -> str | None:
     from sim.inspect.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
 
     if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
-        return "Your R² is at least 0.9, so nothing has to be suspected."
+        return "Your R² is at least 0.9, so you need no suspicion."
     read_choice(answers.given.get("hypothesis"), tuple(FAULTS))
     first = answers.given.get("first_check")
     if not isinstance(first, str) or len(first.strip()) < LITTLE:
-        raise WrongAnswer("no first_check", hint="In a sentence: what would you look at first?")
+        raise WrongAnswer("no first_check", hint="Write a sentence: what would you check first?")
     return None
 
 
@@ -219,5 +219,5 @@ def theory_verdict(answers: Answers) -> None:
         right.add("ok")
     found = read_choice(answers.given.get("verdict"), TEAM.VERDICTS)
     if found not in right:
-        hint = "find your difference in the table of exercise 2, sign and all"
+        hint = "find your difference, with its sign, in the table of exercise 2"
         raise WrongAnswer(f'"{found}"', hint=hint)

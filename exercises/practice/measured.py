@@ -67,7 +67,7 @@ def of_robot(path: Path, given: Mapping[str, object]) -> Measured:
     from sim.io import read  # noqa: PLC0415 - the same
 
     if not _is_file(path):
-        raise NotReachedError(f"there is no {shorten(path.name)} beside your answers.toml")
+        raise NotReachedError(f"there is no {shorten(path.name)} next to your answers.toml")
     try:
         log = read(path)
         kind = log.type or "simple"
@@ -107,15 +107,15 @@ def _parts(given: Mapping[str, object], units: str) -> Parts:
     known = {normalize_choice(name): motor for name, motor in MOTORS.items()}
     motor = known.get(normalize_choice(named)) if isinstance(named, str) else None
     if motor is None:
-        raise WrongAnswer(
-            "no motor that is known", hint=f"Write motor = one of: {', '.join(MOTORS)}."
-        )
+        raise WrongAnswer("an unknown motor", hint=f"Write motor = one of: {', '.join(MOTORS)}.")
     free = Band(0.0, 0.0)
     ratio = read_answer_number(given.get("ratio"), AskedNumber("ratio", 1.0, "", free))
     size = AskedNumber("wheel_diameter", 1.0, "m", free)
     diameter = read_answer_number(given.get("wheel_diameter"), size) if units == "Meters" else 0.0
     if ratio <= 0.0 or diameter < 0.0 or (units == "Meters" and not diameter):
-        raise WrongAnswer("a ratio or a diameter that cannot be", hint="Both are larger than zero.")
+        raise WrongAnswer(
+            "a ratio or a diameter that cannot be", hint="Both must be larger than zero."
+        )
     return Parts(motor, 1, ratio, diameter)
 
 

@@ -261,7 +261,7 @@ def _draw_consequence(then: "Consequence | None", picture: Path) -> None:
         BadRequest: the name ends in no kind of picture, or the file cannot be written.
     """
     if then is None:
-        _print_message(f"{picture} was not written: this answer leaves nothing to see on a robot")
+        _print_message(f"{picture} was not written. Nothing to draw: your answers cause no error")
         return
     then.draw().save(picture)
     _print_message(f"what your answer would do: {picture}")

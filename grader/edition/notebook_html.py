@@ -35,7 +35,9 @@ def split_notebook(notebook: Any) -> tuple[LessonPart, ...]:  # noqa: ANN401 - n
     """An executed notebook, cut at its title and its sections."""
     widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
     found: list[tuple[str, int, list[str]]] = []
-    for cell in notebook.cells:
+    for cell, after in zip(notebook.cells, [*notebook.cells[1:], None], strict=True):
+        if _repeats(cell) or (after is not None and _repeats(after)):
+            continue  # plain code for whoever has no sliders, and the words before it
         if cell.cell_type == "code":
             found[-1][2].append(_render_code(cell, widgets))
             continue
@@ -44,6 +46,11 @@ def split_notebook(notebook: Any) -> tuple[LessonPart, ...]:  # noqa: ANN401 - n
                 found.append((heading, level, []))
             found[-1][2].append(_render_markdown(text))
     return tuple(LessonPart(heading, level, "\n".join(html)) for heading, level, html in found)
+
+
+def _repeats(cell: Any) -> bool:  # noqa: ANN401 - nbformat has no types
+    """Whether a cell shows again what the sliders above it have drawn."""
+    return bool(cell.metadata.get("jupyter", {}).get("outputs_hidden"))
 
 
 def _split_cell(source: str) -> Iterator[tuple[int, str, str]]:
@@ -73,6 +80,8 @@ def _render_markdown(text: str) -> str:
 
 def _render_code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types
     shown = "".join(_render_output(one, widgets) for one in cell.get("outputs", []))
+    if cell.metadata.get("jupyter", {}).get("source_hidden"):
+        return shown  # the code of a quick check holds the answer
     source = highlight_python(cell.source)
     return f"<details><summary>Code</summary>{source}</details>{shown}"
 

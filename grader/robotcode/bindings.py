@@ -251,7 +251,7 @@ class _Reader:
         line = call.target.place.line
         said = f"{last_name(call.target)}({command.node.place.text})"
         if runs.either or (runs.unclear is not None and not runs.tests):
-            self._unread.append(ParseProblem(f"I cannot tell which test {said} runs", line))
+            self._unread.append(ParseProblem(f"the grader cannot see which test {said} runs", line))
         if runs.either or not runs.tests or not isinstance(call.target, Member):
             return
         parts = self._triggers.parts(seen.at(call.target.owner))

@@ -25,14 +25,12 @@ UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that say what is held against the model, and what is written."""
     options = (
+        click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
+        click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
         click.option(
-            "--validation", type=FILE, help="Other runs: what they do not confirm is not named."
-        ),
-        click.option(
-            "--held-out", type=FILE, help="More runs, on which the gap is shown and nothing else."
-        ),
-        click.option(
-            "--travel", type=float, help="From stop to stop, in the log's units, if known."
+            "--travel",
+            type=float,
+            help=("Distance from stop to stop, in the log's units, if known."),
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
     )

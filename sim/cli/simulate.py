@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     multiple=True,
     shell_complete=EFFECT_NAMES,
     metavar="EFFECT[:SIZE]",
-    help="Physics that the model will not have; once for each. `sysid effects` lists them.",
+    help=("Effect to add that the model does not have; once for each. `sysid effects` lists them."),
 )
 @click.option(
     "--fault",
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     multiple=True,
     shell_complete=FAULT_NAMES,
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
-    help="Damage to the record; once for each. `sysid faults` lists them.",
+    help="Fault to add to the log; once for each. `sysid faults` lists them.",
 )
 @click.option(
     "--battery",
@@ -59,9 +59,9 @@ if TYPE_CHECKING:
     type=click.Choice(tuple(CONTROLLERS)),
     default="roborio2",
     show_default=True,
-    help="Whose brownout takes the motors off.",
+    help="Robot controller, for its brownout voltage.",
 )
-@click.option("--vary", is_flag=True, help="Draw another mechanism of its kind.")
+@click.option("--vary", is_flag=True, help="Draw another mechanism of this kind at random.")
 @click.option("--electrical", is_flag=True, help="Record current and battery voltage, too.")
 @click.option("--seed", type=int, help="Same seed, same log; a new log every time without.")
 @click.option("--truth", type=FILE, help="Also write what is true to this JSON file.")

@@ -55,13 +55,13 @@ class Verdict:
                 )
             case "oscillates":
                 return (
-                    f"swings to and fro and does not settle: still by {self.swing:.0%} of the step "
+                    f"oscillates and does not settle: still by {self.swing:.0%} of the step "
                     f"after {_time(self.duration)}"
                 )
             case "stays-short":
                 return f"stops {self.left:.0%} of the step before the target"
             case "runs-away":
-                return "runs away from the target"
+                return "moves away from the target"
             case _:
                 return (
                     f"is slow: still {abs(self.left):.0%} of the step from the target after "

@@ -22,8 +22,8 @@ def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
     return (
         Doubt(
             "sign-opposed",
-            "kV and kA are negative: a positive voltage makes a negative velocity in this log. "
-            "Invert the encoder or the motor, so that plus is plus, and record again.",
+            "kV and kA are negative: a positive voltage gives a negative velocity in this log. "
+            "Invert the encoder or the motor, and record again.",
             grave=True,
         ),
     )
@@ -36,17 +36,19 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
         said.append(
             Doubt(
                 "velocity-lag",
-                f"The velocity is averaged over {window * 1000:.0f} ms, so it comes "
-                f"{window * 500:.0f} ms late. The gains allow for that; a feedback loop has to, "
-                "too: shorten the filter of the motor controller.",
+                f"The velocity is averaged over {window * 1000:.0f} ms, so it is "
+                f"{window * 500:.0f} ms late. The gains account for this delay. Your feedback "
+                "controller will also have to live with it: shorten the filter of the motor "
+                "controller.",
             )
         )
     if lag > SOON:
         said.append(
             Doubt(
                 "late-answer",
-                f"Everything answers {lag * 1000:.0f} ms after the voltage in the log. The gains "
-                "allow for that; a feedback loop has to, too.",
+                f"The mechanism reacts {lag * 1000:.0f} ms after the logged voltage. The gains "
+                "account for this delay. Your feedback controller will also have to live with "
+                "it.",
             )
         )
     return tuple(said)
@@ -69,10 +71,10 @@ def doubt_misfit(
         return (
             Doubt(
                 "model-strays",
-                f"A simulation with these gains misses the measured velocity by {size}. A "
-                "controller would notice that. The errors above allow for it, but kS, kV and kA "
-                f"do not describe this log well. {hint}{' Otherwise r' if hint else 'R'}un `sysid "
-                "inspect`, then `sysid reconcile` to find what is missing.",
+                f"A simulation with these gains has a velocity error of {size}. A controller "
+                "would notice that. The errors above include it, but kS, kV and kA do not "
+                f"describe this log well. {hint}{' Otherwise r' if hint else 'R'}un `sysid "
+                "inspect`, then `sysid reconcile` to find the missing effect.",
                 grave=share > FAR,
             ),
         )
@@ -81,9 +83,9 @@ def doubt_misfit(
     return (
         Doubt(
             "small-misfit",
-            f"A simulation with these gains misses the measured velocity by {size}. That is "
-            "little, but more than sensor noise. The errors above allow for it. `sysid reconcile` "
-            "looks for the cause.",
+            f"A simulation with these gains has a velocity error of {size}. That is small, but "
+            "larger than the sensor noise. The errors above include it. `sysid reconcile` looks"
+            " for the cause.",
         ),
     )
 
@@ -109,8 +111,8 @@ def doubt_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> 
     return (
         Doubt(
             "strong-effect",
-            f"This log shows more than kS, kV and kA: {'; '.join(strong)}. It is larger than on a "
-            "robot in good order. The gains leave it out, so a feedforward does not correct it. "
-            "`sysid reconcile` checks what it is.",
+            "There is an effect in this log that kS, kV and kA do not describe: "
+            f"{'; '.join(strong)}. It is larger than on a healthy robot. A feedforward with "
+            "these gains does not correct it. `sysid reconcile` checks what it is.",
         ),
     )

@@ -12,8 +12,8 @@ from sim.fit.search import fit_problem, fit_tracking
 
 PLAINLY = 0.33  # [1] of what a simple model strays, that another may
 ACTS = {
-    "elevator": "something pushes it one way wherever it is",
-    "arm": "something pushes it by its angle",
+    "elevator": "a constant force acts in one direction",
+    "arm": "a force depends on its angle",
 }
 
 
@@ -46,7 +46,7 @@ def hint_gravity_type(
     best = min(left, key=lambda name: left[name])
     if not left[best] < PLAINLY * followed.rmse:
         return ""
-    return f"Fit it as of --type {best} if gravity acts on it: {ACTS[best]}."
+    return f"Fit it with --type {best} if gravity acts on it: {ACTS[best]}."
 
 
 def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word

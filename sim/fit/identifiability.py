@@ -23,7 +23,10 @@ SETTLES = {
     "kA": "Add a dynamic test: only a change of speed shows inertia.",
     "kG": "Add the other direction: weight helps one way and hinders the other.",
 }
-TOGETHER = "Add the other direction: up they act together, down against each other."
+TOGETHER = (
+    "Add the other direction: on the way up gravity and friction add, on the way down "
+    "they act against each other."
+)
 
 
 def moves_both_ways(seen: Sequence[RunMeasurements]) -> bool:
@@ -67,7 +70,7 @@ def refuse_unidentifiable(
     said = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
     pair = {"kS", "kG"} <= set(unknown) and type != "simple"
     raise NotIdentifiable(
-        f"this log cannot tell {said}",
+        f"this log does not determine {said}",
         where=log.source,
         advice=hint or (TOGETHER if pair else SETTLES[unknown[-1]]),
     )
@@ -87,12 +90,12 @@ def refuse_unrelated(followed: OpenLoopReplay, *, log: Log, hint: str = "") -> N
     if followed.r2 >= FOLLOWS:
         return
     raise NotIdentifiable(
-        f"no gains follow this log: the closest simulation leaves it by {_size(followed.rmse)} "
-        f"where its top speed is {_size(followed.top_speed)}",
+        "no gains describe this log: the error of the best simulation is "
+        f"{_size(followed.rmse)}, with a top speed of {_size(followed.top_speed)}",
         where=log.source,
         advice=hint
-        or "Inspect the log for damage, check its type and units, then ask `sysid reconcile` "
-        "what is missing.",
+        or "Inspect the log for damage, check its type and units, then run `sysid reconcile` to"
+        " find the missing effect.",
     )
 
 

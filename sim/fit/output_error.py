@@ -83,7 +83,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
             where=log.source,
-            advice="Say --units radians, rotations or degrees, or --type elevator.",
+            advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
     _check_times(log)
     try:
@@ -113,7 +113,7 @@ def _check_times(log: Log) -> None:
     for test, some in steps:
         if some.max() > HOLE:
             raise NotIdentifiable(
-                f"{test} lacks {some.max():.3g} s between two samples",
+                f"{test} has a gap of {some.max():.3g} s between two samples",
                 where=log.source,
                 advice="Cut the run there, or record it again.",
             )
@@ -121,7 +121,7 @@ def _check_times(log: Log) -> None:
 
 def _refuse_motion(log: Log) -> NotIdentifiable:
     return NotIdentifiable(
-        "its motion does not go with its voltage",
+        "its motion does not match its voltage",
         where=log.source,
         advice="Inspect the log: are units, signs, times and test names right?",
     )

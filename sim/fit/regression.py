@@ -99,9 +99,9 @@ def _least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
     if not values[0] > WEAKEST:
         weak = ("kV", "kA", "kS", "kG", "kG's angle")[int(np.argmax(np.abs(vectors[:, 0])))]
         raise NotIdentifiable(
-            f"these tests cannot tell {weak} from the other gains",
-            advice="Move at two or more steady speeds in both directions, and accelerate hard in "
-            "the dynamic tests.",
+            f"these tests cannot separate {weak} from the other gains",
+            advice="Move at two or more steady speeds in both directions, and use a large step "
+            "in the dynamic tests.",
         )
     inverse = (vectors / values) @ vectors.T
     beta = inverse @ (scaled @ y)

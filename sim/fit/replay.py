@@ -103,7 +103,7 @@ def _model(found: Fit) -> tuple[float, Model]:
         raise BadRequest(
             f"nothing can be simulated with kV = {found.gains['kV']:.3g}, "
             f"kA = {found.gains['kA']:.3g}",
-            advice="Settle first why the fit finds a gain below zero.",
+            advice="First find out why a gain is negative.",
         )
     return way, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
 

@@ -70,8 +70,10 @@ class Fit:
         old, new = find_unit(self.units), find_unit(name)
         if old.angular != new.angular:
             raise BadRequest(
-                f"{self.units} cannot be turned into {name}",
-                advice="One is a length, the other an angle: the wheel's radius lies between them.",
+                f"{self.units} cannot be converted into {name}",
+                advice=(
+                    "One is a length, the other an angle: the conversion needs the wheel's radius."
+                ),
             )
         factor = new.si / old.si
         return replace(
@@ -126,8 +128,8 @@ class Fit:
                 Doubt(
                     "negative-feedback",
                     f"The suggested {loop} kP is negative: with the delay in this log the loop "
-                    "cannot be as stiff as SysId's default error asks. Do not use it; start from "
-                    "a small positive one.",
+                    "cannot be as stiff as SysId's default setting requires. Do not use it; "
+                    "start with a small positive one.",
                 )
                 for loop, gains in self.feedback(preset).items()
                 if gains.kp < 0.0

@@ -55,7 +55,7 @@ def _doubt_repeats(log: Log) -> list[Doubt]:
             )
         )
     if other:
-        doubts.append(Doubt("unused-test", f"SysId's recipe has no use for: {', '.join(other)}."))
+        doubts.append(Doubt("unused-test", f"SysId's method does not use: {', '.join(other)}."))
     return doubts
 
 
@@ -98,16 +98,16 @@ def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> lis
         return [
             Doubt(
                 "sign-opposed",
-                "kV and kA are negative: a positive voltage makes a negative velocity in this log. "
-                "Invert the encoder or the motor, so that plus is plus, and record again.",
+                "kV and kA are negative: a positive voltage gives a negative velocity in this "
+                "log. Invert the encoder or the motor, and record again.",
                 grave=True,
             )
         ]
     cause = {
         "kS": "friction cannot push. Look for noise in the velocity, for a mechanism that was "
         "moved by hand, or for gravity that the type leaves out",
-        "kV": "a motor does not speed up without voltage. Look for a wrong test name or a stuck "
-        "sensor",
+        "kV": "a motor does not accelerate without voltage. Look for a wrong test name or a "
+        "stuck sensor",
         "kA": "inertia is never negative. Look at the dynamic tests: is there a voltage step, and "
         "a velocity that follows?",
         "kG": "gravity should pull the mechanism back. Is forward up in this log?",
@@ -128,8 +128,8 @@ def uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> 
     return [
         Doubt(
             "unsure-gain",
-            f"{gain} = {gains[gain]:.2g} ± {error:.1g}: this log hardly tells {gain}. A longer or "
-            "harder test would.",
+            f"{gain} = {gains[gain]:.2g} ± {error:.1g}: this log hardly determines {gain}. A "
+            "longer or harder test would.",
         )
         for gain, error in errors.items()
         if gain != "offset_rad" and error > UNSURE * abs(gains[gain])
@@ -165,8 +165,8 @@ def _doubt_slow_steps(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
     return [
         Doubt(
             "slow-measurement",
-            f"The velocity answers {delay * 1000:.0f} ms after the voltage, later than the "
-            f"mechanism itself (kA/kV = {timescale * 1000:.0f} ms): kA is not to be trusted. "
-            "Shorten the velocity filter of the motor controller, or log faster.",
+            f"The velocity reacts {delay * 1000:.0f} ms after the voltage, more slowly than the "
+            f"mechanism itself (kA/kV = {timescale * 1000:.0f} ms): do not trust kA. Shorten the"
+            " velocity filter of the motor controller, or log faster.",
         )
     ]

@@ -191,7 +191,7 @@ def trim_step(
     if not np.any(rows.voltage):
         raise NotIdentifiable(
             f"{test} never applies a voltage",
-            advice="Log the voltage that was applied, and run the test with the robot enabled.",
+            advice="Log the applied voltage, and run the test with the robot enabled.",
         )
     start = int(np.argmax(np.abs(rows.voltage) > 0))
     begin = rows.time[start]

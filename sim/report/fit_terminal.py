@@ -79,6 +79,9 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) ->
     """Print what feedback gains do in simulation, a line each."""
     for trial in tried:
         step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
+        if trial.owner != OWN and not trial.is_good:
+            console.print(f"  {trial.loop}: no good start; see the warning below")
+            continue
         own = "your own " if trial.owner == OWN else ""
         bad = "" if trial.is_good else " (no good start)"
         console.print(

@@ -17,7 +17,8 @@ from sim.core.units import Unit, find_unit
 from sim.feedback import PRESETS
 from sim.fit import Fit
 
-DIGITS = 6  # a robot's gain deserves no more, however small its error
+DIGITS = 5  # a robot's gain deserves no more: what the model leaves out is larger than its noise
+FINEST = 1e-3  # [share of a gain] smaller errors are noise alone, and no gain is known so well
 FEWEST = 3  # ... and no fewer: a rounded kA of zero would be another model
 PERIOD = 1e3 * PRESETS["default"].period  # [ms] between the two velocities, WPILib's default
 
@@ -148,7 +149,7 @@ def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str
 
 
 def round_to_error(value: float, error: float) -> str:
-    """A number as code, to the second digit of its error, with three to six digits of its own."""
+    """A number as code, to the second digit of its error, with three to five digits of its own."""
     if not value:
         return "0.0"
     first = math.floor(math.log10(abs(value)))
@@ -182,7 +183,7 @@ def refuse_impossible_gains(found: Fit) -> None:
         if doubt.grave:
             raise BadRequest(
                 f"no code for gains that cannot be right: {doubt.message}",
-                advice="Fit again when that is settled.",
+                advice="Fix this first, then fit again.",
             )
     for gain, value in found.gains.items():
         if not math.isfinite(value) or (gain in {"kV", "kA"} and value < 0.0):
@@ -282,6 +283,8 @@ def _counts_in(found: Fit) -> Unit:
 
 def _line(write: Language, name: str, value: float, error: float, per: str) -> str:
     """One constant with its unit, and its error where it has one."""
-    known = f" ± {error:.2g}" if math.isfinite(error) else ""
+    known = ""
+    if math.isfinite(error):
+        known = f" ± {error:.2g}" if error >= FINEST * abs(value) else f" ± less than {FINEST:.1%}"
     constant = write.constant.format(name=name, value=round_to_error(value, error))
     return f"{constant}  {write.comment} [{per}]{known}"

@@ -16,9 +16,9 @@ from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, wr
 SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
 MEANS = {
     "kS": "friction: the volts before it moves at all",
-    "kV": "the volts that hold a speed, for each unit of speed",
-    "kA": "the volts that speed it up, for each unit of acceleration",
-    "kG": "gravity: the volts that hold it where it is heaviest",
+    "kV": "the volts for a steady speed, for each unit of speed",
+    "kA": "the volts for acceleration, for each unit of acceleration",
+    "kG": "gravity: the volts that hold it where gravity pulls most",
     "offset_rad": "what to add to the sensor's angle, to count from horizontal",
 }
 CODE = {"java": "Java", "python": "Python"}
@@ -89,7 +89,7 @@ def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
         (
             f"velocity, simulated: off by, RMS [{per}/s]",
             _number(found.simulated_velocity_rmse),
-            "it cannot be less than the sensor's noise",
+            "it cannot be smaller than the sensor noise",
         ),
         (
             "acceleration: R²",
@@ -102,9 +102,9 @@ def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     if late:
         rows.append(
             (
-                "the velocity comes late by [ms]",
+                "delay of the velocity [ms]",
                 _number(1000.0 * found.velocity_delay),
-                "found in the log, and allowed for in the gains",
+                "found in the log; the gains account for it",
             )
         )
     return rows

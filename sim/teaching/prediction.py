@@ -1,6 +1,7 @@
-"""A prediction before an experiment, kept and shown again, never graded."""
+"""A prediction before an experiment, compared with the answer afterwards, never graded."""
 
 from html import escape
+from typing import ClassVar
 
 from sim.core.errors import BadRequest
 
@@ -14,6 +15,8 @@ class Prediction:
         question: what is asked.
         options: the answers one can choose.
     """
+
+    _results: ClassVar[dict[str, bool]] = {}  # question -> whether the prediction was right
 
     def __init__(self, question: str, *options: str) -> None:
         import ipywidgets  # type: ignore[import-untyped]  # noqa: PLC0415 - no types; for notebooks
@@ -39,6 +42,28 @@ class Prediction:
                 advice=f"Choose one of: {', '.join(self.options)}.",
             )
         self._buttons.value = chosen
+
+    def reveal(self, answer: str) -> str:
+        """Compare the prediction with the answer, and count how many were right on this page.
+
+        Without a prediction only the answer is given.
+
+        Raises:
+            BadRequest: the answer is not one of the options.
+        """
+        if answer not in self.options:
+            raise BadRequest(
+                f"{answer!r} is not one of the answers",
+                advice=f"Choose one of: {', '.join(self.options)}.",
+            )
+        if self.value is None:
+            return f"Answer: {answer}."
+        right = self.value == answer
+        self._results[self.question] = right
+        score = f"({sum(self._results.values())} of {len(self._results)} predictions right so far.)"
+        if right:
+            return f"You predicted: {answer}. That is right. {score}"
+        return f"You predicted: {self.value}. The answer is: {answer}. {score}"
 
     def __str__(self) -> str:
         """What was chosen, to be shown again when the answer is known."""

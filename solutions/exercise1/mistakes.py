@@ -57,7 +57,7 @@ MISTAKES = (
         ANSWERS,
         volts("braking", lambda s, v, a, _: v + a - s),
         "braking",
-        "did you take sgn of a?",
+        "did you use sgn(a)? It must be",
     ),
     Mistake(
         "no friction while it speeds up",
@@ -94,7 +94,7 @@ MISTAKES = (
         ANSWERS,
         volts("accelerating", lambda s, v, a, size: s + v / size + a),
         "accelerating",
-        "Did you turn it into",
+        "the unit of your kV. Did you",
         "M-UNITS",
     ),
     Mistake(
@@ -102,7 +102,7 @@ MISTAKES = (
         ANSWERS,
         volts("braking", lambda s, v, a, size: s + (v + a) / size),
         "braking",
-        "Did you turn it into",
+        "the unit of your kV. Did you",
         "M-UNITS",
     ),
     Mistake(
@@ -138,14 +138,14 @@ MISTAKES = (
         ANSWERS,
         volts("braking", lambda _s, v, _a, _: v),
         "braking",
-        "maybe two things at once: kS is missing",
+        "maybe there are two mistakes",
     ),
     Mistake(
         "an acceleration at a steady speed",
         ANSWERS,
         lambda text: volts("backward", lambda s, v, _a, _: s + v + pushed(text))(text),
         "backward",
-        "a kA·a too many",
+        "the term kA·a is too much here",
     ),
     Mistake(
         "an output between -1 and 1",
@@ -160,7 +160,7 @@ MISTAKES = (
         ANSWERS,
         swapped("braking", "accelerating"),
         "accelerating",
-        "right for braking. Are two answers swapped?",
+        "Did you swap two answers?",
         "M-ARGORDER",
     ),
     Mistake(
@@ -168,7 +168,7 @@ MISTAKES = (
         ANSWERS,
         volts("forward", lambda s, v, _a, _: 1.08 * (s + v)),
         "forward",
-        "outside the accepted ±2 %, by a little",
+        "just outside the accepted ±2 %",
     ),
     Mistake(
         "nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward", "nothing"
@@ -183,9 +183,17 @@ MISTAKES = (
         "parentheses",
         "M-UNITS",
     ),
-    Mistake("another length", ANSWERS, unit("V·s/in"), "kv-unit", "of the right kind", "M-UNITS"),
+    Mistake(
+        "another length", ANSWERS, unit("V·s/in"), "kv-unit", "the right kind of unit", "M-UNITS"
+    ),
     Mistake("not a unit", ANSWERS, unit("volt per banana"), "kv-unit", "'banana' is not known"),
-    Mistake("the other term", ANSWERS, other_term, "largest", "work out all three terms"),
+    Mistake(
+        "the other term",
+        ANSWERS,
+        other_term,
+        "largest",
+        "compare volts: compute all three terms at",
+    ),
     Mistake(
         "a word that is no term",
         ANSWERS,

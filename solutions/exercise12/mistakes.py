@@ -39,7 +39,7 @@ MISTAKES = (
         ANSWERS,
         put_value("effects", '["kA"]'),
         "first-effect",
-        "hides what is missing",
+        "hides the missing effect",
     ),
     Mistake(
         "inertia for whatever is missing",
@@ -49,7 +49,7 @@ MISTAKES = (
             '"inertia-change".extra = 0.05\n"inertia-change".moment = 20.0\n',
         ),
         "first-effect",
-        "narrows the gap of the validation more, alone",
+        "another effect alone makes the gap of",
     ),
     Mistake(
         "a word of one's own",
@@ -70,7 +70,7 @@ MISTAKES = (
         ANSWERS,
         named(lambda names: f'{names}, "constant-load"', "constant-load.load = 0.001\n"),
         "all-effects",
-        "Which of them narrows no gap?",
+        "all hidden effects are in your list",
     ),
     Mistake(
         "everything that might be, added",
@@ -80,28 +80,28 @@ MISTAKES = (
             "constant-load.load = 0.15\ndelay.lag = 0.2\nheating.rate = 0.01\n",
         ),
         "held-out",
-        "worse than none",
+        "on runs that it was not fitted",
     ),
     Mistake(
         "a look-alike",
         ANSWERS,
         named(lambda _: '"delay"', "delay.lag = 0.04\n"),
         "all-effects",
-        "stand in for another",
+        "not all of these are right. An",
     ),
     Mistake(
         "an effect of nothing",
         ANSWERS,
         named(lambda names: f'{names}, "delay"', "delay.lag = 0.0\n"),
         "justified",
-        "at its bound",
+        "is at its limit",
     ),
     Mistake(
         "a look-alike that explains little",
         ANSWERS,
         named(lambda _: '"constant-load"', "constant-load.load = 0.02\n"),
         "held-out",
-        "there is much left",
+        "a large gap remains. Are the parameters",
     ),
     Mistake(
         "a parameter left out",
@@ -115,7 +115,7 @@ MISTAKES = (
         ANSWERS,
         first_line(lambda name, value: f'{name} = "{value} m^7"'),
         "held-out",
-        "does not measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(

@@ -72,14 +72,14 @@ MISTAKES = (
             text
         ),
         "kv-theory",
-        "that is the measured kV",
+        "this is the measured kV. Compute the",
     ),
     Mistake(
         "a unit that measures something else",
         ANSWERS,
         put_value("kV_theory", '"2 m/s"'),
         "kv-theory",
-        "does not measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(
@@ -89,7 +89,13 @@ MISTAKES = (
         "kv-theory",
         "outside the accepted ±2 %",
     ),
-    Mistake("a share", ANSWERS, scale_numbers(0.01, "difference"), "difference", "that is a share"),
+    Mistake(
+        "a share",
+        ANSWERS,
+        scale_numbers(0.01, "difference"),
+        "difference",
+        "this is a fraction. Write percent, 100",
+    ),
     Mistake(
         "above for below", ANSWERS, scale_numbers(-1, "difference"), "difference", "the sign is not"
     ),
@@ -119,7 +125,7 @@ MISTAKES = (
         ANSWERS,
         causes("gear-ratio", "logged-voltage", "mass"),
         "inspection",
-        "does it take more volts to move more mass?",
+        "does a heavier robot need more volts",
         "M-KV-MASS",
     ),
     Mistake(
@@ -127,21 +133,21 @@ MISTAKES = (
         ANSWERS,
         causes("gear-ratio", "constant-friction"),
         "inspection",
-        "in another gain than kV",
+        "friction that needs the same voltage at",
     ),
     Mistake(
         "noise",
         ANSWERS,
         causes("sensor-noise", "gear-ratio", "logged-voltage"),
         "inspection",
-        "noise scatters to both sides",
+        "noise goes to both sides; it does",
     ),
     Mistake(
         "wires before paper",
         ANSWERS,
         wires_first,
         "inspection",
-        "where looking costs least",
+        "Check the easiest first",
     ),
     Mistake(
         "one cause only",

@@ -55,7 +55,7 @@ def _causes(given: Mapping[str, Any], *, below: bool) -> list[str]:
         return ["gear-ratio", "motor-type"]
     if not math.isclose(2.0 * radius, _diameter(parts, 0.0), rel_tol=0.01, abs_tol=1e-9):
         return ["wheel-size", "motor-type"]
-    if "asked" in code["logged_voltage"]:
+    if "commanded" in code["logged_voltage"]:
         return ["logged-voltage", "motor-type"]
     if "hot to touch" in mechanic:
         return ["dry-bearing" if "bearing" in mechanic else "tight-belt", "motor-type"]

@@ -40,11 +40,11 @@ MISTAKES = (
         EDGE,
     ),
     Mistake(
-        "both edges added up",
+        "this is the sum of both edges",
         ANSWERS,
         change_number("elevator_kG", lambda right: 2.0 * right["elevator_kG"]),
         "elevator-kg",
-        "added up",
+        "this is the sum of both edges",
         EDGE,
     ),
     Mistake(
@@ -76,7 +76,7 @@ MISTAKES = (
         ANSWERS,
         change_number("elevator_kG", lambda _: 0.0),
         "elevator-kg",
-        "takes nothing",
+        "this means that gravity needs no voltage",
         SIMPLE,
     ),
     Mistake(
@@ -84,7 +84,7 @@ MISTAKES = (
         ANSWERS,
         exchange_numbers("elevator_kG", "elevator_kS"),
         "elevator-kg",
-        "swapped?",
+        "did you swap them?",
         "M-ARGORDER",
     ),
     Mistake(
@@ -110,7 +110,7 @@ MISTAKES = (
         ANSWERS,
         change_number("arm_kG", in_degrees),
         "arm-kg",
-        "counts in radians",
+        "it looks as if you put degrees",
         UNITS,
     ),
     Mistake(
@@ -150,7 +150,7 @@ MISTAKES = (
         ANSWERS,
         replace_text(("arm_offset = ", 'arm_offset = "3 V" # ')),
         "arm-offset",
-        "does not measure",
+        "is not a unit of",
         UNITS,
     ),
     Mistake(
@@ -158,7 +158,7 @@ MISTAKES = (
         ANSWERS,
         replace_text(('elevator_type = "Elevator"', 'elevator_type = "Simple"')),
         "elevator-type",
-        "knows no gravity",
+        "Simple has no gravity term. Does yours",
         SIMPLE,
     ),
     Mistake(
@@ -166,7 +166,7 @@ MISTAKES = (
         ANSWERS,
         replace_text(('"ArmFeedforward"', '"SimpleMotorFeedforward"')),
         "arm-class",
-        "knows no gravity",
+        "Simple has no gravity term. Does yours",
         SIMPLE,
     ),
     Mistake(

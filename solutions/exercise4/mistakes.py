@@ -77,7 +77,7 @@ MISTAKES = (
         JAVA,
         replace_text(("Volts.of(3.5)", "Volts.of(3.0)")),
         "step",
-        "3 V is the lesson's own example",
+        "3 V is an example in many",
     ),
     Mistake(
         "a step left to WPILib",
@@ -92,7 +92,7 @@ MISTAKES = (
         PYTHON,
         replace_text(("stepVoltage=3.5", "stepVoltage=load_step()")),
         "step",
-        "I cannot tell the step voltage by reading load_step()",
+        "the grader cannot see the step voltage by reading load_step()",
     ),
     Mistake(
         "a timeout of one minute",
@@ -168,7 +168,7 @@ MISTAKES = (
         JAVA,
         replace_text(("this::record", "null")),
         "log",
-        "null in place of the log callback",
+        "null instead of the log callback: then",
     ),
     Mistake(
         "the routine in the body of the class",

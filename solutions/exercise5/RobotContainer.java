@@ -31,7 +31,7 @@ public class RobotContainer {
 
   private void configureBindings() {
     // --- answer: 3. Bind the four tests to four buttons, so that each runs while its button is
-    // ---   held, and never by accident in a match. Beside each, a comment: which test is it,
+    // ---   held, and never by accident in a match. Next to each, a comment: which test is it,
     // ---   and which property of the mechanism does it measure?
     Trigger testing = RobotModeTriggers.test();
     // Quasistatic, forward: a slow ramp, which measures kS and kV.
@@ -60,7 +60,7 @@ class ExampleSubsystem extends SubsystemBase {
           new SysIdRoutine.Config(Volts.of(0.5).per(Second), Volts.of(3.5), Seconds.of(10)),
           new SysIdRoutine.Mechanism(this::drive, this::record, this));
 
-  // --- answer: 2. Let other classes have the four tests as commands: a public method that makes
+  // --- answer: 2. Give other classes the four tests as commands: a public method that makes
   // ---   the quasistatic test of a direction, and one that makes the dynamic test.
   public Command sysIdQuasistatic(SysIdRoutine.Direction direction) {
     return m_routine.quasistatic(direction);

@@ -34,7 +34,7 @@ MISTAKES = (
         ANSWERS,
         puts(drivetrain_ramp="0.1", drivetrain_timeout="10"),
         "drivetrain",
-        "To get there, your ramp needs",
+        "To reach that, your ramp needs",
         SLOW,
     ),
     Mistake(
@@ -49,7 +49,7 @@ MISTAKES = (
         ANSWERS,
         put_value("drivetrain_step", "11"),
         "drivetrain",
-        "They spin, and the encoder counts",
+        "The wheels spin, and the encoder counts",
         BIG,
     ),
     Mistake(
@@ -65,7 +65,7 @@ MISTAKES = (
         ANSWERS,
         put_value("turret_step", "0.5"),
         "turret",
-        "It drowns in noise",
+        "times. You cannot see it in the",
     ),
     Mistake(
         "a step that gravity eats",
@@ -95,7 +95,7 @@ MISTAKES = (
             scale_numbers(4.0, "elevator_release")(text)
         ),
         "elevator",
-        "m of run; you have",
+        "m; you have",
     ),
     Mistake(
         "a timeout that saves nobody",
@@ -123,7 +123,7 @@ MISTAKES = (
         ANSWERS,
         put_value("drivetrain_release", '"3 m/s"'),
         "drivetrain",
-        "does not measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(
@@ -173,21 +173,21 @@ MISTAKES = (
         ANSWERS,
         put_value("log_2026", '"/home/lvuser/deploy"'),
         "log-2026",
-        "there your program lies",
+        "your program is there, but not its",
     ),
     Mistake(
         "last year's controller",
         ANSWERS,
         put_value("log_2027", '"/home/lvuser/logs"'),
         "log-2027",
-        "another user than a roboRIO",
+        "a Systemcore has another user name than",
     ),
     Mistake(
         "every limit bypassed",
         ANSWERS,
         puts(limit_a='"bypassed"', limit_b='"bypassed"'),
         "limits",
-        "who keeps this limit",
+        "where is this limit set? Does that",
         "M-LIMITS-BYPASSED",
     ),
     Mistake(
@@ -195,6 +195,6 @@ MISTAKES = (
         ANSWERS,
         put_value("schedule", '"first-regional"'),
         "schedule",
-        "where is room?",
+        "there are eight minutes between matches, and",
     ),
 )

@@ -15,7 +15,7 @@ BAD = {  # what gives a no-go away
     "encoder": ("the position falls", "with a jump"),
     "log": ("in the evening", "nobody knows"),
     "guard": ("at all times", "also shoots"),
-    "driver_station": ("all of us", "also holds"),
+    "driver_station": ("we all stand", "also holds"),
 }
 
 

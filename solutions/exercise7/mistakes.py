@@ -45,7 +45,7 @@ MISTAKES = (
         ANSWERS,
         put_value("log01", '"clean"'),
         "log01",
-        "a fine R²",
+        "Something is wrong here. The R² may",
         "M-R2",
     ),
     Mistake("nothing", ANSWERS, put_value("log01", '""'), "log01", "nothing yet"),
@@ -54,7 +54,7 @@ MISTAKES = (
         ANSWERS,
         first(WHOLE, fault=TAKEN_FOR.__getitem__),
         "log01",
-        "would show like this",
+        "would look like this",
     ),
     Mistake(
         "the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01", "the place"
@@ -65,21 +65,21 @@ MISTAKES = (
         ANSWERS,
         first("{fault}, {kind}-{way}, {begin} to {end}"),
         "log01",
-        "What is to be done?",
+        "What should you do? Add one of",
     ),
     Mistake(
         "a filter for everything",
         ANSWERS,
         first(WHOLE, action=lambda _: "filter"),
         "log01",
-        "single samples tremble",
+        "filter helps if single samples are noisy",
     ),
     Mistake(
         "a fault too many",
         ANSWERS,
         first(f"{WHOLE} + sign-flip whole fix-config"),
         "log01",
-        "Show it on a plot",
+        "Find it in a plot first: what",
     ),
     Mistake(
         "a word that is none",

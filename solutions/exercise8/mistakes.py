@@ -40,24 +40,34 @@ MISTAKES = (
         "comes out",
     ),
     Mistake(
-        "the stops are kept", ANSWERS, windows("all", *RAMPS, *STEPS), "ka", "held up by a stop"
+        "the stops are kept",
+        ANSWERS,
+        windows("all", *RAMPS, *STEPS),
+        "ka",
+        "you keep samples in which a hard",
     ),
     Mistake(
         "a filter for a picture",
         ANSWERS,
         put_value("median", "15"),
         "ka",
-        "bends the rise",
+        "A median of so many samples flattens",
         "M-FILTER-FREE",
     ),
     Mistake("no filter", ANSWERS, put_value("median", "1"), "ka", "Single readings are far off"),
-    Mistake("no threshold", ANSWERS, put_value("threshold", "0"), "ks", "before it moves"),
+    Mistake(
+        "no threshold",
+        ANSWERS,
+        put_value("threshold", "0"),
+        "ks",
+        "You keep samples from before the mechanism",
+    ),
     Mistake(
         "the rise of the steps is cut away",
         ANSWERS,
         windows("0.3 to 0.6", *STEPS),
         "reach",
-        "while it speeds up",
+        "A step contains kA only in its",
         "M-TRIM-PRETTY",
     ),
     Mistake(
@@ -65,7 +75,7 @@ MISTAKES = (
         ANSWERS,
         windows("0 to 2.5", *RAMPS),
         "reach",
-        "the lever",
+        "The fast samples of a ramp determine",
         "M-TRIM-PRETTY",
     ),
     Mistake(
@@ -90,7 +100,7 @@ MISTAKES = (
         ANSWERS,
         put_value("threshold", '"0.2 V"'),
         "kept",
-        "measure",
+        "is not a unit of",
         "M-UNITS",
     ),
     Mistake(

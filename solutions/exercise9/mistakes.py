@@ -69,7 +69,7 @@ MISTAKES = (
         ANSWERS,
         exchange_numbers("kS", "kV"),
         "kv",
-        "swapped?",
+        "did you swap them?",
         "M-ARGORDER",
     ),
     Mistake(
@@ -109,7 +109,7 @@ MISTAKES = (
         ANSWERS,
         replace_text(("kV = ", 'kV = "2 V/m/s" # ')),
         "kv",
-        "does not measure kV",
+        "is not a unit of kV",
         "M-UNITS",
     ),
     Mistake(
@@ -132,7 +132,7 @@ MISTAKES = (
         ANSWERS,
         scale_numbers(3.4, "kV"),
         "kv",
-        "miss the voltage in the log",
+        "With your three gains, the voltage error",
     ),
     Mistake(
         "the voltage explained by velocity and acceleration",
@@ -143,7 +143,7 @@ MISTAKES = (
             ("-gamma / beta, -alpha / beta, 1 / beta", "gamma, alpha, beta"),
         ),
         "function",
-        "Explain the acceleration instead",
+        "this is the result with the voltage",
         "M-NOISE-AVERAGES",
     ),
     Mistake(
@@ -176,7 +176,7 @@ MISTAKES = (
         FUNCTION,
         replace_text(("np.gradient(v, time[rows])", "np.gradient(v, 0.02)")),
         "function",
-        "taken to be 0.02 s apart",
+        "this is the result if you assume",
     ),
     Mistake(
         "friction turned around",

@@ -12,7 +12,7 @@ MISTAKES = (
         ANSWERS,
         scale_numbers(100.0, "simulated_velocity_r2"),
         "r2",
-        "a share of 1",
+        "There are two R². Write the simulated",
         "M-R2",
     ),
     Mistake(
@@ -24,7 +24,11 @@ MISTAKES = (
         "M-DUTY",
     ),
     Mistake(
-        "a wrong verdict", ANSWERS, put_value("verdict", '"inspect"'), "theory-verdict", "sign and"
+        "a wrong verdict",
+        ANSWERS,
+        put_value("verdict", '"inspect"'),
+        "theory-verdict",
+        "with its sign",
     ),
     Mistake(
         "a difference from nowhere",
@@ -46,7 +50,7 @@ MISTAKES = (
         "RobotContainer.java",
         replace_text(("whileTrue", "onTrue")),
         "buttons-held",
-        "even after release",
+        "Once started, the test runs to its",
     ),
     Mistake(
         "kV and kA in each other's place",
@@ -58,7 +62,7 @@ MISTAKES = (
             )
         ),
         "constants-order",
-        "kA stands where SimpleMotorFeedforward expects kV",
+        "kA is where SimpleMotorFeedforward expects kV",
         "M-ARGORDER",
     ),
 )

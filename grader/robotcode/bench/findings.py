@@ -54,7 +54,7 @@ def find_stop(ran: RunFacts, *, where: str) -> RunFault | None:
     """
     if ran.outcome not in {RunOutcome.CRASHED, RunOutcome.ENDLESS} or ran.where != where:
         return None
-    hint = f"That is how far it came {IN}. Mend that place, and grade again."
+    hint = f"The program stopped there {IN}. Fix that line, and grade again."
     return RunFault(ran.said, hint)
 
 

@@ -91,7 +91,7 @@ def simulation_awareness(path: Path) -> str:
 
 def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
     return UnreadableFile(
-        f"{what}, so I cannot tell what this code does",
+        f"{what}, so the grader cannot see what this code does",
         where=f"{file}, line {line}",
         advice="Take it out: a robot program needs no such thing. Then grade again.",
     )

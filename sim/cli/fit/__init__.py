@@ -53,7 +53,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     type=click.Choice(METHODS),
     default=METHODS[0],
     show_default=True,
-    help="Ours, by simulating; or WPILib SysId's own recipe.",
+    help="Our method (simulation) or WPILib SysId's own.",
 )
 @click.option(
     "--median",
@@ -69,12 +69,17 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Motor controller that the feedback gains are for.",
 )
 @click.option("--driven-by", metavar="MOTOR", help="Check against theory: krakenX60, neo, …")
-@click.option("--count", type=click.IntRange(min=1), default=1, help="How many motors, for that.")
-@click.option("--ratio", type=float, help="Motor turns per turn of the output, for that.")
 @click.option(
-    "--radius", type=float, default=1.0, help="Of wheel or drum [m], for that and --paste."
+    "--count", type=click.IntRange(min=1), default=1, help="Number of motors, for --driven-by."
 )
-@click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for that.")
+@click.option("--ratio", type=float, help="Motor turns per turn of the output, for --driven-by.")
+@click.option(
+    "--radius",
+    type=float,
+    default=1.0,
+    help="Of wheel or drum [m], for --driven-by and --paste.",
+)
+@click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for --driven-by.")
 @click.option(
     "--paste",
     type=click.Choice((*LANGUAGES, *CONTROLLERS)),
@@ -85,7 +90,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     type=click.Choice(("2026", "2027")),
     default="2026",
     show_default=True,
-    help="Whose names, for --paste.",
+    help="WPILib season, for --paste.",
 )
 @feedback_options
 @as_json

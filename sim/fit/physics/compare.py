@@ -16,7 +16,7 @@ APART = 0.05  # [share of a gain] two sides or directions may differ by
 NOTICED = 0.03  # [V] a difference of kS or kG smaller than this is no matter
 
 SUSPECTS = {
-    "kS": "a bearing, a chain, a brake, a ratchet or something that leans one way",
+    "kS": "a bearing, a chain, a brake, a ratchet or anything that rubs in one direction",
     "kV": "the ratio, wheel or position factor of each, and what rubs more at speed",
     "kA": "the weight each moves, wheel slip, and a current limit that works on one only",
     "kG": "a spring, a counterweight, or play in the gears",
@@ -103,9 +103,9 @@ def _differing_gains(
         doubts.append(
             Doubt(
                 f"{what}s-differ",
-                f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} "
-                f"{gain_unit(gain, per)} {names[1]}, {share:.0%} apart; one gain for both "
-                f"is wrong for each: look at {why}.",
+                f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} {gain_unit(gain, per)} "
+                f"{names[1]}, {share:.0%} apart; one gain for both is wrong for each: check "
+                f"{why}.",
             )
         )
     return tuple(doubts)

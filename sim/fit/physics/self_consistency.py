@@ -39,8 +39,9 @@ def friction_doubts(found: Fit) -> list[Doubt]:
     return [
         Doubt(
             "friction-watch",
-            f"{share} is above the {limit:g} V that most of type {found.type} stay below: compare "
-            "with last week's, turn it by hand, and look at belt tension, bearings and alignment.",
+            f"{share} is above {limit:g} V, the limit of most mechanisms of type {found.type}: "
+            "compare with last week, turn it by hand, and check belt tension, bearings and "
+            "alignment.",
         )
     ]
 

@@ -40,10 +40,10 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
         doubts.append(
             Doubt(
                 "friction-differs",
-                f"Forward needs {forward.ks:.2f} V before it moves, reverse {reverse.ks:.2f} V. "
-                "That is friction that differs, or a weight that the type of mechanism leaves "
-                "out. One kS fits neither, and kA comes out wrong: look for a part that rubs, or "
-                "choose another --type.",
+                f"It needs {forward.ks:.2f} V to start moving forward but {reverse.ks:.2f} V in "
+                "reverse. Friction differs between the directions, or the type of mechanism "
+                "leaves out a weight. One kS cannot describe both, and the error ends up in kA:"
+                " look for a part that rubs, or choose another --type.",
             )
         )
     apart = abs(forward.kv - reverse.kv)
@@ -53,9 +53,9 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
             Doubt(
                 "back-emf-differs",
                 f"Forward takes {forward.kv:.4g} V per unit of speed, reverse {reverse.kv:.4g}: "
-                f"they differ by {apart / kv:.0%}. The load differs by direction, or the sensor "
-                "reads one direction differently. Plot voltage over velocity, and believe kV no "
-                "closer than that.",
+                f"they differ by {apart / kv:.0%}. The load differs between the directions, or "
+                "the sensor reads one direction differently. Plot voltage over velocity, and "
+                "trust kV only to this difference.",
             )
         )
     return doubts

@@ -38,9 +38,9 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "fine-r2",
-            f"SysId would show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, which "
-            f"counts as good, but its gains miss the velocity by {worst:.0%} of the top speed in "
-            f"{said}. Plot these seconds before you believe kA.",
+            f"SysId would show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, "
+            "which counts as good, but a simulation with its gains has a velocity error of "
+            f"{worst:.0%} of the top speed in {said}. Plot these seconds before you trust kA.",
         )
     ]
 
@@ -84,9 +84,9 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
             doubts.append(
                 Doubt(
                     "repeats-differ",
-                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed at the "
-                    "same voltage, and SysId reads only the first. Find out what changed between "
-                    "them: the battery, the load, the temperature, or a slip.",
+                    f"The {len(runs)} runs of {test} differ by {apart:.0%} of their speed at the"
+                    " same voltage, and SysId uses only the first. Find out what changed "
+                    "between them: the battery, the load, the temperature, or a slip.",
                 )
             )
     return doubts
@@ -115,17 +115,17 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
             doubts.append(
                 Doubt(
                     "little-motion",
-                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so it "
-                    f"says next to nothing. {_more_motion(run)}",
+                    f"Only {moving} of the {len(run)} samples of {run.test} are in motion, so "
+                    f"this run contains almost no information. {_more_motion(run)}",
                 )
             )
         elif run.kind == "dynamic" and (samples := _rise_samples(run)) < RISE:
             doubts.append(
                 Doubt(
                     "short-rise",
-                    f"{run.test} is at 90 % of its top speed within {samples} samples of moving, "
-                    "so hardly any sample tells kA. Log every 5 ms, if the controller sends that "
-                    "fast.",
+                    f"{run.test} reaches 90 % of its top speed within {samples} samples, so "
+                    "hardly any sample contains information about kA. Log every 5 ms, if the "
+                    "controller sends that fast.",
                 )
             )
     return doubts
@@ -135,7 +135,9 @@ def _more_motion(run: Run) -> str:
     """What would make a run move more: a longer one, or more voltage than it had."""
     most = float(np.abs(run.voltage).max(initial=0.0))
     if run.kind == "quasistatic":
-        return f"Let the ramp run on beyond {most:.2g} V, where it had hardly begun to move."
+        return (
+            f"Let the ramp run beyond {most:.2g} V; at that voltage it had hardly started to move."
+        )
     lasts = float(np.ptp(run.time)) if len(run) else 0.0
     return f"Let it run longer than {lasts:.1f} s, or use a larger step than {most:.2g} V."
 
@@ -146,9 +148,9 @@ def _nothing_moves(runs: list[Run]) -> Doubt:
     return Doubt(
         "no-motion",
         f"Nothing moves in this log: in all {len(runs)} runs, the longest of {lasts:.1f} s, "
-        f"position and velocity stay where they are under up to {volts:.2g} V. Either the "
-        "mechanism stood, or its sensor is not read: turn it by hand, and look whether the "
-        "position changes.",
+        f"position and velocity stay the same with up to {volts:.2g} V. Either the mechanism "
+        "stood still, or the log does not contain its sensor: turn it by hand, and check "
+        "whether the position changes.",
         grave=True,
     )
 

@@ -26,6 +26,8 @@ FAR = 2.5  # [times] what is this far off is a fault, not a look
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     """Velocities that come later than the positions beside them, by matching integrals."""
     found = features.velocity_lag
+    if not 1.0 / FAR < _velocity_over_slope(features) < FAR:  # another unit, not another time
+        return []
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
         return []
@@ -37,27 +39,32 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "velocity-lags",
-            f"The velocity comes about {round(lag / TELLS) * TELLS * 1e3:.0f} ms later than the "
-            f"position: most likely the motor controller averages it{likely}. kA and the feedback "
-            "gains come out wrong unless it is known: shorten the filter, or enter this delay in "
-            "SysId.",
+            f"The velocity is about {round(lag / TELLS) * TELLS * 1000.0:.0f} ms later than the "
+            f"position: most likely the motor controller averages it{likely}. kA and the "
+            "feedback gains will be wrong unless you know this delay: shorten the filter, or "
+            "enter the delay in SysId.",
         )
     ]
 
 
 def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     """Velocity and position that count the same motion a little differently."""
-    usual = float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
+    usual = _velocity_over_slope(features)
     if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
         return []
     return [
         Doubt(
             "scales-differ",
-            f"The velocity is {usual:.3f} times the position's change per second in all runs: one "
-            "of the two has a wrong conversion factor. kV and kA follow the velocity; move the "
-            "mechanism by a distance you measure, and see whether the position says the same.",
+            f"The velocity is {usual:.3f} times the slope of the position in all runs: one of "
+            "the two has a wrong conversion factor. kV and kA depend on the velocity; move the "
+            "mechanism by a known distance, and check whether the position agrees.",
         )
     ]
+
+
+def _velocity_over_slope(features: LogFeatures) -> float:
+    """How many times the slope of the position the velocity is, by the median of all runs."""
+    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
 
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
@@ -68,8 +75,9 @@ def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "too-fast",
-            f"At {FULL:g} V it would go {FULL / features.baseline.kv:.3g} m/s: its position is "
-            f"hardly in {per.name}. Say --units radians, rotations or degrees, whichever it is.",
+            f"At {FULL:g} V it would move at {FULL / features.baseline.kv:.3g} m/s: its position"
+            f" is hardly in {per.name}. Add --units radians, rotations or degrees, whichever is "
+            "right.",
         )
     ]
 
@@ -90,8 +98,8 @@ def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "standstill-counted",
-            f"Of the {counted} samples that SysId takes for quasistatic motion, {passed} stand "
-            f"still: their noise is above its threshold of {threshold:.2g}. Set the threshold by "
-            "hand, above the noise.",
+            f"Of the {counted} samples that SysId takes for quasistatic motion, {passed} are at "
+            f"standstill: their noise is above its threshold of {threshold:.2g}. Set the "
+            "threshold by hand, above the noise.",
         )
     ]

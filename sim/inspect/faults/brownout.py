@@ -141,10 +141,10 @@ def _seen(features: LogFeatures, index: int, first: int, last: int) -> Damage:
     bus = None if run.bus_voltage is None else float(run.bus_voltage[first : last + 1].min())
     without = f"for {off:.0%} of that time the motors got no voltage" if off else ""
     if bus is None:
-        happened = f"The applied voltage is cut to 0 and comes back, again and again: {without}"
+        happened = f"The applied voltage drops to 0 and comes back, again and again: {without}"
     else:
         happened = f"The battery's voltage falls to {bus:.1f} V, and below 6.75 V the robot "
-        happened += f"controller switches the motors off{': ' * bool(off)}{without}"
+        happened += f"controller turns the motors off{': ' * bool(off)}{without}"
     return Damage(
         fault="brownout",
         where=LogInterval(index, run.test, start, end),
@@ -159,8 +159,8 @@ def _advice(run: Run) -> str:
     what = "step" if run.kind == "dynamic" else "end of the ramp"
     most = float(np.abs(run.voltage).max(initial=0.0))
     return (
-        "Charge or change the battery, set supply current limits, and run this test again; if it "
-        f"happens again, choose a smaller {what} than {most:.1f} V."
+        "Charge or change the battery, set supply current limits, and run this test again; if "
+        f"it happens again, choose a smaller {what} than {most:.1f} V."
     )
 
 
@@ -189,8 +189,8 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
         where=LogInterval(anomaly.run, run.test, start, end),
         confidence=_confidence(share, back=back, seen=bus is not None),
         evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
-        f"while the log shows {volts:.1f} V{said}.",
-        advice=f"{_advice(run)} Log the voltage that was applied, not the one asked for.",
+        f"but the log still shows {volts:.1f} V{said}.",
+        advice=f"{_advice(run)} Log the applied voltage, not the commanded one.",
     )
 
 
@@ -250,7 +250,7 @@ def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> fl
 
 FAULT = Fault(
     name="brownout",
-    summary="the controller cuts the motors, and the log goes on to tell a voltage",
+    summary="the controller turned the motors off, but the log still shows a voltage",
     ordinary="the motors are without voltage for 0.3 s",
     spoil=spoil,
     detect=detect,

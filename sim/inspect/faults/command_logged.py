@@ -283,9 +283,10 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
         fault="command-logged",
         where=_whole(index, run),
         confidence=1.0 - left,
-        evidence=f"The log says {np.median(run.voltage):.3g} V to the digit, but at first the "
-        f"mechanism speeds up at only {1.0 - shape.lacks:.0%} of what that voltage brings about "
-        "later: a current limit let less arrive, and the log holds what was asked for.",
+        evidence=f"The log shows exactly {np.median(run.voltage):.3g} V, but at first the "
+        f"mechanism accelerates with only {1.0 - shape.lacks:.0%} of what this voltage "
+        "causes later: a current limit reduced the voltage, and the log contains the "
+        "commanded one.",
         advice="Log the applied voltage, which the motor controller measures, or use a step "
         f"smaller than {abs(float(np.median(run.voltage))):.1f} V; until then do not trust kA.",
     )
@@ -297,7 +298,7 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="command-logged",
-    summary="the voltage asked for is logged, and a current limit let less arrive",
+    summary="the log contains the commanded voltage, but a current limit reduced it",
     ordinary="a step starts with 33 % of its acceleration",
     spoil=spoil,
     detect=detect,

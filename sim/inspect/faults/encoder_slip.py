@@ -83,10 +83,11 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             where=LogInterval(anomaly.run, run.test, start, end),
             confidence=share,
             evidence=f"For {end - start:.2f} s the velocity reads {abs(loss):.0%} too "
-            f"{'low' if loss > 0 else 'high'}, from one sample to the next, and then it fits "
-            "again: no motor changes its speed that fast, so the sensor slipped on its shaft.",
-            advice="Tighten what holds the sensor to the shaft, and run this test again; until "
-            "then cut these seconds out.",
+            f"{'low' if loss > 0 else 'high'}, from one sample to the next, and then it"
+            " is right again: no motor changes its speed that fast, so the sensor "
+            "slipped on its shaft.",
+            advice="Fix the sensor to its shaft, and run this test again; until then cut these "
+            "seconds out.",
         )
 
 
@@ -140,7 +141,7 @@ def _loss(
 
 FAULT = Fault(
     name="encoder-slip",
-    summary="the sensor loses its grip on the shaft, or skips a tooth",
+    summary="the sensor slips on its shaft, or skips a tooth",
     ordinary="it reads one half of the speed for 0.4 s, or hops for 0.08 s",
     spoil=spoil,
     detect=detect,

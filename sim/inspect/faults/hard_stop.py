@@ -111,10 +111,10 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         where=LogInterval(index, run.test, float(run.time[impact]), float(run.time[-1])),
         confidence=share,
         evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
-        f"{SETTLES:g} s and stays there for {lasts:.2f} s, although "
-        f"{volts[impact:].max():.1f} V push on: it ran into its end.",
-        advice="Cut the run before the impact, or run it again, let go earlier, and set soft "
-        f"limits first: here it hit after {_way(run, impact):.3g} of travel.",
+        f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
+        f"at up to {volts[impact:].max():.1f} V: it hit its end.",
+        advice="Cut the run before the impact, or run it again and let go earlier, with soft "
+        f"limits set: it hit the end after {_way(run, impact):.3g} of travel.",
     )
 
 
@@ -156,11 +156,11 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
                 fault="hard-stop",
                 where=LogInterval(index, run.test, float(run.time[0]), float(run.time[off])),
                 confidence=LEANS,
-                evidence="For the first "
-                f"{run.time[off] - run.time[0]:.1f} s the mechanism leans on the end of its "
-                f"travel: gravity presses it there. It moves by only {given:.1%} of its travel, "
-                f"and comes off at {volts:.2f} V where {pressed + baseline.ks:.2f} V would do.",
-                advice="Cut these seconds out, or begin the run a little off the stop.",
+                evidence=f"For the first {run.time[off] - run.time[0]:.1f} s gravity presses the"
+                " mechanism against the end of its travel. It moves by only "
+                f"{given:.1%} of its travel, and leaves the end at {volts:.2f} V "
+                f"although {pressed + baseline.ks:.2f} V would be enough.",
+                advice="Cut these seconds out, or start the run a little away from the stop.",
             )
 
 
@@ -213,7 +213,7 @@ def _percent(speed: float, run: Run) -> str:
 
 FAULT = Fault(
     name="hard-stop",
-    summary="the mechanism hits its end while the voltage pushes on",
+    summary="the mechanism hits its end while the voltage stays on",
     ordinary="0.6 s against the stop",
     spoil=spoil,
     detect=detect,

@@ -80,21 +80,22 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                     index, run.test, float(run.time[gaps[0]]), float(run.time[gaps[-1] + 1])
                 ),
                 confidence=1.0 - 0.5 ** (1.0 + lost / PROOF),
-                evidence=f"{_times(gaps.size)} the robot program stopped logging, for up to "
-                f"{step[gaps].max() * 1e3:.0f} ms where {usual * 1e3:.3g} ms is usual: about "
-                f"{lost:.0f} samples are lost.",
-                advice="Find what stalls the program (the Driver Station's console prints loop "
-                "overruns), and run this test again; until then do not trust kA.",
+                evidence=f"{_times(gaps.size)} in the samples, the longest "
+                f"{step[gaps].max() * 1000.0:.0f} ms (normal: {usual * 1000.0:.3g} ms):"
+                f" about {lost:.0f} samples are lost.",
+                advice="Find the part of the program that takes too long (the Driver Station's "
+                "console prints loop overruns), and run this test again; until then do "
+                "not trust kA.",
             )
 
 
 def _times(count: int) -> str:
-    return "Once" if count == 1 else f"{count} times"
+    return "1 gap" if count == 1 else f"{count} gaps"
 
 
 FAULT = Fault(
     name="loop-overrun",
-    summary="the robot program's loop stalls: gaps in time, samples lost",
+    summary="the robot program is too slow: gaps in time, samples lost",
     ordinary="about five stalls of 80 to 225 ms within 1.5 s",
     spoil=spoil,
     detect=detect,

@@ -22,8 +22,8 @@ from sim.inspect.log_features import LogFeatures
 CONFIDENCE = 0.98  # what is not in a log may still be in another one
 
 _COST = {
-    "quasistatic": "a ramp tells kS from kV",
-    "dynamic": "only a step tells kA",
+    "quasistatic": "a ramp separates kS from kV",
+    "dynamic": "only a step shows kA",
 }
 
 
@@ -49,10 +49,12 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="missing-test",
                 where=_nowhere(test),
                 confidence=CONFIDENCE,
-                evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are there, and no "
-                f"{test}: {_COST[kind]}, and each direction its own friction.",
-                advice=f"Run {test}{_like(features.log, kind)}, and give its file with this "
-                "one; if the mechanism cannot do it, write that down with the gains.",
+                evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are in the log,"
+                f" and {test} is missing: {_COST[kind]}, and each direction has its own"
+                " friction.",
+                advice=f"Run {test}{_like(features.log, kind)}, and pass its file together with "
+                "this one; if the mechanism cannot do it, write that down with the "
+                "gains.",
             )
 
 

@@ -101,9 +101,9 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
         fault="noisy-standstill",
         where=_stretch(index, run, rest.size),
         confidence=confidence,
-        evidence=f"The position stands still for {rest.size} samples, but the velocity reads "
-        f"about ±{noise:.3g} per second: SysId's own threshold for this test, {threshold:.3g}, "
-        f"takes {passed} of them for motion.",
+        evidence=f"The position does not change for {rest.size} samples, but the velocity reads "
+        f"about ±{noise:.3g} per second: SysId's own threshold for this test, "
+        f"{threshold:.3g}, takes {passed} of them for motion.",
         advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
         "comes before the motion.",
     )
@@ -115,7 +115,7 @@ def _stretch(index: int, run: Run, still: int) -> LogInterval:
 
 FAULT = Fault(
     name="noisy-standstill",
-    summary="the velocity trembles while nothing moves",
+    summary="the velocity is noisy while nothing moves",
     ordinary="noise at rest of 6 % of the top speed, in both quasistatic tests",
     spoil=spoil,
     detect=detect,

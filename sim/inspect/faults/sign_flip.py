@@ -96,7 +96,9 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
     cure = (
         "Give velocity the sign of the position's slope"
         if velocity_only
-        else "Invert the motor or the encoder, so that plus is plus"
+        else (
+            "Invert the motor or the encoder, so that a positive voltage gives a positive velocity"
+        )
     )
     return Damage(
         fault="sign-flip",
@@ -105,8 +107,8 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
         evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "
         f"{speed:.3g} per second, while the position changes by "
         f"{run.position[-1] - run.position[0]:.3g}.",
-        advice=f"{cure}, and log the voltage with its sign; then record again, or turn the sign "
-        "in the log.",
+        advice=f"{cure}, and log the voltage with its sign; then record again, or change the "
+        "sign in the log.",
     )
 
 
@@ -122,7 +124,7 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="sign-flip",
-    summary="voltage, position and velocity do not agree on which way is plus",
+    summary="voltage, position and velocity do not have the same positive direction",
     ordinary="one signal is turned round in all tests of one direction; at severity 2 in all tests",
     spoil=spoil,
     detect=detect,

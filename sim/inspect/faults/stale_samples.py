@@ -85,7 +85,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     readings = max(held.size for held in stale.values())
     ordinary = longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= OWN_PACE
     advice = (
-        "Nothing is wrong with that; to know kA better, raise the rate of the controller's status "
+        "This is no fault; for a more accurate kA, raise the rate of the controller's status "
         "frames."
         if ordinary
         else "Raise the rate of the controller's status frames to 20 ms or faster, and record "
@@ -95,8 +95,8 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
         fault="stale-samples",
         where=_whole(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
-        evidence=f"The log holds {repeated} samples: it is written every {period * 1e3:.3g} ms, "
-        f"and a new reading arrives only every {usual * 1e3:.0f} ms.",
+        evidence=f"The log repeats {repeated} samples: it is written every {period * 1000.0:.3g}"
+        f" ms, but the sensor updates only every {usual * 1000.0:.0f} ms.",
         advice=advice,
         ordinary=ordinary,
     )
@@ -115,7 +115,7 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="stale-samples",
-    summary="the sensor's frames arrive slower than the log is written",
+    summary="the sensor updates less often than the log is written, so values repeat",
     ordinary="every reading is held for 4 samples, as 20 ms frames in a 5 ms log",
     spoil=spoil,
     detect=detect,

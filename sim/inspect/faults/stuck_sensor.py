@@ -103,8 +103,9 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
         where=where,
         confidence=0.95,
         evidence=f"For {where.end - where.start:.2f} s the sensor repeats one reading (position "
-        f"{run.position[first]:.4g}, velocity {run.velocity[first]:.4g}), and then jumps: the "
-        f"mechanism went {hidden:.3g} in that time, and nobody saw it.",
+        f"{run.position[first]:.4g}, velocity {run.velocity[first]:.4g}), and then "
+        f"jumps: the mechanism moved by {hidden:.3g} in that time, and the log does not"
+        " show it.",
         advice="Check the sensor's plug and the CAN error counters, and run this test again; "
         "until then cut the run before the freeze.",
     )

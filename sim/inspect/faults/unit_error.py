@@ -81,8 +81,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="unit-error",
                 where=_whole(index, run),
                 confidence=0.95,
-                evidence=f"The velocity is {ratio:.4g} times as large as the position's change "
-                f"per second: {said}.",
+                evidence=f"The velocity is {ratio:.4g} times the slope of the position: {said}.",
                 advice="Set both conversion factors of the encoder alike, and divide the recorded "
                 f"velocity by {ratio:.4g}.",
             )
@@ -112,8 +111,9 @@ def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
         fault="unit-error",
         where=LogInterval(None, "", 0.0, 0.0),
         confidence=0.9,
-        evidence=f"With {FULL:g} V this drivetrain would go about {speed:.3g} m/s, and no FRC "
-        f"robot is {bound} m/s: position and velocity are not in meters, or their factor is wrong.",
+        evidence=f"With {FULL:g} V this drivetrain would move at about {speed:.3g} m/s, and no "
+        f"FRC robot is {bound} m/s: position and velocity are not in meters, or their "
+        "factor is wrong.",
         advice="Push the robot forward by exactly 1 m and see by how much the logged position "
         "changes; then set gear ratio and wheel circumference so that it is 1.",
     )
@@ -128,7 +128,10 @@ def _named(ratio: float) -> str:
     nearest = min(sought, key=lambda said: abs(np.log(ratio / sought[said])))
     if abs(ratio / sought[nearest] - 1.0) < NEAR:
         return nearest
-    return "no unit's factor, so a gear ratio or a circumference that only one of them counts"
+    return (
+        "the factor of no unit, so probably a gear ratio or a circumference that only one of"
+        " them contains"
+    )
 
 
 def _whole(index: int, run: Run) -> LogInterval:
@@ -137,7 +140,7 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="unit-error",
-    summary="velocity is counted in another unit than position",
+    summary="the velocity has another unit than the position",
     ordinary="velocity is off by 60 or 57.3, up or down; by 2π below, by 360 and more above",
     spoil=spoil,
     detect=detect,

@@ -171,17 +171,17 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
         float(np.abs(run.voltage[d.first : d.last + 1] / d.expected).min()) for d in story
     )
     if len(story) == 1:
-        said = f"Once, for {lasts:.0f} ms, the voltage falls to {deepest:.0%} of what it was"
+        said = f"Once, for {lasts:.0f} ms, the voltage drops to {deepest:.0%} of its value"
     else:
         every = float(np.median(np.diff([run.time[drop.first] for drop in story])))
         said = (
-            f"{len(story)} times, every {every:.2f} s, the voltage falls for a moment, to as "
-            f"little as {deepest:.0%} of what it was, for {lasts:.0f} ms in all"
+            f"{len(story)} times, every {every:.2f} s, the voltage drops for a moment, down to "
+            f"{deepest:.0%} of its value, for {lasts:.0f} ms in all"
         )
     echo = (
-        f"the velocity falls with it, by {answer:.0%}, so the motor really lost it"
+        f"the velocity drops with it, by {answer:.0%}, so the motor really lost its voltage"
         if answer > CLEAR
-        else "the velocity does not change, so only the record lost it"
+        else "the velocity does not change, so only the log lost it"
     )
     return Damage(
         fault="voltage-dropout",
@@ -195,7 +195,7 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
 
 FAULT = Fault(
     name="voltage-dropout",
-    summary="the recorded voltage reads too little for moments that the motion ignores",
+    summary="the voltage in the log is too small for moments, and the motion does not react",
     ordinary="zero for 15 ms, every 0.22 s to the end of the run",
     spoil=spoil,
     detect=detect,

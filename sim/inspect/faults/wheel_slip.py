@@ -133,18 +133,18 @@ def _launched(index: int, run: Run) -> Damage | None:
     happened = (
         f"falls by {event.size:.0%} within the first {lasts:.2f} s, and then recovers"
         if event.kind == "fall"
-        else f"waits there until {lasts:.2f} s after the step, and then climbs on by "
+        else f"pauses until {lasts:.2f} s after the step, and then rises by another "
         f"{event.size:.0%} of its top"
     )
     return Damage(
         fault="wheel-slip",
         where=LogInterval(index, run.test, event.start, event.end),
         confidence=1.0 - 0.5 * least / event.size,
-        evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, under a steady "
+        evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, at a constant "
         f"{volts:.1f} V: the wheels spin, and the robot catches up later.",
         advice=f"Run the dynamic tests again with half the step, {0.5 * volts:.1f} V, on the "
-        "carpet it will drive on; if the speed still falls or waits, look for a belt or a frame "
-        "that gives.",
+        "carpet it will drive on; if the speed still drops or pauses, look for a slack "
+        "belt or a bending frame.",
     )
 
 
@@ -177,8 +177,8 @@ def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
         fault="wheel-slip",
         where=LogInterval(index, run.test, start, min(start + grips, float(run.time[-1]))),
         confidence=share,
-        evidence=f"The speed jumps to {1.0 - held:.0%} of its top, waits there for about "
-        f"{grips:.2f} s, and only then climbs as a heavy robot does: the wheels spin first.",
+        evidence=f"The speed jumps to {1.0 - held:.0%} of its top, pauses for about {grips:.2f} "
+        "s, and only then rises like that of a heavy robot: the wheels spin first.",
         advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
         "carpet it will drive on.",
     )
@@ -205,7 +205,7 @@ def _smooth(values: Array) -> Array:
 
 FAULT = Fault(
     name="wheel-slip",
-    summary="the wheels break loose under a step and spin ahead of the robot",
+    summary="the wheels lose their grip in a step and spin faster than the robot moves",
     ordinary="the tires hold 40 % of what the step asks of them",
     spoil=spoil,
     detect=detect,

@@ -43,7 +43,7 @@ EFFECT = Effect(
     summary="free play between motor and load (gear lash, loose chain)",
     formula="motor and load meet only where they are slack/2 apart",
     parameters=(
-        Parameter("slack", "way from tooth to tooth", "{u}", power=-1, most=1e3),
+        Parameter("slack", "play from tooth to tooth", "{u}", power=-1, most=1e3),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.25),
     ),
     fingerprint="After every start and turn the velocity shoots up, drops, and goes on as usual.",

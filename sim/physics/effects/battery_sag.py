@@ -47,7 +47,9 @@ def is_ordinary(values: Mapping[str, float]) -> bool:
 EFFECT = Effect(
     name="battery-sag",
     kind="path",
-    summary="a battery that gives way under current, behind the voltage in the log",
+    summary=(
+        "a battery whose voltage drops under current, although the log shows the commanded voltage"
+    ),
     formula="(u - kV·v)/(1 + share·(u/12)²) in place of u - kV·v",
     parameters=(Parameter("share", "battery's resistance over the motors'", "1", most=100.0),),
     fingerprint="Steps start more slowly than kA says, the more so the larger the step.",

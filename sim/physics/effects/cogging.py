@@ -82,7 +82,7 @@ def is_ordinary(values: Mapping[str, float]) -> bool:
 EFFECT = Effect(
     name="cogging",
     kind="term",
-    summary="a force that repeats along the way (magnets, a sprocket out of round)",
+    summary="a force that repeats with the position (magnets, a sprocket that is not round)",
     formula="cosine·cos(turns·x) + sine·sin(turns·x)",
     parameters=(
         Parameter("cosine", "its cosine part", "V", least=-12.0, most=12.0),
@@ -91,10 +91,17 @@ EFFECT = Effect(
             "turns", "angle of the wave per position", "rad/{u}", power=1, least=1e-6, neutral=1.0
         ),
     ),
-    fingerprint="What is missing comes and goes with position, at the same places in every run.",
-    inspect="A sprocket or pulley out of round, a bent shaft, a wheel with a flat, motor magnets.",
+    fingerprint=(
+        "The missing voltage comes and goes with the position, at the same places in every run."
+    ),
+    inspect=(
+        "A sprocket or pulley that is not round, a bent shaft, a wheel with a flat spot, "
+        "motor magnets."
+    ),
     apart={
-        "compliance": "Run at another speed: cogging keeps its places, a vibration its times.",
+        "compliance": (
+            "Run at another speed: cogging stays at its positions, a vibration keeps its frequency."
+        ),
         "gravity-cosine": "Use the full travel: gravity has one wave per turn of the arm.",
     },
     example=ordinary_parameters,

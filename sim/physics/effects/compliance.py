@@ -49,10 +49,12 @@ EFFECT = Effect(
     summary="a soft joint between motor and load (belt, long shaft, bending arm)",
     formula="push = (x_motor - x_load)/softness",
     parameters=(
-        Parameter("softness", "way it gives per volt", "{u}/V", power=-1, most=1e6),
+        Parameter("softness", "how far it gives way per volt", "{u}/V", power=-1, most=1e6),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.3),
     ),
-    fingerprint="After every change of voltage the velocity swings, always at the same rate.",
+    fingerprint=(
+        "After every change of voltage the velocity oscillates, always at the same frequency."
+    ),
     inspect="Belts, chains and long shafts: push the load with the motor held and watch it spring.",
     apart={
         "backlash": "Turn at two sizes of step, logged at 5 ms: a spring gives more, play stays.",

@@ -47,7 +47,7 @@ EFFECT = Effect(
     summary="a constant force in one direction (weight, constant-force spring, slope)",
     formula="load",
     parameters=(Parameter("load", "constant voltage", "V", least=-12.0, most=12.0),),
-    fingerprint="What is missing is the same at every speed and place, and has one sign.",
+    fingerprint="The missing voltage is the same at every speed and position, and has one sign.",
     inspect="Weight on an elevator fitted as simple, a constant-force spring, a field that slopes.",
     apart={
         "asymmetric-friction": "Let it go at rest: a load moves it, friction does not. While it "

@@ -44,7 +44,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 EFFECT = Effect(
     name="deadband",
     kind="path",
-    summary="small commands that the motor controller ignores",
+    summary="small voltages that the motor controller ignores",
     formula="u = 0 where |u| < band",
     parameters=(Parameter("band", "smallest voltage that is applied", "V", most=12.0),),
     fingerprint="Ramps start late and then at once at speed; below one voltage it coasts.",

@@ -47,7 +47,7 @@ def is_ordinary(values: Mapping[str, float]) -> bool:
 EFFECT = Effect(
     name="delay",
     kind="path",
-    summary="commands that arrive late",
+    summary="a delay between command and motor",
     formula="u(t) = V(t - lag)",
     parameters=(Parameter("lag", "time from command to motor", "s", most=0.5),),
     fingerprint="Nothing happens for a moment after every change of voltage.",

@@ -33,8 +33,8 @@ EFFECT = Effect(
     summary="resistance of the air, which grows with the square of speed",
     formula="drag·v·|v|",
     parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2),),
-    fingerprint="What is missing grows with speed, the same in both directions, and is nothing "
-    "near standstill.",
+    fingerprint="The missing voltage grows with speed, the same in both directions, and is zero"
+    " near standstill.",
     inspect="Whatever moves air: a flywheel or a roller that works as a fan, spokes, a large flat "
     "surface. It is not thick grease, which raises kV, nor a tight belt, which raises kS.",
     apart={

@@ -59,7 +59,7 @@ EFFECT = Effect(
         Parameter("level", "voltage that holds it level", "V", least=-12.0, most=12.0),
         Parameter("upright", "the same at 90 degrees", "V", least=-12.0, most=12.0),
     ),
-    fingerprint="What is missing follows the angle like a cosine, at every speed.",
+    fingerprint="The missing voltage follows the angle like a cosine, at every speed.",
     inspect="An arm fitted as simple, an angle whose zero is not level, a turret on a slope.",
     apart={
         "spring": "Use the full travel, or start elsewhere: a cosine bends, a spring does not.",

@@ -52,10 +52,10 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 EFFECT = Effect(
     name="heating",
     kind="path",
-    summary="a motor that gets warm and weaker while it is tested",
+    summary="a motor that gets warm and weaker during the tests",
     formula="(u - kV·v)/(1 + warmth), warmth grows with (u - kV·v)²",
     parameters=(Parameter("rate", "warmth per squared volt and second", "1/(V²·s)", most=10.0),),
-    fingerprint="Later runs answer more weakly than earlier ones, most where much current flowed.",
+    fingerprint="Later runs react more weakly than earlier ones, most after a large current.",
     inspect="Motor temperature in the log; let it cool between tests.",
     apart={
         "inertia-change": "Repeat the first test at the end: heat grows slowly, a load comes at "

@@ -141,8 +141,8 @@ EFFECT = Effect(
             counts=False,
         ),
     ),
-    fingerprint="Before one moment one kA fits, after it another.",
-    inspect="What the mechanism carried, and what was changed between tests.",
+    fingerprint="kA changes from one value to another at one moment.",
+    inspect="The load that the mechanism carried, and changes between tests.",
     apart={
         "velocity-filter": "Look at the position: a filter does not change it.",
         "heating": "Repeat the first test at the end: heat grows slowly, a load comes at once.",

@@ -57,7 +57,7 @@ EFFECT = Effect(
         Parameter("rate", "volts per position", "V/{u}", power=1),
         Parameter("preload", "volts at position zero", "V", least=-1e3, most=1e3),
     ),
-    fingerprint="What is missing is a straight line over position, at every speed.",
+    fingerprint="The missing voltage is a straight line over position, at every speed.",
     inspect="Tubing or gas springs that hold up an arm, a cable chain, a hose that winds up.",
     apart={
         "gravity-cosine": "Use the full travel, or start elsewhere: a cosine bends.",

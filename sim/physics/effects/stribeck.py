@@ -47,13 +47,16 @@ def is_ordinary(values: Mapping[str, float]) -> bool:
 EFFECT = Effect(
     name="stribeck",
     kind="term",
-    summary="breakaway friction: more at a crawl than at speed",
+    summary="breakaway friction: larger at very low speed",
     formula="extra·exp(-|v|/slow)·sgn(v)",
     parameters=(
         Parameter("extra", "friction at rest beyond kS", "V", most=12.0),
         Parameter("slow", "speed over which it fades", "{u}/s", power=-1, least=1e-6, neutral=1.0),
     ),
-    fingerprint="What is missing is large at a crawl and fades with speed; starts lurch.",
+    fingerprint=(
+        "The missing voltage is large at very low speed and fades with speed; the "
+        "mechanism starts with a jerk."
+    ),
     inspect="A dry bearing, a gasket, a chain that is too tight, grease that has become stiff.",
     apart={
         "deadband": "Let the voltage fall (triangle, coast): a deadband cuts it off, friction only "

@@ -62,7 +62,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 EFFECT = Effect(
     name="velocity-filter",
     kind="sense",
-    summary="a velocity that is averaged over a while, and so comes late",
+    summary="a velocity that is averaged over some time, and is therefore late",
     formula="seen(t) = (x(t) - x(t - window))/window",
     parameters=(Parameter("window", "time averaged over", "s", most=1.0),),
     fingerprint="The velocity follows the slope of the position with a delay; steps look rounded.",
