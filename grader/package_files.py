@@ -250,8 +250,24 @@ def _strip_cell(cell: dict[str, object]) -> dict[str, object]:
     digest = hashlib.sha256(text.encode("utf-8")).hexdigest()[:ID]
     if str(cell["id"]).partition("-")[0] != digest:
         raise ValueError
-    kept = {"cell_type": cell["cell_type"], "id": cell["id"], "metadata": {}, "source": lines}
+    kept = {
+        "cell_type": cell["cell_type"],
+        "id": cell["id"],
+        "metadata": _collapsed(cell.get("metadata")),
+        "source": lines,
+    }
     return kept | ({"execution_count": None, "outputs": []} if cell["cell_type"] == "code" else {})
+
+
+def _collapsed(metadata: object) -> dict[str, object]:
+    """Of a cell's metadata, which of its parts JupyterLab shows collapsed."""
+    flags = metadata.get("jupyter") if isinstance(metadata, dict) else None
+    hidden = {
+        flag: True
+        for flag in ("outputs_hidden", "source_hidden")
+        if isinstance(flags, dict) and flags.get(flag) is True
+    }
+    return {"jupyter": hidden} if hidden else {}
 
 
 def _refuse_changed(files: dict[str, bytes], listed: dict[str, str], course: Path) -> None:

@@ -149,7 +149,7 @@ def test_a_notebook_that_was_run_is_packed_as_it_was_derived(course):
     derived = path.read_bytes()
     notebook = json.loads(derived)
     for cell in notebook["cells"]:
-        cell["metadata"] = {"trusted": True}
+        cell["metadata"] |= {"trusted": True}
         if cell["cell_type"] == "code":
             cell["execution_count"] = 7
             cell["outputs"] = [{"name": "stdout", "output_type": "stream", "text": ["private"]}]
