@@ -324,8 +324,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # - **Brownout.** The velocity falls along a *curve*, as without a motor, and rises again along a
 #   curve: the controller turned the motors off. If the log holds the **commanded** voltage, it
 #   still shows a voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0
-#   and comes back, again and again. The **bus voltage**, if the log has it, shows both: it falls below
-#   the threshold.
+#   and comes back, again and again. The **bus voltage**, if the log has it, shows both: it falls
+#   below the threshold.
 # - **Hard stop.** The velocity goes to zero within a few samples. The position stays, the voltage
 #   stays on.
 # - **Loop overrun.** Only *time steps* shows it well.
