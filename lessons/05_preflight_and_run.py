@@ -476,8 +476,9 @@ Table(
 # Turn the guard *off*, so that the tests are locked, and enable the robot. (If your guard is Test
 # mode, called *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move.
 # (Lesson 4 shows three kinds of guard.) And one person does nothing but wait to press *Disable*.
-# In the 2026 Driver Station the **Enter** key disables, and the **space bar** is the emergency stop: it
-# works even if another window is in front, and you have to reboot the roboRIO afterwards. ([WPILib docs: Driver
+# In the 2026 Driver Station the **Enter** key disables, and the **space bar** is the emergency
+# stop: it works even if another window is in front, and you have to reboot the roboRIO afterwards.
+# ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Your own safety code in *commands* does not run during a test. Limits *in the motor controller*
