@@ -197,7 +197,7 @@ WRONG = {  # what is wrong -> the program, the check that fails, and what it say
         program(config=CONFIG.replace("3.5", "3")), "step", "Volts.of(3) in line 29: 3 V"
     ),
     "no log": (
-        program(mechanism=MECHANISM.replace("this::record", "null")), "log", "null in place of"
+        program(mechanism=MECHANISM.replace("this::record", "null")), "log", "null instead of"
     ),
     "a duty cycle": (
         program().replace("m_left.setVoltage(voltage.in(Volts))", DUTY),

@@ -65,9 +65,9 @@ def test_what_reading_cannot_tell_is_settled_by_the_run(tmp_path):
             id="one side left out behind a name nobody can read",
         ),
         pytest.param(
-            [("self.right_encoder = Encoder(2, 3)", "self.right_encoder = Encoder(2, len('a'))")],
+            [("Encoder(2, 3, reverseDirection=True)", "Encoder(2, len('a'))")],
             "assembled",
-            "mine.py, line 23: RuntimeError: PWM or DIO 1 previously allocated",
+            "mine.py, line 24: RuntimeError: PWM or DIO 1 previously allocated",
             id="one channel twice",
         ),
     ],

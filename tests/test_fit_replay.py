@@ -95,7 +95,7 @@ def test_a_log_whose_plus_is_minus_is_simulated_as_it_was():
 def test_gains_that_move_nothing_are_refused(bench, gain):
     log, found = bench
 
-    with pytest.raises(BadRequest, match="below zero"):
+    with pytest.raises(BadRequest, match="a gain is negative"):
         replay_fit(replace(found, gains={**found.gains, gain: -0.1}), log)
 
 

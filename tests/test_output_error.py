@@ -328,7 +328,7 @@ def test_gravity_that_the_type_leaves_out_is_suggested(kind, seed):
     except NotIdentifiable as refused:
         said = [refused.advice]
 
-    assert [one for one in said if f"Fit it as of --type {kind} if gravity acts on it" in one]
+    assert [one for one in said if f"Fit it with --type {kind} if gravity acts on it" in one]
 
 
 @pytest.mark.parametrize("effect", ["drag", "stribeck", "cogging", "spring", "asymmetric-back-emf"])

@@ -61,7 +61,7 @@ def test_the_wrist_is_held_for_five_seconds(shared):
     (held,) = [damage for damage in inspect(log).damages if damage.fault == "hard-stop"]
 
     assert held.where.end - held.where.start == pytest.approx(5.0, abs=0.3)
-    assert "gravity presses it there" in held.evidence
+    assert "gravity presses the mechanism" in held.evidence
 
 
 @pytest.mark.parametrize("name", COMPLETE)

@@ -139,8 +139,14 @@ def _is_worth_a_name(one: Finding, done: Sequence[SelectionRound]) -> bool:
 
 def _narrows_gap(one: Finding, done: Sequence[SelectionRound]) -> bool:
     """Whether a minor effect visibly narrows the gap of other runs, in velocity or position."""
-    added = next(other for other in done[1:] if other.candidate.effect == one.effect)
-    with_, bare = gaps_with_and_without(added, done[-1])
+    return _narrows(
+        next(other for other in done[1:] if other.candidate.effect == one.effect), done[-1]
+    )
+
+
+def _narrows(added: SelectionRound, end: SelectionRound) -> bool:
+    """Whether the last model's gap, of velocity and position, is narrower with an effect."""
+    with_, bare = gaps_with_and_without(added, end)
     product = with_.velocity * with_.position
     return product <= NARROWER**2 * bare.velocity * bare.position
 
@@ -191,9 +197,13 @@ def is_contradicted(
 def reported_rounds(
     done: Sequence[SelectionRound], findings: Sequence[Finding]
 ) -> Sequence[SelectionRound]:
-    """The rounds up to the last effect that is named: what came after narrows no gap."""
+    """The rounds up to the last effect that is named or narrows the gap of other runs."""
     named = {one.effect for one in findings}
-    last = max(n for n, one in enumerate(done) if n == 0 or one.candidate.effect in named)
+    last = max(
+        n
+        for n, one in enumerate(done)
+        if n == 0 or one.candidate.effect in named or _narrows(one, done[-1])
+    )
     return done[: last + 1]
 
 
