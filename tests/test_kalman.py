@@ -80,6 +80,17 @@ def test_without_an_uncertain_voltage_every_gain_is_the_steady_one():
     assert schedule.gains == pytest.approx(np.tile(one.steady.ravel(), (7, 1)))
 
 
+def test_another_run_begins_in_the_steady_state():
+    error = np.zeros(40)
+    error[5] = 0.3
+    one = filtered(1e-9)
+
+    schedule = one.schedule(error, starts=[0, 10])
+
+    assert schedule.uncertain.tolist() == [5, 6, 7, 8, 9]
+    assert schedule.gains[10:] == pytest.approx(np.tile(one.steady.ravel(), (30, 1)))
+
+
 def test_an_open_loop_corrects_nothing():
     assert not OPEN_LOOP.steady.any()
     assert not filtered(0.0).steady.any()

@@ -10,6 +10,7 @@ small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
 """
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -63,13 +64,17 @@ class KalmanFilter:
     push: Array
     disturbed: Array
 
-    def schedule(self, voltage_error: Array) -> GainSchedule:
-        """Gains and scales of samples before which the voltage has errors (n,) [V].
+    def schedule(self, voltage_error: Array, starts: Collection[int] = ()) -> GainSchedule:
+        """Gains and scales of samples before which the voltage is uncertain.
 
         What an uncertain voltage did to the state is seen in the next measurements, and corrected
-        there, until the filter is in its steady state again.
+        there, until the filter is in its steady state again or another run begins.
+
+        Args:
+            voltage_error: (n,) [V] standard deviation of the mean voltage since the sample before.
+            starts: samples at which a run begins.
         """
-        places, covs = self._follow_covariance(voltage_error)
+        places, covs = self._follow_covariance(voltage_error, frozenset(starts))
         gains = np.tile(self.steady.ravel(), (voltage_error.size, 1))
         uncertain = np.array(places, dtype=np.intp)
         predicted = np.array(covs).reshape(-1, 2, 2)
@@ -78,7 +83,9 @@ class KalmanFilter:
         usual = np.linalg.cholesky(self.predicted + np.diag(self.measured))
         return GainSchedule(gains, uncertain, usual @ np.linalg.inv(np.linalg.cholesky(seen)))
 
-    def _follow_covariance(self, voltage_error: Array) -> tuple[list[int], list[_Four]]:
+    def _follow_covariance(
+        self, voltage_error: Array, starts: frozenset[int]
+    ) -> tuple[list[int], list[_Four]]:
         """Samples at which the predicted covariance is not the steady one, and what it is."""
         usual, push, step, disturbed = map(
             _as_four, (self.predicted, self.push, self.step, self.disturbed)
@@ -94,7 +101,7 @@ class KalmanFilter:
             now, cov = first, usual
             while now < len(variances):
                 cov = _add(cov, _times(disturbed, variances[now]))
-                if now > first and _is_near(cov, usual):
+                if now > first and (now in starts or _is_near(cov, usual)):
                     break
                 places.append(now)
                 covs.append(cov)

@@ -273,7 +273,9 @@ class PredictionErrorProblem:
             return None
         found = self._schedules.get(kalman_filter)
         if found is None:
-            found = self._schedules[kalman_filter] = kalman_filter.schedule(self.voltage_error)
+            starts = self.run_edges[:-1].tolist()
+            found = kalman_filter.schedule(self.voltage_error, starts)
+            self._schedules[kalman_filter] = found
         return found
 
     @cached_property
