@@ -287,7 +287,7 @@ def test_the_class_is_served_as_the_guide_says(course, packages):
 
 
 def test_datasets_and_pages_are_made_as_the_guide_says(course):
-    for words in commands("Contaminated datasets of your own"):
+    for words in commands("Your own damaged datasets"):
         say(words, cwd=course)
     (edition,) = commands("To show and to print")
     for path in sorted((course / "lessons").iterdir())[2 * LESSONS_SHOWN :]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sim.core.log import Array, Log
-from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs, merge_stale_samples
+from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
 from sim.physics.voltage_residual import run_start_times, shares_clock
 
 FEWEST = 4  # samples of a run that can be compared, as ``measure_runs`` takes them
@@ -72,12 +72,7 @@ class RunRecord:
 
 
 def run_records(
-    log: Log,
-    *,
-    session: int = 0,
-    since: float = 0.0,
-    aside: Iterable[ExcludedInterval] = (),
-    merge: bool = False,
+    log: Log, *, session: int = 0, since: float = 0.0, aside: Iterable[ExcludedInterval] = ()
 ) -> tuple[RunRecord, ...]:
     """All runs of a log that have enough samples.
 
@@ -86,7 +81,6 @@ def run_records(
         session: number of the log.
         since: [s] of the clock at which it began.
         aside: what to leave out.
-        merge: whether samples at which no reading is fresh are left out, for a search.
     """
     places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
     runs = [log.runs[number] for number in places]
@@ -97,8 +91,7 @@ def run_records(
     found = {}
     for number, run, one in zip(places, runs, measured, strict=True):
         # readings at rest count here: how a mechanism leaves its rest tells effects apart
-        seen = _start_at_rest(merge_stale_samples(one) if merge else one, top=top)
-        seen = replace(seen, at_rest=np.zeros_like(seen.at_rest))
+        seen = replace(_start_at_rest(one, top=top), at_rest=np.zeros_like(one.at_rest))
         memory = session * MOST_RUNS + (0 if together else number)
         clock = since + float(began[number])
         found[number] = RunRecord(seen, run.test, *_find_stops(seen), clock, session, memory)

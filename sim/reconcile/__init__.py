@@ -136,11 +136,11 @@ def _make_problem(
     log: Log, validation: Log | None, aside: DamageDecision
 ) -> PredictionErrorProblem:
     """All runs that may be fitted; the clock of the second log goes on where the first ended."""
-    every = run_records(log, aside=aside.excluded_from(TRAIN), merge=True)
+    every = run_records(log, aside=aside.excluded_from(TRAIN))
     if validation is not None:
         since = session_length(log)
         every += run_records(
-            validation, session=1, since=since, aside=aside.excluded_from(VALIDATION), merge=True
+            validation, session=1, since=since, aside=aside.excluded_from(VALIDATION)
         )
     return PredictionErrorProblem.from_records(every)
 
