@@ -22,7 +22,7 @@ HERE = Path(__file__).resolve().parent
 if __name__ == "__main__":
     sys.path.insert(0, str(HERE.parent))
 
-from mutation.answers import Verdict, judge  # noqa: E402 - the path is set above
+from mutation.answers import ROOT, Verdict, judge  # noqa: E402 - the path is set above
 from mutation.mutant import Mutant  # noqa: E402 - the same
 
 
@@ -34,6 +34,7 @@ class Legal:
         exercise, file, operator: shell patterns.
         line: a regular expression that is in the changed line.
         reason: why it is right, or why no grader can tell.
+        was: a regular expression that is in that line of the authored answer.
     """
 
     exercise: str
@@ -41,6 +42,7 @@ class Legal:
     operator: str
     line: str
     reason: str
+    was: str = ""
 
     def covers(self, mutant: Mutant) -> bool:
         """Whether a mutant is of this kind."""
@@ -49,10 +51,22 @@ class Legal:
             (mutant.file, self.file),
             (mutant.operator, self.operator),
         )
-        lines = mutant.text.splitlines()
-        changed = lines[mutant.line - 1] if mutant.line <= len(lines) else ""
-        fits = all(fnmatch.fnmatch(name, form) for name, form in pairs)
-        return fits and re.search(self.line, changed) is not None
+        if not all(fnmatch.fnmatch(name, form) for name, form in pairs):
+            return False
+        authored = ROOT / "solutions" / mutant.exercise / mutant.file
+        return all(
+            re.search(pattern, _line(text, mutant.line)) is not None
+            for pattern, text in (
+                (self.line, mutant.text),
+                (self.was, authored.read_text(encoding="utf-8") if self.was else ""),
+            )
+        )
+
+
+def _line(text: str, number: int) -> str:
+    """A line of a text, counted from 1; empty beyond its end."""
+    lines = text.splitlines()
+    return lines[number - 1] if number <= len(lines) else ""
 
 
 @dataclass
