@@ -121,7 +121,7 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
         (["fit", "drive.csv", "--median", "5"], "It belongs to SysId's recipe"),
         (["fit", "drive.csv", "--type", "arm", "--units", "meters"], "must be an angle"),
         (["fit", "."], "sysid: .:"),
-        (["simulate", "trebuchet", "-o", "x.csv"], "Choose one of: arm, drivetrain, elevator,"),
+        (["simulate", "trebuchet", "-o", "x.csv"], "Choose one of: arm, cascade-elevator,"),
         (["simulate", "shooter", "-o", "x.xyz"], ".csv"),
         (["simulate", "shooter", "-o", "no/such/folder/x.csv"], "sysid: "),
         (["simulate", "shooter", "-o", "x.csv", "--ramp", "0"], "a ramp of 0 V/s"),
