@@ -146,7 +146,7 @@ def added(problem, *steps, values):
     return done
 
 
-def made(problem, done, *, left):
+def find_effects(problem, done, *, left):
     """The findings, where the shown log is missed as the other runs are."""
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
     without = {
@@ -175,7 +175,7 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
     values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
     done = added(problem, *steps, values=values)
 
-    found = made(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, left=ResidualSummary())
 
     assert {one.effect: one.size for one in found} == sizes
 
@@ -221,7 +221,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
     alike = added(problem, ("drag", 1.1, 1.05), ("spring", 1.0, 1.1), values=values)
 
     def sizes(done):
-        found = made(problem, done, left=rest)
+        found = find_effects(problem, done, left=rest)
         return [one.size for one in found]
 
     assert sizes(alone) == [size]
@@ -241,7 +241,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
 def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, name, size, named):
     done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
 
-    found = made(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, left=ResidualSummary())
     told = list_remarks(problem, done, found, ResidualSummary())
 
     assert [one.effect for one in found] == [effect] * named
@@ -258,7 +258,7 @@ def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, 
     done[1:] = [replace(done[1], removal_cost=70.0), replace(done[2], removal_cost=score)]
     done[1:] = [replace(one, gap_without=one.gap_before) for one in done[1:]]
 
-    found = made(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, left=ResidualSummary())
 
     assert ("drag" in [one.effect for one in found]) is named
     assert any(one.size == "major" for one in found) is (beside < 1.5)
@@ -303,7 +303,7 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
     )
     done = [replace(base, tried=tried), replace(one, removal_cost=score)]
 
-    found = made(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, left=ResidualSummary())
 
     assert [each.effect for each in found] == ["battery-sag"] * named
 

@@ -227,7 +227,10 @@ def list_remarks(
         said.append(f"In the last model there is also a little {what}: {why}.")
     if outside := [name for name in rest if name not in kept]:
         what = " and ".join(outside)
-        said.append(f"A little {what} would make the log likelier, but narrows no gap: left out.")
+        said.append(
+            f"A little {what} would fit the log better, but the gap does not shrink with it, so "
+            "the model leaves it out."
+        )
     said += [BELIED.format(name) for name in unsure]
     if structure.has_backlash and not _reverses_within_run(problem):
         said.append(TURNLESS)
