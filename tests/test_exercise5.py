@@ -476,6 +476,44 @@ def test_bindings_that_are_cleared_again_are_none(tmp_path, before, after, right
     assert right or "removes the binding" in found.seen
 
 
+SCHEDULER = "CommandScheduler.getInstance()"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "right"),
+    [
+        ("", f"{SCHEDULER}.disable();", False),
+        (f"{SCHEDULER}.disable();", "", False),
+        (f"{SCHEDULER}.disable();", f"{SCHEDULER}.enable();", True),
+        ("", "m_leds.disable();", True),
+        ("", f"m_driver.back().onTrue(Commands.runOnce(() -> {SCHEDULER}.disable()));", True),
+    ],
+)
+def test_a_scheduler_that_is_turned_off_runs_no_test(tmp_path, before, after, right):
+    found = judged(tmp_path, java(f"{before}\n{PLAIN}\n{after}"))["held"]
+
+    assert (found.status == "passed") is right
+    assert right or "turns the command scheduler off" in found.seen
+
+
+@pytest.mark.parametrize(
+    ("declared", "added", "right"),
+    [
+        ("private SysIdRoutine", "public void periodic() { m_routine = null; }", False),
+        ("private SysIdRoutine", "ExampleSubsystem() { m_routine = null; }", False),
+        ("private SysIdRoutine", "Object m_last; public void periodic() { m_last = null; }", True),
+    ],
+)
+def test_a_routine_that_is_set_to_null_runs_no_test(tmp_path, declared, added, right):
+    text = (SOLUTIONS / JAVA).read_text(encoding="utf-8")
+    text = text.replace("private final SysIdRoutine", declared)
+    marked = "  /** Makes the command that turns"
+    found = judged(tmp_path, text.replace(marked, f"  {added}\n{marked}", 1))["held"]
+
+    assert (found.status == "passed") is right
+    assert right or "without its routine" in found.seen
+
+
 @pytest.mark.parametrize(
     ("decorated", "right"),
     [

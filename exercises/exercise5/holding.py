@@ -52,6 +52,14 @@ HINDERED = {  # what is seen, and what to do about it
         "{text} removes the binding of line {line} again",
         "After it this button does nothing. Remove it.",
     ),
+    HindranceKind.DISABLED: (
+        "{text} turns the command scheduler off, and the test of line {line} never runs",
+        "No command runs while the scheduler is off. Remove it.",
+    ),
+    HindranceKind.EMPTIED: (
+        "{text} leaves the test of line {line} without its routine",
+        "The program stops with a null pointer when somebody presses the button. Remove it.",
+    ),
     HindranceKind.UNREAD: (
         "the grader cannot see by reading whether {text} lets the test of line {line} run",
         "Pass the test itself to whileTrue(), or use WPILib's decorators with numbers.",

@@ -40,6 +40,8 @@ class HindranceKind(Enum):
     CUT = "cut"  # it is ended long before its own timeout
     DELAYED = "delayed"  # the trigger answers late, or how late cannot be told
     CLEARED = "cleared"  # the bindings are removed again
+    DISABLED = "disabled"  # the command scheduler is turned off
+    EMPTIED = "emptied"  # the routine's field is set to null
     UNREAD = "unread"  # a decorator that is not known, or a time that cannot be told
 
 

@@ -17,7 +17,7 @@ from grader.robotcode.binding_facts import (
     HindranceKind,
     Hold,
 )
-from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS, LOOPS
+from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS, LOOPS, SCHEDULER, SWITCHES
 from grader.robotcode.closure import (
     BoundNode,
     enter_call,
@@ -103,6 +103,7 @@ class _Reader:
         self._comments = comments(names.main)
         self._bindings: list[Binding] = []
         self._start = 0  # how many bindings there were before the method that is gone through
+        self._disabled: Hindrance | None = None  # the call that turned the scheduler off
         self._elsewhere: dict[str, int] = {}
         self._unread: list[ParseProblem] = []
         self._steps = 0
@@ -125,6 +126,9 @@ class _Reader:
                     uncalled.append((node.name, node.place.line))
         top = [one for one in main.body if not isinstance(one, Function | Class)]
         self._several(top, BoundNode(top[0], Scope(main)) if top else None, _Way())
+        if self._disabled is not None:
+            self._start = 0
+            self._hinder_all(self._disabled)
         return BindingFacts(
             main.language,
             factories=tuple(factories(every, self._names, self._commands)),
@@ -210,6 +214,8 @@ class _Reader:
         functions = functions_of(seen, self._names)
         if name == "clear" and isinstance(call.target, Member) and not functions:
             self._cleared(seen, call, call.target.owner)
+        elif name in SWITCHES and isinstance(call.target, Member) and not functions:
+            self._switched(seen, call, call.target.owner)
         elif name in HOLDS and isinstance(call.target, Member) and args and not functions:
             self._bound(seen, call, seen.at(args[-1]), way)
         elif name in CHOOSERS and not functions:
@@ -228,16 +234,29 @@ class _Reader:
 
     def _cleared(self, seen: BoundNode, call: Call, owner: Node) -> None:
         """All bindings made so far are lost where the loop that asks the buttons is cleared."""
-        loop = resolve_bound(seen.at(owner), self._names).node
-        later = any(not one.name for one in seen.scope.functions)  # a lambda: not at the start
-        if later or not isinstance(loop, Call):
-            return
-        if java_spelling(last_name(loop.target)) in LOOPS:
-            lost = Hindrance(HindranceKind.CLEARED, call.place.text)
-            self._bindings[self._start :] = [
-                replace(one, hindrances=(*one.hindrances, lost))
-                for one in self._bindings[self._start :]
-            ]
+        if self._call_at_start(seen, owner) in LOOPS:
+            self._hinder_all(Hindrance(HindranceKind.CLEARED, call.place.text))
+
+    def _switched(self, seen: BoundNode, call: Call, owner: Node) -> None:
+        """No command runs where the scheduler is turned off and not on again."""
+        if self._call_at_start(seen, owner) in SCHEDULER:
+            off = java_spelling(last_name(call.target)) == "disable"
+            self._disabled = Hindrance(HindranceKind.DISABLED, call.place.text) if off else None
+
+    def _call_at_start(self, seen: BoundNode, owner: Node) -> str:
+        """The method that a node calls while the program starts; empty in a lambda."""
+        found = resolve_bound(seen.at(owner), self._names).node
+        later = any(not one.name for one in seen.scope.functions)
+        return (
+            "" if later or not isinstance(found, Call) else java_spelling(last_name(found.target))
+        )
+
+    def _hinder_all(self, lost: Hindrance) -> None:
+        """Every binding that the method which is gone through has made gets a hindrance."""
+        self._bindings[self._start :] = [
+            replace(one, hindrances=(*one.hindrances, lost))
+            for one in self._bindings[self._start :]
+        ]
 
     def _chosen(self, seen: BoundNode, call: Call, args: list[Node]) -> None:
         """A test that somebody chooses instead of holding a button."""

@@ -1,7 +1,7 @@
 """Which SysId tests a command runs, through factories, decorators and compositions."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from grader.robotcode.binding_facts import KINDS, Hindrance, HindranceKind, SysIdTest
@@ -26,6 +26,7 @@ from grader.robotcode.ir import (
     Member,
     Name,
     Node,
+    Null,
     Opaque,
     Reference,
     Return,
@@ -139,7 +140,9 @@ class Commands:
         owner = [call.target.owner] if isinstance(call.target, Member) else []
         if name in KINDS and len(args) == 1:
             read = not owner or self._type(seen.at(owner[0])) in {"", "SysIdRoutine"}
-            return Runs((SysIdTest(name, self._direction(seen.at(args[0])), read=read),))
+            test = SysIdTest(name, self._direction(seen.at(args[0])), read=read)
+            emptied = [one for node in owner for one in self._emptied(seen.at(node))]
+            return Runs((test,), hindrances=tuple(emptied))
         return self._library(seen, name, owner, args, depth) or self._by_name(seen, name, args)
 
     def _library(
@@ -187,6 +190,13 @@ class Commands:
         if negated:
             return replace(found, exceptions=(*found.exceptions, *condition))
         return replace(found, conditions=(*found.conditions, *condition))
+
+    def _emptied(self, routine: BoundNode) -> Iterator[Hindrance]:
+        """Where the field of a routine is set to null after its declaration."""
+        for one in definitions(routine, self._names):
+            if isinstance(one.value, Null) and one.scope.functions:
+                text = f"{last_name(routine.node)} = {one.value.place.text}"
+                yield Hindrance(HindranceKind.EMPTIED, text)
 
     def _type(self, seen: BoundNode) -> str:
         """The class of what a method is called on, by its own name; empty if unknown."""
