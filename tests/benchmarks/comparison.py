@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from bench_held_out import folder
+from bench_real import folder
 from comparison_figure import picture
 from comparison_measured import measured
 from comparison_page import page, short

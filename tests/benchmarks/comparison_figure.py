@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from bench_held_out import HeldOut
+from bench_real import HeldOut
 from comparison_fits import OURS, RECIPE, Found
 from comparison_measured import Measured, ratios
 from comparison_page import WAYS, share, told

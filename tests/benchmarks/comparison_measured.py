@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from bench_gains import NOISES, one_cell
-from bench_held_out import HeldOut, held_out
+from bench_real import HeldOut, held_out
 from comparison_fits import BUILT, METHODS, SUBSETS, Found, found, outcomes
 from comparison_plan import SECTIONS, Row
 
