@@ -207,6 +207,16 @@ def test_a_single_log_is_split_run_by_run_and_it_is_said():
     assert story.how.startswith("Only one log was given: an effect is admitted if the other runs")
 
 
+def test_a_search_that_is_cut_short_claims_nothing_and_says_so():
+    sessions = logs(*PLAIN[:2], simple=True)
+
+    story = reconcile(sessions["log"], type="simple", time_limit=1e-3)
+
+    assert (story.verdict, story.remainder, story.findings) == ("unexplained", True, ())
+    assert "time limit" in story.remains
+    assert "--time-limit" in story.remains
+
+
 def test_a_log_that_repeats_what_was_fitted_is_no_proof():
     sessions = logs(*PLAIN[:2], simple=True)
 

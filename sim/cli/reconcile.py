@@ -1,6 +1,7 @@
 """``sysid reconcile``."""
 
 import json
+import math
 from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from sim.reconcile import DamagedInterval, Story
 
 IN_MOMENTS = "voltage-dropout"  # a fault that an inspection tells as one stretch
+TIME_LIMIT = 20.0  # [s] of processor time
 UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
@@ -31,6 +33,13 @@ def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--travel",
             type=float,
             help=("Distance from stop to stop, in the log's units, if known."),
+        ),
+        click.option(
+            "--time-limit",
+            type=click.FloatRange(min=0.0, min_open=True),
+            metavar="SECONDS",
+            help="Processor time after which the best model so far is taken: 20, none without "
+            "Numba.",
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
     )
@@ -49,6 +58,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     validation: Path | None,
     held_out: Path | None,
     travel: float | None,
+    time_limit: float | None,
     html: Path | None,
     type_: str | None,
     units: str | None,
@@ -82,7 +92,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     }
     _warn_uncompiled()
     with _watched(seen=not as_json) as progress:
-        story = _solved(logs, type_=type_, travel=travel, progress=progress)
+        story = _solved(logs, type_=type_, travel=travel, time_limit=time_limit, progress=progress)
     if html is not None:
         from sim.report.story import write_story  # noqa: PLC0415 - draws
 
@@ -119,7 +129,7 @@ def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], No
 
 
 def _solved(
-    logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None,
+    logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, time_limit: float | None,
     progress: Callable[[str, float], None],
 ) -> "Story":  # fmt: skip
     """The story of these logs, what an inspection found of each told to the solver."""
@@ -133,9 +143,17 @@ def _solved(
         held_out=logs.get("held_out"),
         type=type_ or log.type or "simple",
         travel=travel,
+        time_limit=time_limit or default_time_limit(),
         damages={name: inspect_damage(some) for name, some in logs.items()},
         progress=progress,
     )
+
+
+def default_time_limit() -> float:
+    """[s] of processor time that a person waits for; no limit where the simulation is slow."""
+    from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
+
+    return TIME_LIMIT if engine_can_compile() else math.inf
 
 
 def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":

@@ -11,6 +11,7 @@ physical effects in place of a regression's library.
 """
 
 import math
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
@@ -36,7 +37,7 @@ from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
-from sim.reconcile.thresholds import LOST, MAJOR, WANDERS
+from sim.reconcile.thresholds import LOST, MAJOR, SEARCH, WANDERS
 from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
@@ -52,6 +53,7 @@ def reconcile(
     type: str,  # noqa: A002 - the field's own word
     travel: float | None = None,
     damages: Mapping[str, Sequence[DamagedInterval]] | None = None,
+    time_limit: float = math.inf,
     progress: Callable[[str, float], None] = lambda _, __: None,
 ) -> Story:
     """Compare logs with the model of their mechanism and name the effects that it lacks.
@@ -65,6 +67,8 @@ def reconcile(
         type: the base model: ``simple``, ``elevator`` or ``arm``.
         travel: [owner's unit] from stop to stop, if known.
         damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
+        time_limit: [s] of processor time after which the best model so far is taken, and the
+            verdict says so. The search ends at ``SEARCH`` of it; the rest is for the findings.
         progress: told what is done, and the share of it [1].
 
     Raises:
@@ -83,6 +87,7 @@ def reconcile(
         >>> story.findings[0].effect
         'velocity-filter'
     """
+    deadline = time.process_time() + SEARCH * time_limit
     check_logs(log, validation, held_out, type=type, travel=travel)
     aside = judge_damage(damages or {})
     problem = _make_problem(log, validation, aside)
@@ -97,11 +102,13 @@ def reconcile(
     problem, base, slipped = _exclude_slips(problem, base)
     both = log if validation is None else join_records(log, validation)
     folds = make_folds([one.session for one in problem.records])
-    done = select_effects(SelectionData(problem, folds, progress), base, both)
+    data = SelectionData(problem, folds, progress, deadline)
+    done = select_effects(data, base, both)
+    cut = time_limit if data.out_of_time() else math.inf
     progress("what remains", 0.9)
     shown = HeldOutLog.choose({"log": log, "validation": validation, "held_out": held_out}, aside)
     faults = _one_per_fault(slipped, aside.reported)
-    return _make_story(problem, done, shown, faults, per=find_unit(log.units))
+    return _make_story(problem, done, shown, faults, cut=cut, per=find_unit(log.units))
 
 
 def _make_story(
@@ -110,9 +117,19 @@ def _make_story(
     shown: HeldOutLog,
     faults: tuple[DamagedInterval, ...],
     *,
+    cut: float,
     per: Unit,
 ) -> Story:
-    """The story of a selection, shown on the held-out log."""
+    """The story of a selection, shown on the held-out log.
+
+    Args:
+        problem: the measurements.
+        done: the base and the rounds.
+        shown: the log that the gap is shown on.
+        faults: what an inspection found.
+        cut: [s] time limit that ended the search; inf if it came to its own end.
+        per: the owner's unit.
+    """
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
@@ -121,7 +138,9 @@ def _make_story(
         held_out=shown.held_out, left=left, per=per,
     )  # fmt: skip
     chapters = chapters[: len(reported_rounds(done, findings))]
-    verdict, remainder, remains = reach_verdict(findings, done, problem, left=left, per=per)
+    verdict, remainder, remains = reach_verdict(
+        findings, done, problem, left=left, cut=cut, per=per
+    )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,

@@ -43,7 +43,12 @@ def replace_effects(
             best = replace(reduced, effect=last.candidate.effect)
             return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
         evidence = voltage_residual_at(log, reduced.estimate)
-        found = rank_candidates(problem, reduced.estimate, evidence, only=others, seeds=last.seeds)
+        found = rank_candidates(
+            problem, reduced.estimate, evidence,
+            only=others, seeds=last.seeds, stop=data.out_of_time,
+        )  # fmt: skip
+        if data.out_of_time():
+            break
         if not found or score_improvement(last.candidate, found[0]) < _required_advantage(
             effect, found[0].effect
         ):
@@ -71,6 +76,8 @@ def simplify_effects(
     problem = data.problem
     for place in range(1, len(done)):
         last, effect = done[-1], done[place].candidate.effect
+        if data.out_of_time():
+            break
         point = last.candidate.estimate
         had = point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []

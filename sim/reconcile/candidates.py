@@ -7,7 +7,7 @@ much pushes, which bears with anything, only near a calmer one.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
@@ -70,6 +70,7 @@ def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str
 def rank_candidates(
     problem: PredictionErrorProblem, point: Estimate, evidence: VoltageResidual, *,
     only: Iterable[str] | None = None, seeds: Seeds | None = None,
+    stop: Callable[[], bool] = lambda: False,
 ) -> list[Candidate]:  # fmt: skip
     """The effects that improve an estimate most, best first.
 
@@ -80,6 +81,7 @@ def rank_candidates(
         only: names to choose from; None is the whole catalogue.
         seeds: an effect's parameters as found before something else was added: where two effects
             are in a log, what one of them hides at first is hardly found anew beside the other.
+        stop: whether there is no time for another candidate.
     """
     seeds = seeds or {}
     had = (*point.structure.effects, *OWN.get(point.structure.type, ()))
@@ -92,17 +94,23 @@ def rank_candidates(
         descend_candidate(problem, point, refine_onset(problem, one))
         for starts in begun
         for _, one in starts
+        if not stop()
     ]
     best = _best_of_each_effect(gone)[:KEPT]
     if calmer is not None:
         begun = _best_starts(problem, calmer, effects, evidence, seeds, heavy=True)
         shaken = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
         begun = [*begun[:TRIED_CALM], *shaken]
-        calm = [descend_candidate(problem, point, one) for starts in begun for _, one in starts]
+        calm = [
+            descend_candidate(problem, point, one)
+            for starts in begun
+            for _, one in starts
+            if not stop()
+        ]
         best = _best_of_each_effect([*gone, *calm])[:KEPT]
         best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
-    ended = [minimize(problem, one) for one in dict.fromkeys(best)]
-    simpler = [simplify_effect(problem, one, names, evidence) for one in ended]
+    ended = [minimize(problem, one) for one in dict.fromkeys(best) if not stop()]
+    simpler = [simplify_effect(problem, one, names, evidence) for one in ended if not stop()]
     ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)

@@ -31,11 +31,16 @@ TINY = 1e-300  # no gap at all
 
 
 def weigh_candidates(data: SelectionData, now: SelectionRound, log: Log) -> list[WeighedCandidate]:
-    """All candidates of a round with their cross-validated gaps, likeliest first."""
+    """All candidates of a round with their cross-validated gaps, likeliest first.
+
+    Returns:
+        None of them if there was no time to try all.
+    """
     point = now.candidate.estimate
     found = []
     evidence = voltage_residual_at(log, point)
-    for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds):
+    stop = data.out_of_time
+    for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds, stop=stop):
         score = now.candidate.score - candidate.score
         if score < required_improvement(candidate.effect):
             tried = TriedCandidate(
@@ -50,7 +55,7 @@ def weigh_candidates(data: SelectionData, now: SelectionRound, log: Log) -> list
         share = gap.velocity / max(now.gap.velocity, TINY)
         tried = TriedCandidate(candidate.effect, score, share, admitted=not why, why=why)
         found.append(WeighedCandidate(candidate, gap, tried))
-    return found
+    return [] if stop() else found  # a round that was cut short compares nothing
 
 
 def required_improvement(effect: str) -> float:

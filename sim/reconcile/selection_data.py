@@ -1,5 +1,7 @@
 """What every step of the selection works on: the measurements, and which runs predict which."""
 
+import math
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -17,11 +19,17 @@ class SelectionData:
         problem: the measurements of all that may be fitted.
         folds: which runs predict which.
         progress: told what is done, and the share of it [1].
+        deadline: [s] of ``time.process_time`` after which the best model so far is taken.
     """
 
     problem: PredictionErrorProblem
     folds: Sequence[Fold]
     progress: Callable[[str, float], None] = lambda _, __: None
+    deadline: float = math.inf
+
+    def out_of_time(self) -> bool:
+        """Whether the deadline is over."""
+        return time.process_time() > self.deadline
 
 
 def voltage_residual_at(log: Log, point: Estimate) -> VoltageResidual:

@@ -82,6 +82,10 @@ AS_GOOD = 0.97
 """[1] of the score of an effect, with which its simpler sister is taken in its place: the rest is
 what a spring or a cosine makes of drift and of what else is missing."""
 
+SEARCH = 0.7
+"""[1] of a time limit after which no further effect is tried: the model so far is refitted without
+each of its effects, to say what each is worth."""
+
 MOST = 4
 """Effects that are added at most: with more, anything can be explained."""
 

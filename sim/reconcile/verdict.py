@@ -1,5 +1,6 @@
 """The verdict: explained, ambiguous, unexplained or nothing missing."""
 
+import math
 from collections.abc import Sequence
 from itertools import permutations
 
@@ -16,7 +17,7 @@ from sim.reconcile.thresholds import FAR_OFF, FAR_OFF_SPEED, LOST, MOSTLY, STRAY
 
 def reach_verdict(
     findings: Sequence[Finding], done: Sequence[SelectionRound], problem: PredictionErrorProblem, *,
-    left: ResidualSummary, per: Unit,
+    left: ResidualSummary, cut: float = math.inf, per: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
     """The verdict, whether something remains, and a sentence about it.
 
@@ -25,6 +26,7 @@ def reach_verdict(
         done: the base and the rounds.
         problem: the measurements.
         left: what the last model leaves.
+        cut: [s] time limit that ended the search; inf if it came to its own end.
         per: the owner's unit.
     """
     strays, before = (
@@ -38,8 +40,10 @@ def reach_verdict(
             "and the same moment."
         )
         return UNEXPLAINED, True, remains
-    remains = _describe_residual(problem, left, per) or _describe_remainder(
-        findings, done, strays=strays
+    remains = (
+        _describe_cut(cut)
+        or _describe_residual(problem, left, per)
+        or _describe_remainder(findings, done, strays=strays)
     )
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
@@ -54,6 +58,16 @@ def reach_verdict(
     if any(one.ambiguous_with for one in majors):
         return AMBIGUOUS, bool(remains), remains
     return EXPLAINED, bool(remains), remains
+
+
+def _describe_cut(limit: float) -> str:
+    """A sentence about a search that a time limit ended; empty if none did."""
+    if math.isinf(limit):
+        return ""
+    return (
+        f"The search stopped at its time limit of {limit:g} s of processor time, so more effects "
+        f"may be missing. To search on: --time-limit {10.0 * limit:g}."
+    )
 
 
 def _describe_remainder(

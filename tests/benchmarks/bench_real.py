@@ -261,7 +261,7 @@ def print_held_out(fitted: Sequence[FittedLog]) -> None:
     )
 
 
-def print_reconciled(fitted: Sequence[FittedLog]) -> None:
+def print_reconciled(fitted: Sequence[FittedLog], *, limit: float) -> None:
     """What reconcile makes of each log that can be fitted."""
     print("\nRECONCILE")
     done = []
@@ -271,7 +271,7 @@ def print_reconciled(fitted: Sequence[FittedLog]) -> None:
             continue
         other = later.get(one.recording) if one.recording[2] else None
         later[one.recording] = one
-        line = reconcile_log(one, other)
+        line = reconcile_log(one, other, limit=limit)
         if line is not None:
             done.append(line)
     if not done:
@@ -309,14 +309,14 @@ class Reconciled:
     share: float
 
 
-def reconcile_log(one: FittedLog, other: FittedLog | None) -> Reconciled | None:
+def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> Reconciled | None:
     """Reconcile a log, print a line about it, and show it on a second recording if there is one."""
     assert one.log is not None
     assert one.fit is not None
     name = one.path.name[-60:]
     started = time.process_time()
     try:
-        story = reconcile(one.log, type=one.fit.type)
+        story = reconcile(one.log, type=one.fit.type, time_limit=limit)
     except Refusal as refused:
         print(f"{name:60} refused: {str(refused).splitlines()[0]}", flush=True)
         return None
@@ -398,6 +398,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path, nargs="?", default=folder())
     parser.add_argument("--reconcile", action="store_true", help="reconcile each log as well")
     parser.add_argument("--only", default="", help="only files whose name contains this")
+    parser.add_argument("--time-limit", type=float, default=20.0, help="of reconcile [s]")
     given = parser.parse_args()
     paths = logs_in(given.folder, given.only)
     if not paths:
@@ -411,7 +412,7 @@ def main() -> None:
     print_repetitions(fitted)
     print_held_out(fitted)
     if given.reconcile:
-        print_reconciled(fitted)
+        print_reconciled(fitted, limit=given.time_limit)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,10 @@ class ReconcileJob:
 
     def _run(self) -> None:
         """Search; whatever goes wrong is told with the next question."""
-        from sim.cli.reconcile import inspect_damage  # noqa: PLC0415 - once it is needed
+        from sim.cli.reconcile import (  # noqa: PLC0415 - once it is needed
+            default_time_limit,
+            inspect_damage,
+        )
         from sim.io import read  # noqa: PLC0415 - the same
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
 
@@ -53,6 +56,7 @@ class ReconcileJob:
                 log,
                 type=reading.type or log.type or "simple",
                 damages={"log": inspect_damage(log)},
+                time_limit=default_time_limit(),
                 progress=self._note,
             )
             self._story = describe_story(story)
