@@ -71,3 +71,14 @@ def test_the_noise_of_a_position_is_that_of_its_sensor(name):
     rounding = mechanism.sensor.resolution / 12**0.5
     assert 0.8 * rounding < noise.position < 1.5 * rounding
     assert noise.velocity == pytest.approx(mechanism.sensor.velocity_noise, rel=0.15)
+
+
+def test_a_count_that_single_precision_reads_as_two_numbers_is_one_count():
+    time, step = even(2000, 0.005), 2e-3  # [m/s], longer on one count than on the way to the next
+    counts = np.round(0.05 * time / step)
+    rounded = (counts * step) * (1.0 + 1e-7 * np.random.default_rng(5).choice([-1, 1], time.size))
+    run = Run("quasistatic-forward", time, np.full(time.size, 4.0), 0.025 * time**2, rounded)
+
+    found = estimate_noise(measure_runs(Log((run,)), friction=None))
+
+    assert found.velocity == pytest.approx(step / np.sqrt(12.0), rel=0.01)

@@ -19,6 +19,7 @@ HELD = 0.3  # [share of fast samples] that repeat the one before them, from whic
 FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time
 SOON = 0.2  # [share of gaps] between changes that are no longer than a frame
 DIGITS = 1e-7  # [share of the range] that is below what any log resolves
+SINGLE = 2.0**-22  # [share of the range] two roundings of single precision
 THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
@@ -149,11 +150,14 @@ def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
 
 
 def _smallest_step(values: Sequence[Array]) -> float:
-    """[unit] between two different readings, of all runs: what a sensor counts in."""
+    """[unit] between two different readings, of all runs: what a sensor counts in.
+
+    A device that computes in single precision reads one and the same count as several numbers.
+    """
     if not values:
         return 0.0
     steps = np.diff(np.sort(np.concatenate(values)))
-    steps = steps[steps > DIGITS * float(np.sum(steps))]
+    steps = steps[steps > SINGLE * float(np.sum(steps))]
     return float(steps.min()) if steps.size else 0.0
 
 
