@@ -44,7 +44,26 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_release",
     "test_workers",
     "test_everyday_effects",
+    "test_reconcile",
+    "test_fuzz",
+    "test_real_logs_inspected",
+    "test_real_logs_looked_at",
+    "test_comparison",
+    "test_bench_reconcile",
+    "test_dataset_cluster",
+    "test_class_cluster",
 )
+
+
+def pytest_ignore_collect(collection_path, config):
+    """Leave out the files of which no test is asked for: reading one takes as long as some tests.
+
+    ``None`` lets pytest decide.
+    """
+    if not collection_path.name.startswith("test_"):
+        return None
+    unwanted = {"not slow": True, "slow": False}.get(config.option.markexpr)
+    return True if unwanted is (collection_path.stem in SLOW) else None
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -93,12 +93,6 @@ def reconcile(
     problem = _make_problem(log, validation, aside)
     progress("base model", 0.05)
     problem, base = _fit_base_model(problem, log, type=type)
-    if not math.isfinite(base.cost):
-        raise NotIdentifiable(
-            "no gains follow what is left of it once its damage is set aside",
-            where=log.source,
-            advice="Inspect the log, and record it anew.",
-        )
     problem, base, slipped = _exclude_slips(problem, base)
     both = log if validation is None else join_records(log, validation)
     folds = make_folds([one.session for one in problem.records])
@@ -197,9 +191,18 @@ def _fit_base_model(
 
     Where much is missing, "it goes on as it did, and is pushed wherever it goes" may follow a
     smooth log better than any physics: then pushes are bounded.
+
+    Raises:
+        NotIdentifiable: no gains follow the log.
     """
     base = _fit_structure(problem, log, type=type)
-    if not math.isfinite(base.cost) or _missed_share(problem, base) < LOST:
+    if not math.isfinite(base.cost):
+        raise NotIdentifiable(
+            "no gains follow what is left of it once its damage is set aside",
+            where=log.source,
+            advice="Inspect the log, and record it anew.",
+        )
+    if _missed_share(problem, base) < LOST:
         return problem, base
     bound = replace(problem, max_process_noise=(WANDERS * problem.top_speed) ** 2)
     other = _fit_structure(bound, log, type=type)
