@@ -8,6 +8,7 @@ calls, never interpreted.
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from grader.robotcode.facts import ParseProblem
@@ -45,7 +46,7 @@ class Node:
 
     place: SourceSpan
 
-    @property
+    @cached_property
     def parts(self) -> tuple["Node", ...]:
         """The nodes directly inside, in the order of the fields."""
         names: tuple[str, ...] = self.__match_args__[1:]

@@ -87,6 +87,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         yield from _names_of_2027(every, names)
     open_ = any(one.name == "*" and not _static(one) for one in module.imports)
     declared = {node.name for node, _ in every if isinstance(node, Class)}
+    defined = frozenset(node.name for node, _ in every if isinstance(node, Function))
     targets = {node.target for node, _ in every if isinstance(node, Call)}
     made = [one for one, _ in every if isinstance(one, Assign) and one.declares]
     brought = {last_name(one.target) for one in made}
@@ -103,7 +104,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         if isinstance(node, Name) and name_is_value(node) and not method:
             yield from _variable(node, declared, scope, names, open_=open_)
         elif isinstance(node, Call):
-            yield from _method(node, scope, names)
+            yield from _method(node, scope, names, defined)
 
 
 def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator[ParseProblem]:
@@ -288,7 +289,10 @@ def _closed(scope: Scope, names: SymbolTable) -> bool:
     return True
 
 
-def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
+def _method(
+    call: Call, scope: Scope, names: SymbolTable, defined: frozenset[str]
+) -> Iterator[ParseProblem]:
+    """What a compiler says of a call; ``defined`` are the methods of all classes of the file."""
     target = call.target
     line = target.place.line
     if isinstance(target, Member) and not isinstance(target, Reference):
@@ -302,7 +306,7 @@ def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProbl
                 where = home.classes[-1].name
                 yield ParseProblem(f"{where} has no method {target.name}()", line)
             return
-        if _defined(target.name, names):
+        if target.name in defined:
             return
         meant = suggest_name(target.name, METHODS)
         if meant and target.name[:1].islower():
@@ -315,14 +319,8 @@ def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProbl
         if (
             called_functions(call, scope, names)
             or target.name in INHERITED
-            or _defined(target.name, names)
+            or target.name in defined
         ):
             return
         if not static and _closed(scope, names) and scope.classes:
             yield ParseProblem(f"nothing declares the method {target.name}()", line)
-
-
-def _defined(name: str, names: SymbolTable) -> bool:
-    """Whether some class of the main file has a method of a name."""
-    every = walk(names.main.body, Scope(names.main))
-    return any(isinstance(node, Function) and node.name == name for node, _ in every)
