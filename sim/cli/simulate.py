@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from sim.core.log import Log
     from sim.inspect.fault import LogInterval
 
+PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
+
 
 @click.command()
 @click.argument("mechanism", shell_complete=MECHANISM_NAMES)
@@ -26,7 +28,16 @@ if TYPE_CHECKING:
 @click.option("--ramp", default=0.5, show_default=True, help="Quasistatic ramp [V/s].")
 @click.option("--step", default=3.5, show_default=True, help="Dynamic step [V].")
 @click.option("--timeout", default=10.0, show_default=True, help="End of a test [s].")
-@click.option("--period", default=0.02, show_default=True, help="Loop of the robot program [s].")
+@click.option(
+    "--recorder",
+    metavar="NAME",
+    help="What measures and logs: its rates, filters and delays, as published. One of roborio, "
+    "roborio-2020, talonfx, talonfx-canfd, signal-logger, phoenix5, sparkmax, sparkmax-encoder, "
+    "venom.",
+)
+@click.option(
+    "--period", type=float, help="Loop of the robot program [s].  [default: the recorder's, 0.02]"
+)
 @click.option(
     "--tests",
     metavar="KIND,…",
@@ -71,7 +82,8 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     ramp: float,
     step: float,
     timeout: float,
-    period: float,
+    recorder: str | None,
+    period: float | None,
     tests: str,
     hide: tuple[str, ...],
     faults: tuple[str, ...],
@@ -90,6 +102,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
 
     from sim.bench.ground_truth import write_ground_truth  # noqa: PLC0415
     from sim.bench.mechanisms import find_mechanism as find  # noqa: PLC0415
+    from sim.bench.recorder import find_recorder  # noqa: PLC0415
     from sim.bench.routine import Routine  # noqa: PLC0415
     from sim.bench.simulate import simulate as record  # noqa: PLC0415
     from sim.io import write  # noqa: PLC0415
@@ -103,6 +116,10 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     built = find(mechanism)
     built = _fed(built.draw(another) if vary else built, battery, controller)
     built = _hiding(built, hide)
+    if recorder is not None:
+        built = find_recorder(recorder).record(built)
+        period = period or find_recorder(recorder).period
+    period = PERIOD if period is None else period
     log = record(built, routine, rng=motion, period=period, electrical=electrical)
     log, where = _damaged(log, faults, damage)
     if truth:
