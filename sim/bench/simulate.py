@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
+from sim.bench.slip import spin_wheels, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -57,7 +58,8 @@ def simulate(
         The log, in its team's unit, with the voltage that reached the motors.
 
     Raises:
-        BadRequest: a period no robot has, or a test that is over before it has moved.
+        BadRequest: a period no robot has, a test that is over before it has moved, or wheels that
+            slip while effects are hidden.
 
     Examples:
         >>> from sim.bench.mechanisms import MECHANISMS
@@ -79,6 +81,8 @@ def simulate(
         begun = replace(state, body=body, memory=state.memory.copy())
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
         track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
+        if wheels_slip(mechanism, track):
+            track = spin_wheels(mechanism, time=time, command=voltage, wires=wires, track=track)
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
