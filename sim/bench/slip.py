@@ -3,9 +3,9 @@
     wheels:  kA_w·w' = u - kS·sgn(w) - kV·w - F        robot:  kA_r·v' = F
 
 with w the speed of the wheels, v that of the robot and F [V] what the floor passes on. While the
-wheels grip, w = v. They begin to slip where |v'| would exceed the mechanism's ``grip``; from then on
-F = ±kA_r·grip, until both speeds are the same again. The share ``spin`` of the inertia belongs to
-wheels and rotors: kA_w = kA·spin/(1 + spin), kA_r = kA/(1 + spin).
+wheels grip, w = v. They begin to slip where |v'| would exceed the mechanism's ``grip``; from then
+on F = ±kA_r·grip, until both speeds are the same again. The share ``spin`` of the inertia belongs
+to wheels and rotors: kA_w = kA·spin/(1 + spin), kA_r = kA/(1 + spin).
 
 All friction counts as the gears' own, and a brownout is not simulated while the wheels slip. A
 sensor in the motor sees w.
@@ -70,15 +70,16 @@ def spin_wheels(
             f"{mechanism.hidden[0].effect} does then cannot be simulated",
             advice=f"Choose a step below {slip_voltage(mechanism):.1f} V, or hide nothing.",
         )
-    robot = _Robot(mechanism, wires)
+    path = tuple(wires.tolist())
+    robot = _Robot(mechanism, path)
     rows = np.empty((time.size, 8))
     place = load = float(track.position[0])
     steps = np.append(np.diff(time), 0.0).tolist()
     for row, asked, step in zip(rows, command.tolist(), steps, strict=True):
-        u = float(limit_voltage(wires, asked, robot.wheel))
-        current = (u - float(wires[EMF]) * robot.wheel) / float(wires[OHM])
-        row[:] = place, robot.wheel, load, u, bus_voltage(wires, u, current), current, 0.0, 0.0
-        row[6:] = robot.wheel, place
+        u = limit_voltage(path, asked, robot.wheel)
+        current = (u - path[EMF] * robot.wheel) / path[OHM]
+        bus = bus_voltage(path, u, current)
+        row[:] = place, robot.wheel, load, u, bus, current, place, robot.wheel
         for _ in range(FINE):
             wheel, speed = robot.wheel, robot.speed
             robot.advance(asked, step / FINE)
@@ -90,7 +91,7 @@ def spin_wheels(
 class _Robot:
     """Wheels and robot, from rest."""
 
-    def __init__(self, mechanism: Mechanism, wires: Array) -> None:
+    def __init__(self, mechanism: Mechanism, wires: tuple[float, ...]) -> None:
         gains = mechanism.gains
         self.wheel = self.speed = 0.0
         self._slips = 0.0  # the sign of wheel minus robot while the wheels slip
@@ -101,7 +102,7 @@ class _Robot:
 
     def advance(self, asked: float, step: float) -> None:
         """Move on by ``step`` [s] under the voltage asked for [V]."""
-        push = float(limit_voltage(self._wires, asked, self.wheel))
+        push = limit_voltage(self._wires, asked, self.wheel)
         way = math.copysign(1.0, self.wheel or push)
         if self.wheel == 0.0 and abs(push) <= self._ks:
             return

@@ -21,8 +21,8 @@ from sim.physics.motors import Motor, find_motor
 GRAVITY = 9.81  # [m/s²]
 WHEELS = Sensor(resolution=2.3e-5, velocity_noise=0.0075, noise_speed=0.05, jitter=0.0004)
 GYRO = Sensor(resolution=1e-4, velocity_noise=0.01, noise_speed=0.05, jitter=0.0004)
-"""What reads it going straight and turning. The gyro's figures are assumed: a hundredth of a degree,
-and half a degree per second while the robot shakes."""
+"""What reads it going straight and turning. The gyro's figures are assumed: a hundredth of a
+degree, and half a degree per second while the robot shakes."""
 
 
 @dataclass(frozen=True)
@@ -146,5 +146,5 @@ SWERVE = SwerveDrive(
     friction=0.20,
     grip=1.2,
 )
-"""Four NEO at 6.12:1 on 4 inch wheels, a full-weight robot. It slips only above 7 V, so that WPILib's
-own step still tells its kA; one with four Kraken X60 slips above 2.3 V."""
+"""Four NEO at 6.12:1 on 4 inch wheels, a full-weight robot. It slips only above 7 V, so that
+WPILib's own step still tells its kA; one with four Kraken X60 slips above 2.3 V."""

@@ -24,7 +24,7 @@ from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 MODULES = ("front-left", "front-right", "back-left", "back-right")
 RATE, VOLTS = "Rotational_Rate", "Phoenix6/TalonFX-{}/MotorVoltage"
 YAW, YAW_RATE = "Phoenix6/Pigeon2-1/Yaw", "Phoenix6/Pigeon2-1/AngularVelocityZWorld"
-"""What CTRE's logger calls the rate that is asked for, the voltage of a drive motor, and the gyro."""
+"""What CTRE's logger calls the rate asked for, the voltage of a drive motor, and the gyro."""
 
 LOOP = 0.02  # [s] of the robot program
 KINETIC = 0.9  # [share of the static friction] that wheels which slip still hold
@@ -155,8 +155,7 @@ def record_spin(
     way = angle * drive.lever / (2.0 * math.pi * drive.wheel_radius) * drive.ratio
     off = drift * rng.standard_normal(1 + len(MODULES))
     motors = {
-        module: way * (1.0 + share)
-        for module, share in zip(MODULES, off[1:].tolist(), strict=True)
+        module: way * (1.0 + share) for module, share in zip(MODULES, off[1:].tolist(), strict=True)
     }
     return Spin(angle * (1.0 + float(off[0])), motors)
 

@@ -11,6 +11,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
+from sim.cli.fit.inertia import (
+    check_turning_options,
+    describe_inertia,
+    find_inertia,
+    turning_options,
+)
 from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
@@ -23,6 +29,7 @@ if TYPE_CHECKING:
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
+    from sim.fit.physics.inertia import MomentOfInertia
 
 LOOPS = ("velocity", "position")
 
@@ -80,6 +87,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Of wheel or drum [m], for --driven-by and --paste.",
 )
 @click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for --driven-by.")
+@turning_options
 @click.option(
     "--paste",
     type=click.Choice((*LANGUAGES, *CONTROLLERS)),
@@ -113,6 +121,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
     ratio: float | None,
     radius: float,
     load: float | None,
+    straight: Path | None,
+    mass: float | None,
+    lever: float | None,
     paste: str | None,
     season: str,
     own_kp: float | None,
@@ -128,7 +139,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     Files of one test each are joined. Sides of a drivetrain, modules and whole recordings are
     fitted alone, compared, and their gains averaged. Directions are compared, too; not with --json
-    and --paste, which should be quick.
+    and --paste, which should be quick. With --straight, FILES are of a robot that turns on the
+    spot, and its moment of inertia is printed.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -137,6 +149,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
+    check_turning_options(straight, mass=mass, lever=lever)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
     velocity = None if ignore_velocity else velocity_scale
     parts = read_parts(
@@ -149,9 +162,14 @@ def fit(  # noqa: PLR0917 - click passes options by name
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
+    turned = None
+    if straight is not None and mass is not None:
+        turned = find_inertia(found, log, straight=straight, mass=mass, lever=lever, method=method)
+        found = replace(found, doubts=(*turned.doubts, *found.doubts))
+        notes = (describe_inertia(turned), *notes)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
+    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
     _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
     told.echo(as_json=as_json, paste=paste, season=int(season))
     return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
@@ -168,6 +186,7 @@ class _FitOutput:
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
     parts: dict[str, dict[str, object]]
+    turned: "MomentOfInertia | None" = None
 
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
         """Print what was asked for: robot code, JSON, or text for people."""
@@ -189,6 +208,7 @@ class _FitOutput:
         ]
         said = self.found.to_json(PRESETS[self.preset])
         said |= {"own_feedback": own[0]} if own else {}
+        said |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
         return said | ({"parts": self.parts} if self.parts else {})
 
     def show(self) -> None:

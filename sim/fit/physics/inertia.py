@@ -13,7 +13,7 @@ inertia is J - s·(m·R² - J).
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
@@ -65,7 +65,12 @@ class MomentOfInertia:
 
 
 def moment_of_inertia(
-    turning: Fit, straight: Fit, *, mass: float, lever: float | None = None
+    turning: Fit,
+    straight: Fit,
+    *,
+    mass: float,
+    lever: float | None = None,
+    by_wheels: bool = False,
 ) -> MomentOfInertia:
     """The moment of inertia from two fits whose voltages are those of the same motors.
 
@@ -74,11 +79,14 @@ def moment_of_inertia(
         straight: of a test straight ahead, its position a length.
         mass: [kg] of the robot.
         lever: [m] of a wheel; None takes the one that the speeds tell.
+        by_wheels: the position of ``turning`` is the wheels' way, a length, and no gyro's angle.
 
     Raises:
-        BadRequest: a mass or a lever that no robot has, a position of the wrong kind, or gains of
-            which one is not above zero.
+        BadRequest: a mass or a lever that no robot has, none where only the wheels were read, a
+            position of the wrong kind, or gains of which one is not above zero.
     """
+    if by_wheels:
+        turning = _per_radian(turning, lever)
     _check(turning, straight, mass=mass, lever=lever)
     turn, go = fit_in_si(turning), fit_in_si(straight)
     seen = turn.gains["kV"] / go.gains["kV"]
@@ -90,6 +98,21 @@ def moment_of_inertia(
     own = sorted(value - share * (mass * arm**2 - value) for share in ROTORS)
     doubts = () if lever is None else tuple(_lever_doubts(turn, go, seen, lever))
     return MomentOfInertia(value, value * math.hypot(*parts), (own[0], own[1]), arm, seen, doubts)
+
+
+def _per_radian(turning: Fit, lever: float | None) -> Fit:
+    """The fit of turning per radian of the robot, from the one per meter of its wheels."""
+    if lever is None:
+        raise BadRequest(
+            "the log of turning has the way of the wheels and no angle of the robot",
+            advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
+        )
+    found = turning.in_units("meters")
+    gains, errors = (
+        {name: value * lever if name in {"kV", "kA"} else value for name, value in one.items()}
+        for one in (found.gains, found.errors)
+    )
+    return replace(found, units="radians", log_units="radians", gains=gains, errors=errors)
 
 
 def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> None:
