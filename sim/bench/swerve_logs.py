@@ -29,6 +29,7 @@ YAW, YAW_RATE = "Phoenix6/Pigeon2-1/Yaw", "Phoenix6/Pigeon2-1/AngularVelocityZWo
 LOOP = 0.02  # [s] of the robot program
 KINETIC = 0.9  # [share of the static friction] that wheels which slip still hold
 AMPERES = 0.5  # [A] noise of a measured current
+DRIFT = 2e-4  # [share] of its way by which a gyro, or a wheel on carpet, is off
 
 
 def record_modules(
@@ -141,22 +142,27 @@ class Spin:
 
 
 def record_spin(
-    drive: SwerveDrive, *, turns: float, rng: np.random.Generator, drift: float = 2e-4
+    drive: SwerveDrive,
+    *,
+    turns: float,
+    rng: np.random.Generator,
+    radii: Mapping[str, float] | None = None,
 ) -> Spin:
     """Spin slowly, so that nothing slips, and read the gyro and the drive motors.
 
     Args:
-        drive: what spins; its wheels are all as large as it says.
+        drive: what spins.
         turns: [rot] of the robot.
         rng: the source of what the gyro and the carpet are off by.
-        drift: share by which the gyro and each wheel's way may be off.
+        radii: module -> [m] the radius that its wheel really has; the others' is the drive's own.
     """
+    worn = dict(radii or {})
     angle = 2.0 * math.pi * turns
-    way = angle * drive.lever / (2.0 * math.pi * drive.wheel_radius) * drive.ratio
-    off = drift * rng.standard_normal(1 + len(MODULES))
-    motors = {
-        module: way * (1.0 + share) for module, share in zip(MODULES, off[1:].tolist(), strict=True)
-    }
+    off = DRIFT * rng.standard_normal(1 + len(MODULES))
+    motors = {}
+    for module, share in zip(MODULES, off[1:].tolist(), strict=True):
+        around = 2.0 * math.pi * worn.get(module, drive.wheel_radius)
+        motors[module] = angle * drive.lever / around * drive.ratio * (1.0 + share)
     return Spin(angle * (1.0 + float(off[0])), motors)
 
 
