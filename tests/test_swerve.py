@@ -155,14 +155,14 @@ def test_slip_makes_ka_too_large_and_leaves_kv():
     assert gains["kA"] > 1.2 * true["kA"]
 
 
-def test_effects_and_slip_together_are_refused_with_a_step_that_works():
+def test_slip_beside_a_hidden_effect_is_left_out_and_it_is_said():
     robot = KRAKEN.translation.hide("drag")
 
-    with pytest.raises(BadRequest, match=r"Choose a step below 2\.3 V") as refusal:
-        simulate(robot, Routine(step=4.0), rng=rng())
+    (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
 
-    assert "its drag does then cannot be simulated" in str(refusal.value)
-    assert simulate(robot, GENTLE, rng=rng()).runs
+    assert doubt.code == "slip-left-out"
+    assert "from 2.3 V at a start on" in doubt.message
+    assert simulate(robot, GENTLE, rng=rng()).doubts == ()
 
 
 def test_below_the_slip_nothing_changes_by_a_digit():

@@ -1,6 +1,7 @@
 """What slips make of the numbers of a swerve drive."""
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.wrong_number import Lookalike, WrongNumber
@@ -15,11 +16,22 @@ HALF = (
 )
 
 
+Rows = tuple[tuple[float, str, str], ...]  # a wrong number, what it may be, the misconception
+
+
 def lookalikes(variant: "Variant") -> dict[str, tuple[Lookalike, ...]]:
     """Name of a number -> what known slips make of it."""
     asked = {name: one.expected for name, one in variant.asked.items()}
-    lever, turning = asked["lever"], asked["kA_turning"]
-    found = {
+    return {
+        name: tuple(Lookalike(value, WrongNumber(says, says, code)) for value, says, code in rows)
+        for name, rows in (_of_tests(variant, asked) | _of_settings(variant, asked)).items()
+    }
+
+
+def _of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Rows]:
+    """The slips about the spin and about turning."""
+    turning = asked["kA_turning"]
+    return {
         "worn_radius": (
             (variant.radius, "this is the radius in the code. What do the motor's turns say?", ""),
             (2.0 * asked["worn_radius"], "is this a diameter? Half of it is the radius", UNITS),
@@ -65,6 +77,13 @@ def lookalikes(variant: "Variant") -> dict[str, tuple[Lookalike, ...]]:
             ),
             (asked["kA"], "this is the kA of going straight. Fit turning.wpilog", ""),
         ),
+    }
+
+
+def _of_settings(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Rows]:
+    """The slips about what goes into a planner."""
+    lever, turning = asked["lever"], asked["kA_turning"]
+    return {
         "inertia": (
             (asked["inertia"] / math.sqrt(2.0), HALF, LEVER),
             (
@@ -119,8 +138,4 @@ def lookalikes(variant: "Variant") -> dict[str, tuple[Lookalike, ...]]:
                 "",
             ),
         ),
-    }
-    return {
-        name: tuple(Lookalike(value, WrongNumber(says, says, code)) for value, says, code in rows)
-        for name, rows in found.items()
     }

@@ -8,7 +8,7 @@ controller also ends a test shortly before the end of the travel.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.slip import spin_wheels, wheels_slip
+from sim.bench.slip import slip_voltage, spin_wheels, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -58,8 +58,7 @@ def simulate(
         The log, in its team's unit, with the voltage that reached the motors.
 
     Raises:
-        BadRequest: a period no robot has, a test that is over before it has moved, or wheels that
-            slip while effects are hidden.
+        BadRequest: a period no robot has, or a test that is over before it has moved.
 
     Examples:
         >>> from sim.bench.mechanisms import MECHANISMS
@@ -70,7 +69,7 @@ def simulate(
     _check_period(period)
     model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
-    state, start, last, cut = State(), PAUSE, 0.0, False
+    state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
@@ -81,8 +80,9 @@ def simulate(
         begun = replace(state, body=body, memory=state.memory.copy())
         state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
         track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
-        if wheels_slip(mechanism, track):
-            track = spin_wheels(mechanism, time=time, command=voltage, wires=wires, track=track)
+        if slips := wheels_slip(mechanism, track):
+            track = _slip(mechanism, time, voltage, wires=wires, track=track)
+        gripped = gripped or (slips and bool(mechanism.hidden))
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
@@ -96,7 +96,17 @@ def simulate(
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    return log.add_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+    cut = cut or state.body[OFF_UNTIL] > 0.0
+    return log.add_doubts(*_doubts(mechanism, cut=cut, gripped=gripped))
+
+
+def _slip(
+    mechanism: Mechanism, time: Array, command: Array, *, wires: Array, track: Track
+) -> Track:
+    """The motion with wheels that slip; the one that is given where effects are hidden."""
+    if mechanism.hidden:
+        return track
+    return spin_wheels(mechanism, time=time, command=command, wires=wires, track=track)
 
 
 def _record_run(
@@ -119,12 +129,21 @@ def _check_period(period: float) -> None:
         )
 
 
-def _brownout(mechanism: Mechanism) -> Doubt:
-    return Doubt(
-        "brownout",
-        f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
-        "motors off again and again. Use a smaller step or a better battery.",
-    )
+def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
+    """What is odd about a log: motors that were cut off, and slip that was left out."""
+    if gripped:
+        yield Doubt(
+            "slip-left-out",
+            f"The wheels would slip here, from {slip_voltage(mechanism):.1f} V at a start on. "
+            "Where an effect is hidden they are simulated as if they gripped. Use a smaller step, "
+            "or hide nothing.",
+        )
+    if cut:
+        yield Doubt(
+            "brownout",
+            f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
+            "motors off again and again. Use a smaller step or a better battery.",
+        )
 
 
 def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:

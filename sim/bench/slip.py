@@ -8,7 +8,7 @@ on F = ±kA_r·grip, until both speeds are the same again. The share ``spin`` of
 to wheels and rotors: kA_w = kA·spin/(1 + spin), kA_r = kA/(1 + spin).
 
 All friction counts as the gears' own, and a brownout is not simulated while the wheels slip. A
-sensor in the motor sees w.
+sensor in the motor sees w. Hidden effects are not simulated together with slip.
 """
 
 import math
@@ -16,7 +16,6 @@ import math
 import numpy as np
 
 from sim.bench.mechanism import Mechanism
-from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.physics.engine import Track
 from sim.physics.engine.power_path import EMF, OHM, bus_voltage, limit_voltage
@@ -52,7 +51,7 @@ def spin_wheels(
     """Move a robot whose wheels may slip.
 
     Args:
-        mechanism: what moves; its ``grip`` is not None.
+        mechanism: what moves, without hidden effects; its ``grip`` is not None.
         time: (n,) [s].
         command: (n,) [V] asked for, each held until the next sample.
         wires: (9,) as ``sim.bench.simulate.power_path_arrays`` gives it.
@@ -60,16 +59,7 @@ def spin_wheels(
 
     Returns:
         The motion: position and velocity are the wheels', the load's position is the robot's.
-
-    Raises:
-        BadRequest: the mechanism has hidden effects, which are not simulated while wheels slip.
     """
-    if mechanism.hidden:
-        raise BadRequest(
-            f"the wheels of a {mechanism.name} slip at this voltage, and what its "
-            f"{mechanism.hidden[0].effect} does then cannot be simulated",
-            advice=f"Choose a step below {slip_voltage(mechanism):.1f} V, or hide nothing.",
-        )
     path = tuple(wires.tolist())
     robot = _Robot(mechanism, path)
     rows = np.empty((time.size, 8))

@@ -12,8 +12,8 @@ import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
 from sim.cli.fit.inertia import (
+    add_inertia,
     check_turning_options,
-    describe_inertia,
     find_inertia,
     turning_options,
 )
@@ -149,12 +149,11 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
     own = _own(loop, kp=own_kp, kd=own_kd)
-    check_turning_options(straight, mass=mass, lever=lever)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    velocity = None if ignore_velocity else velocity_scale
     parts = read_parts(
-        files, units=units, type=type_, motor=motor, entries=entries, velocity=velocity, pick=pick
-    )
+        files, units=units, type=type_, motor=motor, entries=entries, pick=pick,
+        velocity=None if ignore_velocity else velocity_scale,
+    )  # fmt: skip
     log = joined_log(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
     pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
@@ -162,11 +161,8 @@ def fit(  # noqa: PLR0917 - click passes options by name
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
-    turned = None
-    if straight is not None and mass is not None:
-        turned = find_inertia(found, log, straight=straight, mass=mass, lever=lever, method=method)
-        found = replace(found, doubts=(*turned.doubts, *found.doubts))
-        notes = (describe_inertia(turned), *notes)
+    turned = find_inertia(found, log, straight=straight, mass=mass, lever=lever, method=method)
+    found, notes = add_inertia(found, notes, turned)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
@@ -248,6 +244,8 @@ def _go_together(
     plot: Path | None,
 ) -> None:  # fmt: skip
     """Refuse options that would be ignored."""
+    turning = {name: ctx.params[name] for name in ("straight", "mass", "lever")}
+    check_turning_options(**turning)
     given = ctx.get_parameter_source("preset") is not click.core.ParameterSource.DEFAULT
     if paste and given and ctx.params["preset"] != "default":
         raise click.UsageError(

@@ -1,6 +1,7 @@
 """``sysid fit --straight``: the moment of inertia, from turning on the spot and going straight."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -52,14 +53,22 @@ def check_turning_options(
 
 
 def find_inertia(
-    found: "Fit", log: "Log", *, straight: Path, mass: float, lever: float | None, method: str
-) -> "MomentOfInertia":
-    """The moment of inertia, from a fit of turning and the log of going straight.
+    found: "Fit",
+    log: "Log",
+    *,
+    straight: Path | None,
+    mass: float | None,
+    lever: float | None,
+    method: str,
+) -> "MomentOfInertia | None":
+    """The moment of inertia, from a fit of turning and the log of going straight; None without.
 
     Raises:
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
             two.
     """
+    if straight is None or mass is None:
+        return None
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as below: --help must not wait for it
     from sim.fit.physics.inertia import moment_of_inertia  # noqa: PLC0415
 
@@ -76,6 +85,16 @@ def find_inertia(
     gone = fit_parts(parts, find, kind=kind_of_parts(parts, 1)).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
     return moment_of_inertia(found, gone, mass=mass, lever=lever, by_wheels=wheels)
+
+
+def add_inertia(
+    found: "Fit", notes: tuple[str, ...], turned: "MomentOfInertia | None"
+) -> "tuple[Fit, tuple[str, ...]]":
+    """A fit with what speaks against the moment of inertia, and the notes with the inertia first."""
+    if turned is None:
+        return found, notes
+    doubted = replace(found, doubts=(*turned.doubts, *found.doubts))
+    return doubted, (describe_inertia(turned), *notes)
 
 
 def describe_inertia(turned: "MomentOfInertia") -> str:
