@@ -73,16 +73,13 @@ def simulate(
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
-        cut = state.body[OFF_UNTIL] > 0.0 or cut
+        cut = cut or _is_cut(state)
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
-        body = State.cold_at(_begin(mechanism, test, last)).body
-        begun = replace(state, body=body, memory=state.memory.copy())
-        state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
+        begun, state = _at_rest(state, _begin(mechanism, test, last))
         track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
-        if slips := wheels_slip(mechanism, track):
-            track = _slip(mechanism, time, voltage, wires=wires, track=track)
-        gripped = gripped or (slips and bool(mechanism.hidden))
+        track, left_out = _slip(mechanism, time, voltage, wires=wires, track=track)
+        gripped = gripped or left_out
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
@@ -96,17 +93,31 @@ def simulate(
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    cut = cut or state.body[OFF_UNTIL] > 0.0
-    return log.add_doubts(*_doubts(mechanism, cut=cut, gripped=gripped))
+    return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
+
+
+def _at_rest(state: State, position: float) -> tuple[State, State]:
+    """The state at rest somewhere, with what a motor remembers; twice, as a run changes its own."""
+    body = State.cold_at(position).body
+    begun = replace(state, body=body, memory=state.memory.copy())
+    return begun, replace(begun, body=body.copy(), memory=begun.memory.copy())
+
+
+def _is_cut(state: State) -> bool:
+    """Whether the robot controller has taken the motors off."""
+    return bool(state.body[OFF_UNTIL] > 0.0)
 
 
 def _slip(
     mechanism: Mechanism, time: Array, command: Array, *, wires: Array, track: Track
-) -> Track:
-    """The motion with wheels that slip; the one that is given where effects are hidden."""
+) -> tuple[Track, bool]:
+    """The motion with wheels that slip, and whether hidden effects forbid to simulate that."""
+    if not wheels_slip(mechanism, track):
+        return track, False
     if mechanism.hidden:
-        return track
-    return spin_wheels(mechanism, time=time, command=command, wires=wires, track=track)
+        return track, True
+    slipped = spin_wheels(mechanism, time=time, command=command, wires=wires, track=track)
+    return slipped, False
 
 
 def _record_run(

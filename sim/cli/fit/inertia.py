@@ -1,8 +1,8 @@
 """``sysid fit --straight``: the moment of inertia, from turning on the spot and going straight."""
 
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import partial, wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +18,23 @@ if TYPE_CHECKING:
     from sim.fit.physics.inertia import MomentOfInertia
 
 
+@dataclass(frozen=True)
+class Turning:
+    """What is said about a robot that turns on the spot.
+
+    Args:
+        straight: log of the same robot going straight.
+        mass: [kg].
+        lever: [m] of a wheel; None takes what the speeds tell.
+    """
+
+    straight: Path
+    mass: float
+    lever: float | None
+
+
 def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options for a robot that turns on the spot."""
+    """The options for a robot that turns on the spot; the command gets them as ``turning``."""
     options = (
         click.option(
             "--straight",
@@ -34,32 +49,41 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "square swerve, half of it of a tank.  [default: what the speeds tell]",
         ),
     )
+
+    @wraps(command)
+    def asked(
+        *args: object,
+        straight: Path | None,
+        mass: float | None,
+        lever: float | None,
+        **others: object,
+    ) -> object:
+        turning = _read_turning(straight, mass=mass, lever=lever)
+        return command(*args, turning=turning, **others)
+
     for option in reversed(options):
-        command = option(command)
-    return command
+        asked = option(asked)
+    return asked
 
 
-def check_turning_options(
+def _read_turning(
     straight: Path | None, *, mass: float | None, lever: float | None
-) -> None:
-    """Refuse options that would be ignored, or a log without a mass."""
-    if straight is None and (mass is not None or lever is not None):
+) -> Turning | None:
+    """The options as one; refuses what would be ignored, and a log without a mass."""
+    if straight is None:
+        if mass is None and lever is None:
+            return None
         raise click.UsageError(
             "Missing option '--straight': --mass and --lever are for the moment of inertia, which "
             "needs a log of the robot going straight, too."
         )
-    if straight is not None and mass is None:
+    if mass is None:
         raise click.UsageError("Missing option '--mass': the mass of the robot [kg].")
+    return Turning(straight, mass, lever)
 
 
 def find_inertia(
-    found: "Fit",
-    log: "Log",
-    *,
-    straight: Path | None,
-    mass: float | None,
-    lever: float | None,
-    method: str,
+    found: "Fit", log: "Log", turning: Turning | None, *, method: str
 ) -> "MomentOfInertia | None":
     """The moment of inertia, from a fit of turning and the log of going straight; None without.
 
@@ -67,7 +91,7 @@ def find_inertia(
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
             two.
     """
-    if straight is None or mass is None:
+    if turning is None:
         return None
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as below: --help must not wait for it
     from sim.fit.physics.inertia import moment_of_inertia  # noqa: PLC0415
@@ -79,22 +103,33 @@ def find_inertia(
             advice="Name the MotorVoltage of a drive motor with --voltage.",
         )
     parts = read_parts(
-        (straight,), units=None, type="simple", motor=None, entries={}, velocity=1.0, pick=None
+        (turning.straight,),
+        units=None,
+        type="simple",
+        motor=None,
+        entries={},
+        velocity=1.0,
+        pick=None,
     )
     find = partial(find_gains, type="simple", method=method)
     gone = fit_parts(parts, find, kind=kind_of_parts(parts, 1)).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
-    return moment_of_inertia(found, gone, mass=mass, lever=lever, by_wheels=wheels)
+    return moment_of_inertia(found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels)
 
 
 def add_inertia(
-    found: "Fit", notes: tuple[str, ...], turned: "MomentOfInertia | None"
-) -> "tuple[Fit, tuple[str, ...]]":
-    """A fit with what speaks against the moment of inertia, and the notes with the inertia first."""
+    found: "Fit", notes: tuple[str, ...], log: "Log", turning: Turning | None, *, method: str
+) -> "tuple[Fit, tuple[str, ...], MomentOfInertia | None]":
+    """A fit, its notes and the moment of inertia, with what speaks against that; None without.
+
+    Raises:
+        Refusal: as ``find_inertia``.
+    """
+    turned = find_inertia(found, log, turning, method=method)
     if turned is None:
-        return found, notes
+        return found, notes, None
     doubted = replace(found, doubts=(*turned.doubts, *found.doubts))
-    return doubted, (describe_inertia(turned), *notes)
+    return doubted, (describe_inertia(turned), *notes), turned
 
 
 def describe_inertia(turned: "MomentOfInertia") -> str:
