@@ -69,7 +69,9 @@ def test_a_drive_is_one_that_a_team_can_have():
 
         assert 0.02 < drive.wheel_mass / drive.mass < 0.10, student
         assert 1.2 * plate < variant.inertia < 3.0 * plate, student
-        assert 40.0 < drive.slip_current < 120.0, student  # the limit of Phoenix 6 is not in the way
+        assert 40.0 < drive.slip_current < 120.0, (
+            student
+        )  # the limit of Phoenix 6 is not in the way
         assert 0.7 < variant.step / slip_voltage(drive.translation) < 0.81, student
         assert variant.step < slip_voltage(drive.rotation), student
 
@@ -162,7 +164,7 @@ def test_a_lever_may_be_written_in_many_ways(copy, line, status):
     assert graded(copy, text, "ann")["lever"].status == status
 
 
-@pytest.mark.parametrize("unit", ["kg·m²", "kg m^2", "kg*m2", "kilogram meters squared"])
+@pytest.mark.parametrize("unit", ["kg·m²", "kg m^2", "kg*m2", "kilogram meter squared"])
 def test_an_inertia_may_have_its_unit(copy, unit):
     inertia = OWN.module.draw("ann").asked["inertia"].expected
     wanted = "passed" if unit != "kg*m2" else "failed"  # m2 is no way to write a square
