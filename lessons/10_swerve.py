@@ -291,14 +291,20 @@ guess_step
 
 
 # %%
-def launch(step: float) -> Picture:
-    """Speed of the wheels and of the robot after a step of voltage."""
+def speeds(step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Time since a step of voltage, speed of the wheels, speed of the robot."""
     routine = sim.Routine(step=step, timeout=0.6, kinds=("dynamic",))
     log = simulate(robot.translation, routine, rng=np.random.default_rng(4), period=0.005)
     run = log.runs[0]
     since = run.time - run.time[0]
     floor = 9.81 * robot.grip * since  # the carpet gives the robot no more than this
-    lines = {"wheels (your log)": run.velocity, "robot": np.minimum(run.velocity, floor)}
+    return since, run.velocity, np.minimum(run.velocity, floor)
+
+
+def launch(step: float) -> Picture:
+    """Speed of the wheels and of the robot after a step of voltage."""
+    since, wheels, body = speeds(step)
+    lines = {"wheels (your log)": wheels, "robot": body}
     return plot_curves(since, lines, xlabel="time since the step [s]", ylabel="speed [m/s]")
 
 
@@ -314,6 +320,15 @@ show_interactive(
 
 # %%
 launch(step=4.0)
+
+# %% [markdown]
+# The same in numbers, a fiftieth of a second after the step:
+
+# %%
+Table(
+    ("step [V]", "wheels [m/s]", "robot [m/s]"),
+    tuple((f"{step:g}", *(float(one[4]) for one in speeds(step)[1:])) for step in (1.8, 3.0, 4.0)),
+)
 
 # %% [markdown]
 # A fit of such a log finds a kA that is far too large, because the wheels wait for the robot.
