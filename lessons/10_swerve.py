@@ -189,10 +189,11 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 # Now the wheels stand across the diagonals, and the robot turns on the spot. Two tests, the same
 # motors:
 #
-# > straight: kA ∝ mass &nbsp;&nbsp;&nbsp; turning: kA ∝ moment of inertia / lever
+# - straight, kA is a constant of the motors times the **mass**;
+# - turning, kA is the same constant times **moment of inertia / lever**.
 #
 # The **lever** is how far the push of a wheel passes from the middle. Divide one kA by the other,
-# and the motors are gone:
+# and the constant is gone:
 #
 # > I = mass · lever · kA_turning / kA_straight
 #

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from sim.fit import Fit
     from sim.fit.physics.inertia import MomentOfInertia
 
+FINEST = 0.005  # [share] no scale tells a mass better
+
 
 @dataclass(frozen=True)
 class Turning:
@@ -135,9 +137,11 @@ def add_inertia(
 def describe_inertia(turned: "MomentOfInertia") -> str:
     """The moment of inertia in a sentence, and what rotors and wheels have to do with it."""
     least, most = turned.without_rotors
+    share = turned.error / turned.value
+    error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"
     said = " as the speeds tell it" if turned.lever == turned.lever_seen else ""
     return (
-        f"Moment of inertia {turned.value:.3g} ± {turned.error:.2g} kg·m²: mass · lever · kA "
+        f"Moment of inertia {turned.value:.3g} {error}: mass · lever · kA "
         f"turning / kA straight, with a lever of {turned.lever:.3g} m{said}. Wheels and rotors are "
         "in it: if they are worth 3 to 10 % of the mass, as usual, the robot's own is "
         f"{least:.3g} to {most:.3g} kg·m²."
