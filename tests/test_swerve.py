@@ -185,7 +185,7 @@ def own_share(drive):
     return drive.mass * (drive.inertia + rotors * lever**2) / (drive.mass + rotors)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(
     mass=st.floats(40.0, 68.0),
     inertia=st.floats(2.5, 8.0),
@@ -449,6 +449,7 @@ EDWIN = "StuyPulse+Edwin~sysid~data~drivetrain"
 CUBE = "StuyPulse+SwerveSysId~client~data.json"
 
 
+@pytest.mark.slow
 @pytest.mark.shared
 def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real, capsys):
     """A tank of 2022, some 55 kg; its track width is not known, 0.55 m is ordinary."""
@@ -464,6 +465,7 @@ def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real,
     assert found["error"] > 0.05 * found["value"]  # the log is poor, and the error says so
 
 
+@pytest.mark.slow
 @pytest.mark.shared
 def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsys):
     """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
@@ -478,6 +480,7 @@ def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsy
     assert "lever" in {one["code"] for one in json.loads(said)["warnings"]}
 
 
+@pytest.mark.slow
 @pytest.mark.shared
 def test_wheels_read_while_turning_need_a_lever(real, capsys):
     code, _, why = run(
@@ -489,6 +492,7 @@ def test_wheels_read_while_turning_need_a_lever(real, capsys):
     assert "Give --lever as well: trackwidth/√2" in why
 
 
+@pytest.mark.slow
 @pytest.mark.shared
 def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
     """Its velocity is the position times a factor: no gains describe it, and it is said so."""
@@ -552,6 +556,7 @@ severity = 1.0
 # ---- the solvers accept it ----
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
 def test_reconcile_finds_what_is_hidden_in_it(name):
     robot = MECHANISMS[name].hide("velocity-filter", 1.5)
