@@ -175,4 +175,11 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         lesson="07_fit_it_yourself",
         section="A filter is not free",
     ),
+    "M-LEVER": Misconception(
+        "The lever of a wheel is how far its push passes from the middle. For a tank that is half "
+        "the trackwidth; the modules of a square swerve push across the diagonal, so it is the "
+        "trackwidth divided by √2.",
+        lesson="10_swerve",
+        section="Turning on the spot: the moment of inertia",
+    ),
 }

@@ -1,7 +1,8 @@
-"""A number with a unit, as people write it: ``0,18``, ``2.5 V·s/m``, ``0.39 V*s/rad``.
+"""A number with a unit, as people write it: ``0,18``, ``2.5 V·s/m``, ``0.39 V*s/rad``, ``5 kg·m²``.
 
-A unit is read as a product of powers of volt, second, meter and radian, so any way of writing it
-will do: ``V·s²/m``, ``V/(m/s^2)``, ``V s^2 per m``, ``volt-seconds squared per meter``.
+A unit is read as a product of powers of volt, second, meter, radian, ampere and kilogram, so any
+way of writing it will do: ``V·s²/m``, ``V/(m/s^2)``, ``V s^2 per m``, ``volt-seconds squared per
+meter``.
 """
 
 import math
@@ -21,11 +22,11 @@ class NotAUnitError(ValueError):
 
 @dataclass(frozen=True)
 class Quantity:
-    """A product of powers of volt, second, meter and radian.
+    """A product of powers of volt, second, meter, radian, ampere and kilogram.
 
     Args:
-        factor: how many V^a·s^b·m^c·rad^d one of it is.
-        powers: a, b, c and d.
+        factor: how many V^a·s^b·m^c·rad^d·A^e·kg^f one of it is.
+        powers: a to f.
     """
 
     factor: float
@@ -39,28 +40,35 @@ class Quantity:
         return Quantity(self.factor * other.factor**power, powers)
 
 
-ONE = Quantity(1.0, (0, 0, 0, 0))
+ONE = Quantity(1.0, (0, 0, 0, 0, 0, 0))
 _TURN = 2.0 * math.pi
 SYMBOLS: dict[str, Quantity] = {
     symbol: measure
     for symbols, measure in (
         ("1", ONE),
-        ("v volt volts", Quantity(1.0, (1, 0, 0, 0))),
-        ("mv millivolt millivolts", Quantity(1e-3, (1, 0, 0, 0))),
-        ("s sec second seconds", Quantity(1.0, (0, 1, 0, 0))),
-        ("ms millisecond milliseconds", Quantity(1e-3, (0, 1, 0, 0))),
-        ("min minute minutes", Quantity(60.0, (0, 1, 0, 0))),
-        ("m meter meters metre metres", Quantity(1.0, (0, 0, 1, 0))),
-        ("cm", Quantity(0.01, (0, 0, 1, 0))),
-        ("mm", Quantity(0.001, (0, 0, 1, 0))),
-        ("ft foot feet", Quantity(0.3048, (0, 0, 1, 0))),
-        ("in inch inches", Quantity(0.0254, (0, 0, 1, 0))),
-        ("rad radian radians", Quantity(1.0, (0, 0, 0, 1))),
-        ("rot rotation rotations turn turns rev", Quantity(_TURN, (0, 0, 0, 1))),
-        ("deg degree degrees °", Quantity(math.pi / 180.0, (0, 0, 0, 1))),
-        ("rps", Quantity(_TURN, (0, -1, 0, 1))),
-        ("rpm", Quantity(_TURN / 60.0, (0, -1, 0, 1))),
-        ("mps", Quantity(1.0, (0, -1, 1, 0))),
+        ("v volt volts", Quantity(1.0, (1, 0, 0, 0, 0, 0))),
+        ("mv millivolt millivolts", Quantity(1e-3, (1, 0, 0, 0, 0, 0))),
+        ("s sec second seconds", Quantity(1.0, (0, 1, 0, 0, 0, 0))),
+        ("ms millisecond milliseconds", Quantity(1e-3, (0, 1, 0, 0, 0, 0))),
+        ("min minute minutes", Quantity(60.0, (0, 1, 0, 0, 0, 0))),
+        ("m meter meters metre metres", Quantity(1.0, (0, 0, 1, 0, 0, 0))),
+        ("cm", Quantity(0.01, (0, 0, 1, 0, 0, 0))),
+        ("mm", Quantity(0.001, (0, 0, 1, 0, 0, 0))),
+        ("ft foot feet", Quantity(0.3048, (0, 0, 1, 0, 0, 0))),
+        ("in inch inches", Quantity(0.0254, (0, 0, 1, 0, 0, 0))),
+        ("rad radian radians", Quantity(1.0, (0, 0, 0, 1, 0, 0))),
+        ("rot rotation rotations turn turns rev", Quantity(_TURN, (0, 0, 0, 1, 0, 0))),
+        ("deg degree degrees °", Quantity(math.pi / 180.0, (0, 0, 0, 1, 0, 0))),
+        ("rps", Quantity(_TURN, (0, -1, 0, 1, 0, 0))),
+        ("rpm", Quantity(_TURN / 60.0, (0, -1, 0, 1, 0, 0))),
+        ("mps", Quantity(1.0, (0, -1, 1, 0, 0, 0))),
+        ("a amp amps ampere amperes", Quantity(1.0, (0, 0, 0, 0, 1, 0))),
+        ("ma", Quantity(1e-3, (0, 0, 0, 0, 1, 0))),
+        ("kg kilogram kilograms", Quantity(1.0, (0, 0, 0, 0, 0, 1))),
+        ("g gram grams", Quantity(1e-3, (0, 0, 0, 0, 0, 1))),
+        ("lb lbs pound pounds", Quantity(0.45359237, (0, 0, 0, 0, 0, 1))),
+        ("n newton newtons", Quantity(1.0, (0, -2, 1, 0, 0, 1))),
+        ("nm", Quantity(1.0, (0, -2, 2, 0, 0, 1))),  # newton meters, as people write them
     )
     for symbol in symbols.split()
 }

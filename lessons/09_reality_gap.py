@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Lesson 9: The reality gap
 #
-# *About 50 minutes. You need lessons 1 and 7. This is the last lesson: you find out what your model
-# does not know.*
+# *About 50 minutes. You need lessons 1 and 7. In this lesson you find out what your model does not
+# know.*
 #
 # **At the end you can**
 #
@@ -809,6 +809,6 @@ quick
 # speed. Can you separate them with a 1 V step?
 # </details>
 #
-# **That was the last lesson.** You can measure gains, say how far to trust them, and find out what
-# your robot does that your model does not. **Next:** `grade` in a terminal shows which exercises
-# are left.
+# You can measure gains, say how far to trust them, and find out what your robot does that your
+# model does not. `grade` in a terminal shows which exercises are left. **Next:** [Lesson 10,
+# swerve](10_swerve.ipynb), if your robot has a swerve drive.

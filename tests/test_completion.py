@@ -42,7 +42,7 @@ def complete(line, cwd=ROOT):
         ("sysid contaminate a.csv --fault enc", {"encoder-slip"}),
         ("sysid fit --met", {"--method"}),
         ("sysid fit --type ", {"simple", "elevator", "arm"}),
-        ("grade exercise1", {"exercise1", "exercise10", "exercise11", "exercise12"}),
+        ("grade exercise1", {"exercise1", "exercise10", "exercise11", "exercise12", "exercise13"}),
         ("grade watch pr", {"practice"}),
         ("grade rel", {"release"}),
     ],

@@ -218,5 +218,5 @@ def test_the_example_can_be_made_as_it_is(tmp_path, capsys):
     folder = make(path)
 
     assert f"sysid dataset {path} -o week3" in capsys.readouterr().out
-    assert len(files(folder)) == 2 * (2 * 2 + 3)  # students x (mechanisms x clean + damaged)
+    assert len(files(folder)) == 2 * (2 * 2 + 3 + 2)  # students x (mechanisms x clean + damaged)
     assert sysid("dataset", path, "--example") == 2  # what is there is not overwritten

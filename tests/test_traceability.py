@@ -25,7 +25,8 @@ EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 LESSONS = {path.stem[:2]: path for path in sorted((ROOT / "lessons").glob("*.py"))}
 HEADING = re.compile(r"^(?P<level>#{2,3}) (?:(?P<number>\d+) )?(?P<title>.+)$", re.MULTILINE)
 
-each_item = pytest.mark.parametrize("item", TABLE["item"], ids=lambda item: item["says"])
+ITEMS = [*TABLE["item"], *TABLE["added"]]
+each_item = pytest.mark.parametrize("item", ITEMS, ids=lambda item: item["says"])
 each_claim = pytest.mark.parametrize("claim", TABLE["claim"], ids=lambda claim: claim["row"])
 each_lesson = pytest.mark.parametrize("lesson", LESSONS)
 
@@ -164,10 +165,9 @@ def test_the_pointer_hint_sends_to_sections_that_are_there(name):
     _, pointer, _ = EXERCISES[name].hints
     sent = set()
     for part in re.split(r"(?=[Ll]esson \d)", pointer)[1:]:
+        lesson = re.match(r"[Ll]esson (\d+)", part)[1].zfill(2)
         lists = re.findall(r"[Ss]ections? (\d+(?:(?:, | and |, and )\d+)*)", part)
-        sent |= {
-            (f"{int(part[7]):02}", number) for one in lists for number in re.findall(r"\d+", one)
-        }
+        sent |= {(lesson, number) for one in lists for number in re.findall(r"\d+", one)}
     meant = set()
     for lesson, heading in TABLE["pointers"][name]:
         assert heading in sections(lesson), f"lesson {lesson} has no section {heading!r}"

@@ -65,8 +65,9 @@ class Mechanism:
         motor: which one drives it.
         motor_count: how many of them.
         ratio: motor turns per turn of the output.
-        radius: [m] of wheel or drum; 1 where the output's own angle is the position.
-        load: [kg] moved mass, or [kg·m²] inertia at the output where ``radius`` is 1.
+        radius: [m] of wheel or drum; 1 where the output's own angle is the position. Of a robot
+            that turns on the spot: the wheels' radius over their distance from its middle.
+        load: [kg] moved mass, or [kg·m²] inertia where the position is an angle.
         friction: [V] kS.
         drag: share by which kV exceeds the motor's own.
         spin: share by which rotors and wheels add to the load.
@@ -80,6 +81,8 @@ class Mechanism:
         stator: [A] limit of a motor's current.
         supply: [A] limit of what one controller draws.
         brownout: [V] below which the motors are taken off.
+        grip: [m/s² or rad/s²] acceleration of the load at which its wheels begin to slip; None if
+            nothing can slip.
         hidden: effects that its team does not know of.
     """
 
@@ -104,6 +107,7 @@ class Mechanism:
     stator: float = 120.0  # Phoenix 6's default
     supply: float = 70.0  # the same
     brownout: float = CONTROLLERS["roborio2"].brownout
+    grip: float | None = None
     hidden: tuple[Part, ...] = field(default=())
 
     @property

@@ -8,7 +8,7 @@ controller also ends a test shortly before the end of the travel.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
+from sim.bench.slip import slip_voltage, spin_wheels, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -68,17 +69,17 @@ def simulate(
     _check_period(period)
     model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
-    state, start, last, cut = State(), PAUSE, 0.0, False
+    state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
-        cut = state.body[OFF_UNTIL] > 0.0 or cut
+        cut = cut or _is_cut(state)
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
-        body = State.cold_at(_begin(mechanism, test, last)).body
-        begun = replace(state, body=body, memory=state.memory.copy())
-        state = replace(begun, body=begun.body.copy(), memory=begun.memory.copy())
+        begun, state = _at_rest(state, _begin(mechanism, test, last))
         track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
+        track, left_out = _slip(mechanism, time, voltage, wires=wires, track=track)
+        gripped = gripped or left_out
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
@@ -92,7 +93,31 @@ def simulate(
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
-    return log.add_doubts(_brownout(mechanism)) if cut or state.body[OFF_UNTIL] > 0.0 else log
+    return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
+
+
+def _at_rest(state: State, position: float) -> tuple[State, State]:
+    """The state at rest somewhere, with what a motor remembers; twice, as a run changes its own."""
+    body = State.cold_at(position).body
+    begun = replace(state, body=body, memory=state.memory.copy())
+    return begun, replace(begun, body=body.copy(), memory=begun.memory.copy())
+
+
+def _is_cut(state: State) -> bool:
+    """Whether the robot controller has taken the motors off."""
+    return bool(state.body[OFF_UNTIL] > 0.0)
+
+
+def _slip(
+    mechanism: Mechanism, time: Array, command: Array, *, wires: Array, track: Track
+) -> tuple[Track, bool]:
+    """The motion with wheels that slip, and whether hidden effects forbid to simulate that."""
+    if not wheels_slip(mechanism, track):
+        return track, False
+    if mechanism.hidden:
+        return track, True
+    slipped = spin_wheels(mechanism, time=time, command=command, wires=wires, track=track)
+    return slipped, False
 
 
 def _record_run(
@@ -115,12 +140,21 @@ def _check_period(period: float) -> None:
         )
 
 
-def _brownout(mechanism: Mechanism) -> Doubt:
-    return Doubt(
-        "brownout",
-        f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
-        "motors off again and again. Use a smaller step or a better battery.",
-    )
+def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
+    """What is odd about a log: motors that were cut off, and slip that was left out."""
+    if gripped:
+        yield Doubt(
+            "slip-left-out",
+            f"The wheels would slip here, from {slip_voltage(mechanism):.1f} V at a start on. "
+            "Where an effect is hidden they are simulated as if they gripped. Use a smaller step, "
+            "or hide nothing.",
+        )
+    if cut:
+        yield Doubt(
+            "brownout",
+            f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
+            "motors off again and again. Use a smaller step or a better battery.",
+        )
 
 
 def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:

@@ -57,8 +57,9 @@ def hide(case: Case, *, rng: np.random.Generator) -> Hidden:
         rng: the source of chance.
     """
     mechanism = replace(
-        MECHANISMS[case.mechanism].draw(rng), battery=STIFF, stator=UNLIMITED, supply=UNLIMITED
-    )
+        MECHANISMS[case.mechanism].draw(rng), battery=STIFF, stator=UNLIMITED, supply=UNLIMITED,
+        grip=None,
+    )  # fmt: skip
     if any((case.mechanism, name) in GIVEN_AS_SIMPLE for name in case.hidden):
         mechanism = replace(mechanism, lift=0.0, type="simple")
     scale = replace(mechanism.scale, step=SLOWEST_STEP)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
+from sim.cli.fit.inertia import add_inertia, turning_options
 from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
 from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
@@ -19,10 +20,12 @@ from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
+    from sim.cli.fit.inertia import Turning
     from sim.cli.fit.parts import Parts
     from sim.core.log import Log
     from sim.fit import Fit
     from sim.fit.feedback_trial import FeedbackTrial, OwnGains
+    from sim.fit.physics.inertia import MomentOfInertia
 
 LOOPS = ("velocity", "position")
 
@@ -80,6 +83,7 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     help="Of wheel or drum [m], for --driven-by and --paste.",
 )
 @click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for --driven-by.")
+@turning_options
 @click.option(
     "--paste",
     type=click.Choice((*LANGUAGES, *CONTROLLERS)),
@@ -113,6 +117,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     ratio: float | None,
     radius: float,
     load: float | None,
+    turning: "Turning | None",
     paste: str | None,
     season: str,
     own_kp: float | None,
@@ -128,20 +133,19 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     Files of one test each are joined. Sides of a drivetrain, modules and whole recordings are
     fitted alone, compared, and their gains averaged. Directions are compared, too; not with --json
-    and --paste, which should be quick.
+    and --paste, which should be quick. --straight prints the moment of inertia, too.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
     from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
 
-    _go_together(ctx, paste=paste, own=own_kp, html=html, plot=plot)
-    own = _own(loop, kp=own_kp, kd=own_kd)
+    own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    velocity = None if ignore_velocity else velocity_scale
     parts = read_parts(
-        files, units=units, type=type_, motor=motor, entries=entries, velocity=velocity, pick=pick
-    )
+        files, units=units, type=type_, motor=motor, entries=entries, pick=pick,
+        velocity=None if ignore_velocity else velocity_scale,
+    )  # fmt: skip
     log = joined_log(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
     pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
@@ -149,12 +153,12 @@ def fit(  # noqa: PLR0917 - click passes options by name
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
+    found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
-    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json())
+    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
     _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
-    told.echo(as_json=as_json, paste=paste, season=int(season))
-    return NOT_RIGHT if any(doubt.grave for doubt in found.doubts) else DONE
+    return told.echo(as_json=as_json, paste=paste, season=int(season))
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,15 +172,17 @@ class _FitOutput:
     tried: "tuple[FeedbackTrial, ...]"
     notes: tuple[str, ...]
     parts: dict[str, dict[str, object]]
+    turned: "MomentOfInertia | None" = None
 
-    def echo(self, *, as_json: bool, paste: str | None, season: int) -> None:
-        """Print what was asked for: robot code, JSON, or text for people."""
+    def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
+        """Print what was asked for, robot code, JSON, or text for people; the exit code."""
         if paste:
             click.echo(paste_code(self.found, paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:
             self.show()
+        return NOT_RIGHT if any(doubt.grave for doubt in self.found.doubts) else DONE
 
     def to_json(self) -> dict[str, object]:
         """Plain data; the learner's own gains and those of parts only where there are any."""
@@ -189,6 +195,7 @@ class _FitOutput:
         ]
         said = self.found.to_json(PRESETS[self.preset])
         said |= {"own_feedback": own[0]} if own else {}
+        said |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
         return said | ({"parts": self.parts} if self.parts else {})
 
     def show(self) -> None:
@@ -223,25 +230,30 @@ def _write(
         write_picture(report, plot)
 
 
-def _go_together(
-    ctx: click.Context, *, paste: str | None, own: float | None, html: Path | None,
-    plot: Path | None,
-) -> None:  # fmt: skip
+def _go_together(ctx: click.Context) -> None:
     """Refuse options that would be ignored."""
+    paste = ctx.params["paste"]
     given = ctx.get_parameter_source("preset") is not click.core.ParameterSource.DEFAULT
     if paste and given and ctx.params["preset"] != "default":
         raise click.UsageError(
             "--paste writes gains for WPILib's own PIDController, so --preset would change "
             "nothing. Leave out --paste to see that controller's gains."
         )
-    if paste and own is not None and html is None and plot is None:
+    if (
+        paste
+        and ctx.params["own_kp"] is not None
+        and not (ctx.params["html"] or ctx.params["plot"])
+    ):
         raise click.UsageError(
             "--paste prints code only, so --own-kp would be tried unseen. Leave out one of them."
         )
 
 
-def _own(loop: str | None, *, kp: float | None, kd: float | None) -> "OwnGains | None":
-    """The learner's gains, if some were given."""
+def _read_own_gains(
+    ctx: click.Context, loop: str | None, *, kp: float | None, kd: float | None
+) -> "OwnGains | None":
+    """The learner's gains, if some were given; refuses options that would be ignored."""
+    _go_together(ctx)
     from sim.fit.feedback_trial import OwnGains  # noqa: PLC0415 - --help must not wait for it
 
     if kp is None:

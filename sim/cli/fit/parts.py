@@ -21,6 +21,7 @@ Parts = Mapping[str, "Log"]  # name -> its log
 
 SIDE, MOTOR, FILE = "side", "motor", "file"
 SIDES = ("left", "right")
+SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
 SHOWN = 4  # [parts] whose gains a sentence lists; of more, the lowest and the highest
 
 
@@ -160,10 +161,14 @@ def _agree(fits: Mapping[str, "Fit"], kind: str) -> str:
         f"{gain} {' and '.join(f'{one.gains[gain]:{digits}}' for one in alike.values())}"
         for gain, digits in (("kV", ".4g"), ("kA", ".3g"))
     ]
+    values = [one.gains["kV"] for one in fits.values()]
+    apart = (max(values) - min(values)) / abs(sum(values) / len(values))
+    unsure = SURELY * max(one.errors["kV"] / abs(one.gains["kV"]) for one in fits.values())
+    agree = "agree within their errors" if apart <= unsure else f"agree within {apart:.1%}"
     names = "Left and right" if kind == SIDE else f"All {len(fits)} {kind}s"
     some = f" ({' and '.join(alike)}:" if kind != SIDE else ":"
     end = ")." if kind != SIDE else "."
     return (
-        f"{names}, each fitted alone, agree within their errors{some} {', '.join(gains)}{end} "
+        f"{names}, each fitted alone, {agree}{some} {', '.join(gains)}{end} "
         "The gains are their weighted mean."
     )

@@ -48,6 +48,10 @@ VOLTAGES = {
 PHOENIX = {"position": "rotations", "velocity": "rotations per second"}
 """Units of CTRE's Phoenix 6, which an export as CSV does not keep."""
 _PHOENIX = re.compile(r"phoenix ?6|talonfxs?\b|cancoder", re.IGNORECASE)
+PIGEON = {"position": "degrees", "velocity": "degrees per second"}
+"""Units of CTRE's gyro, alone among the devices of Phoenix 6."""
+_PIGEON = re.compile(r"pigeon", re.IGNORECASE)
+_RATE = re.compile(r"rotational[ _]?rate", re.IGNORECASE)
 SHORT = {"rpm": "rotation per minute", "rps": "rotation per second"}
 
 
@@ -115,6 +119,8 @@ def find_unit_text(entry: Entry, signal: str) -> str:
     words = split_words(re.split(r"[/:]", name)[-1])
     ends = (" ".join(words[first:]) for first in range(len(words)))
     found = next((end for end in ends if parse_signal_unit(end, signal)), "")
+    if _PIGEON.search(entry.name):
+        return found or PIGEON.get(signal, "")
     return found or (PHOENIX.get(signal, "") if _PHOENIX.search(entry.name) else "")
 
 
@@ -166,9 +172,22 @@ def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str
             code, what = problem
             name = signals[signal].name
             doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
+    if _RATE.search(signals["voltage"].name):
+        doubts.append(_rate_doubt(signals["voltage"].name, where))
     if stands_in:
         factors["velocity"] = factors["position"]
     return EntryScale(units, factors, tuple(doubts))
+
+
+def _rate_doubt(name: str, where: str) -> Doubt:
+    """The doubt about a rate that stands where a voltage is expected, as CTRE's program logs it."""
+    return Doubt(
+        "rate-as-voltage",
+        f"{where}: {name!r} is no voltage but the rate, in rad/s, that CTRE's rotation routine "
+        "asks for. The gains describe how the modules follow it: kV is about 1 for each rad/s, and "
+        "no moment of inertia follows from kA. For that, name the MotorVoltage of a drive motor "
+        "with --voltage.",
+    )
 
 
 def _factor(said: StatedUnit | None, units: str, *, ordered: bool) -> float:

@@ -1,0 +1,219 @@
+"""Exercise 13: a swerve drive, from its logs to the settings of a path planner."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from grader.answer import AnswerKey, judge_number
+from grader.check import check
+from grader.choice_answer import check_choice
+from grader.student_files import Made, write_student_files
+from grader.submission import read_answers
+from grader.wrong_number import Scene
+
+from .drawn import draw
+from .drive import MODULES, Variant
+from .slips import lookalikes
+
+FILES = ("answers.toml",)
+HERE = Path(__file__).resolve().parent
+RATES = ("volts", "radians-per-second", "degrees-per-second", "rotations-per-second")
+RAMP, TIMEOUT = 0.5, 8.0  # [V/s], [s] of both routines
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What the checks look at."""
+
+    given: Mapping[str, object]
+    key: AnswerKey
+    variant: Variant
+
+
+def prepare(student: str, *, say: Callable[[str], None]) -> None:
+    """Make the learner's files, where they are not there as they were made."""
+    files = made(draw(student))
+    write_student_files(files, exercise=HERE, student=student, what="files", say=say)
+
+
+def made(variant: Variant) -> dict[str, Made]:
+    """File -> what makes it; all noise comes from the variant's own seed."""
+
+    def straight(path: Path) -> None:
+        import numpy as np  # noqa: PLC0415 - not where the file is there already
+
+        from sim.bench.routine import Routine  # noqa: PLC0415 - the same
+        from sim.bench.swerve_logs import record_modules, write_modules  # noqa: PLC0415 - the same
+
+        routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
+        rng = np.random.default_rng([variant.seed, 1])
+        logs = record_modules(variant.drive, routine, rng=rng, radii=variant.radii)
+        write_modules(logs, path)
+
+    def turning(path: Path) -> None:
+        import numpy as np  # noqa: PLC0415 - the same
+
+        from sim.bench.routine import Routine  # noqa: PLC0415 - the same
+        from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
+        from sim.bench.swerve_logs import write_rotation  # noqa: PLC0415 - the same
+
+        routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
+        rng = np.random.default_rng([variant.seed, 2])
+        log = simulate(variant.drive.rotation, routine, rng=rng)
+        write_rotation(log, path, volts_per_rate=variant.volts_per_rate)
+
+    def push(path: Path) -> None:
+        import numpy as np  # noqa: PLC0415 - the same
+
+        from sim.bench.swerve_logs import record_wall_push  # noqa: PLC0415 - the same
+
+        one = record_wall_push(variant.drive, rng=np.random.default_rng([variant.seed, 3]))
+        rows = zip(one.time, one.voltage, one.current, one.velocity, strict=True)
+        head = "time_s,motor_voltage,stator_current,wheel_velocity\n"
+        text = "".join(f"{t:.2f},{u:.3f},{i:.1f},{v:.3f}\n" for t, u, i, v in rows)
+        path.write_bytes((head + text).encode())
+
+    return {
+        "given.toml": _told(variant),
+        "straight.wpilog": straight,
+        "turning.wpilog": turning,
+        "push.csv": push,
+    }
+
+
+def _told(variant: Variant) -> str:
+    """What a learner gets to know about the robot, and what was read after the slow spin."""
+    import numpy as np  # noqa: PLC0415 - numpy only where it is needed
+
+    from sim.bench.swerve_logs import record_spin  # noqa: PLC0415 - the same
+
+    drive, rng = variant.drive, np.random.default_rng([variant.seed, 4])
+    spin = record_spin(drive, turns=variant.turns, rng=rng, radii=variant.radii)
+    motor = drive.motor
+    stall = 12.0 / motor.resistance
+    lines = [
+        "# Your own swerve drive for exercise 13. Only read here; answers go into answers.toml.",
+        "# straight.wpilog, turning.wpilog and push.csv lie beside this file.",
+        "",
+        "[robot]",
+        f"mass = {variant.mass:g}  # [kg] with battery and bumpers",
+        f"trackwidth = {variant.trackwidth:g}  # [m] between two neighboring wheels; it is square",
+        f'motor = "{motor.name}"  # one in each of the four modules',
+        f"stall_current = {stall:.4g}  # [A] of one motor at 12 V, by its data sheet",
+        f"stall_torque = {motor.torque_constant * stall:.4g}  # [N·m] of one motor at 12 V",
+        f"ratio = {variant.ratio:g}  # turns of the motor for one turn of the wheel",
+        f"wheel_radius = {variant.radius:g}  # [m] in the code, for all four wheels",
+        "",
+        "[spin]  # slowly, on the spot",
+        f"gyro = {math.degrees(spin.turned):.1f}  # [deg] the robot turned",
+        "",
+        "[spin.motor_turns]  # [rot] of each drive motor meanwhile",
+        *(f"{module} = {turns:.2f}" for module, turns in spin.motor_turns.items()),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def read(path: Path, *, student: str) -> Answers:
+    """The answers, and what they are held against.
+
+    Raises:
+        UnreadableFile: the file cannot be read.
+    """
+    given = {name.lower(): value for name, value in read_answers(path).items()}
+    variant = draw(student)
+    named = {name: given.get(name.lower()) for name in variant.asked}
+    scene = Scene(ratio=variant.ratio, motors=4, ramp=RAMP, lookalikes=lookalikes(variant))
+    return Answers({**given, **named}, AnswerKey(variant.asked, scene), variant)
+
+
+@check(points=1)
+def ks(answers: Answers) -> str | None:
+    """The kS of going straight, the voltage that friction takes."""
+    return judge_number("kS", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def kv(answers: Answers) -> str | None:
+    """The kV of going straight, volts for each meter per second."""
+    return judge_number("kV", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def ka(answers: Answers) -> str | None:
+    """The kA of going straight, volts for each meter per second, gained in a second."""
+    return judge_number("kA", answers.given, answers.key, points=1)
+
+
+@check(points=2)
+def worn(answers: Answers) -> None:
+    """The module whose wheel is worn."""
+
+    def why(found: str) -> tuple[str, str]:
+        return (
+            f"a smaller wheel turns more often for the same way. Compare the kV of {found} with "
+            "the other three: fit each with --motor"
+        ), ""
+
+    check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
+
+
+@check(points=2)
+def worn_radius(answers: Answers) -> str | None:
+    """The radius of the worn wheel, from the slow spin."""
+    return judge_number("worn_radius", answers.given, answers.key, points=2)
+
+
+@check(points=1)
+def lever(answers: Answers) -> str | None:
+    """The lever: how far the push of a wheel passes from the middle."""
+    return judge_number("lever", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def rate_unit(answers: Answers) -> None:
+    """What the entry Rotational_Rate is measured in."""
+
+    def why(found: str) -> tuple[str, str]:
+        if found == "volts":
+            return (
+                "the routine calls it volts because SysId knows nothing else. What does the "
+                "program do with the number?"
+            ), "M-UNITS"
+        return (
+            "compare it with the gyro's velocity at the end of a ramp: they are about equal only "
+            "after you convert one"
+        ), "M-UNITS"
+
+    also = {"rad/s": RATES[1], "deg/s": RATES[2], "rot/s": RATES[3], "V": RATES[0]}
+    check_choice(answers.given.get("rate_unit"), RATES[1], RATES, why=why, also=also)
+
+
+@check(points=2)
+def ka_turning(answers: Answers) -> str | None:
+    """The kA of turning on the spot, volts for each radian per second, gained in a second."""
+    return judge_number("kA_turning", answers.given, answers.key, points=2)
+
+
+@check(points=2)
+def inertia(answers: Answers) -> str | None:
+    """The moment of inertia."""
+    return judge_number("inertia", answers.given, answers.key, points=2)
+
+
+@check(points=1)
+def slip_current(answers: Answers) -> str | None:
+    """The current of one motor at which the wheels begin to slip."""
+    return judge_number("slip_current", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def top_speed(answers: Answers) -> str | None:
+    """PathPlanner's true max drive speed, at 12 V."""
+    return judge_number("top_speed", answers.given, answers.key, points=1)
+
+
+@check(points=1)
+def max_torque(answers: Answers) -> str | None:
+    """Choreo's motor max torque: what one motor gives at the slip current."""
+    return judge_number("max_torque", answers.given, answers.key, points=1)

@@ -1,0 +1,520 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Lesson 10: Swerve
+#
+# *About 45 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
+#
+# **At the end you can**
+#
+# - say what CTRE's three swerve routines measure, and in which units;
+# - fit each module alone and all of them together, and find a worn wheel;
+# - find the radius of a wheel from a slow spin;
+# - find the **moment of inertia** from two tests, with the right lever;
+# - find the **slip current** from a push at a wall;
+# - put these numbers into PathPlanner and Choreo.
+
+# %% [markdown]
+# ## 1 Why: a planner believes your numbers
+#
+# A swerve drive has four **modules**. Each has a wheel, a **drive motor** that turns the wheel, and
+# a **steer motor** that points it. A swerve robot can drive in any direction and turn at the same
+# time. PathPlanner and Choreo plan such paths for you. But they know only what you tell them: mass,
+# moment of inertia, wheel radius, current limit.
+#
+# If you tell a planner that your robot is easier to turn than it is, it plans turns that the wheels
+# cannot do. The robot is late in every curve. So today you measure what the planners ask for.
+#
+# <details><summary>For mentors: what the planners ask for, with source</summary>
+#
+# > **Lesson says:** "Required for accurate path following with PathPlanner or Choreo. kV accuracy
+# > directly determines how well trajectories track."
+# >
+# > **Source says:** neither planner asks for kV. PathPlanner asks for mass, moment of inertia,
+# > wheel radius, gearing, true top speed, wheel friction and current limit; Choreo for mass, moment
+# > of inertia, wheel radius, gearing, and the speed and torque of a motor. kV and kA stay in your
+# > drive code, which has to follow the plan.
+# > ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
+# >
+# > **Try it:** open your planner's settings. Which of them did you measure, and which did you
+# > guess?
+# </details>
+#
+# Our robot has four Kraken X60, 4 inch wheels, 60 kg. Its wheels stand in a square.
+
+# %%
+import ipywidgets as widgets
+import numpy as np
+
+import sim
+from sim.bench.simulate import simulate
+from sim.bench.slip import slip_voltage
+from sim.bench.swerve import SwerveDrive
+from sim.bench.swerve_logs import record_modules, record_spin, record_wall_push
+from sim.fit import fit
+from sim.fit.physics.inertia import moment_of_inertia
+from sim.fit.pooled import pool_fits
+from sim.physics.motors import find_motor
+from sim.plot import Picture, Table, plot_curves, show_interactive
+from sim.teaching.prediction import Prediction
+
+robot = SwerveDrive(
+    motor=find_motor("krakenX60"),
+    ratio=6.75,
+    wheel_radius=0.0508,  # [m]
+    trackwidth=0.6,  # [m] between two neighboring wheels
+    mass=60.0,  # [kg]
+    inertia=5.0,  # [kg·m²] the team does not know this number yet
+    wheel_inertia=0.0015,  # [kg·m²] of one wheel, with gears and rotor
+    friction=0.15,  # [V]
+)
+print(f"A square robot: {robot.trackwidth} m wide, {robot.mass:.0f} kg.")
+
+# %% [markdown]
+# ## 2 The model: three routines, three loads
+#
+# CTRE's Tuner X writes a program for your swerve drive. It contains three SysId routines. Only one
+# is active; you choose it in the code.
+#
+# | routine | what moves | the "voltage" | gives |
+# |---|---|---|---|
+# | translation | the robot, wheels **locked straight** | volts of the drive motors | kS, kV, kA |
+# | steer | the wheels, in place | volts of the steer motors | gains of the steering |
+# | rotation | the robot, on the spot | **a rate in rad/s** | heading control; inertia |
+#
+# ([Phoenix 6 docs:
+# SysIdSwerveRotation](https://api.ctr-electronics.com/phoenix6/latest/java/com/ctre/phoenix6/swerve/SwerveRequest.SysIdSwerveRotation.html))
+#
+# Look at the third line. SysId knows only volts, so the program writes "volts". But the number is a
+# rate: how fast the robot should turn. Section 5 shows what follows from that.
+#
+# The motors are the same in translation and rotation. Only the **load** differs:
+#
+# - straight, the wheels push the **mass**;
+# - on the spot, they push against the **moment of inertia**. It says how hard it is to make the
+#   robot turn. Mass far from the middle counts more.
+
+# %% [markdown]
+# ## 3 Going straight: each module, and all
+#
+# In the translation test all four wheels point forward. A log of it has four voltages, four
+# positions and four velocities. You can fit each module alone. You can also **pool** them: fit each
+# one, then take the mean.
+#
+# On the back left module of our robot the wheel's rubber is worn, so that wheel is smaller. The
+# code does not know it. All wheels roll on the same floor, and all motors get the same voltage.
+#
+# **Predict:**
+
+# %%
+guess_worn = Prediction(
+    "What does the fit of the module with the smaller wheel show?",
+    "the same gains: it is the same robot",
+    "a smaller kV than the others",
+    "a larger kV than the others",
+)
+guess_worn
+
+# %%
+gentle = sim.Routine(ramp=0.5, step=1.8, timeout=8.0)
+modules = record_modules(robot, gentle, rng=np.random.default_rng(1), radii={"back-left": 0.0484})
+fits = {name: fit(log) for name, log in modules.items()}
+pooled = pool_fits(fits)
+print(guess_worn.reveal("a smaller kV than the others"))
+Table(
+    ("module", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]"),
+    (
+        *((name, *one.gains.values()) for name, one in fits.items()),
+        ("all, pooled", *pooled.gains.values()),
+    ),
+)
+
+# %% [markdown]
+# ### Explain
+#
+# A smaller wheel turns more often on the same way. The code multiplies these turns with the radius
+# of a *new* wheel, so this module reports more meters than there were. More meters per second at
+# the same voltage: a smaller kV.
+#
+# The three other modules agree to the last digit. That is no accident: the floor couples the
+# wheels. A module that rubs slows down *all* of them, and its own fit looks like the others. To
+# find a module that rubs, lift the robot and turn each wheel by hand.
+#
+# So **compare the modules first, then pool**. The mean of three good wheels and a worn one is right
+# for none of them. `sysid fit` compares them for you and says which two are furthest apart.
+
+# %% [markdown]
+# ## 4 A slow spin: how large is a wheel?
+#
+# Rubber wears, and the wheel sinks into the carpet. A tape measure does not see that. But a spin
+# does. Turn the robot slowly on the spot, a few times round. The gyro counts the angle, and each
+# drive motor counts its turns.
+#
+# Each wheel rolls on a circle around the middle of the robot:
+#
+# > way of a wheel = angle of the robot [rad] · distance of the wheel from the middle
+#
+# The same way is 2π · radius · turns of the wheel. The wheels of a square robot stand in its
+# corners. With trackwidth T, the distance from the middle is half of the diagonal: **T/√2**.
+
+# %%
+spin = record_spin(robot, turns=6.0, rng=np.random.default_rng(2), radii={"back-left": 0.0484})
+distance = robot.trackwidth / np.sqrt(2.0)
+rows = []
+for name, motor_turns in spin.motor_turns.items():
+    wheel_turns = motor_turns / robot.ratio
+    radius = spin.turned * distance / (2 * np.pi * wheel_turns)
+    rows.append((name, motor_turns, 1000 * radius))
+print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.2f} rad.")
+Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
+
+# %% [markdown]
+# The back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius into the code.
+# AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs: TalonFX
+# Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template))
+
+# %% [markdown]
+# ## 5 Turning on the spot: the moment of inertia
+#
+# Now the wheels stand across the diagonals, and the robot turns on the spot. Two tests, the same
+# motors:
+#
+# - straight, kA is a constant of the motors times the **mass**;
+# - turning, kA is the same constant times **moment of inertia / lever**.
+#
+# The **lever** is how far the push of a wheel passes from the middle. Divide one kA by the other,
+# and the constant is gone:
+#
+# > I = mass · lever · kA_turning / kA_straight
+#
+# One kA tells the mass, the other tells the inertia. A single kA cannot tell both.
+#
+# ### CTRE's log: a rate and degrees
+#
+# For kA_turning you need **volts**. CTRE's log has two columns that invite a mistake:
+#
+# - `Rotational_Rate` is the rate that the program asks for, in rad/s. Take the `MotorVoltage` of a
+#   drive motor instead.
+# - The gyro (Pigeon 2) logs **degrees**. Motors log rotations. The formula needs **radians**.
+#
+# ### Which lever?
+#
+# PathPlanner's and Choreo's pages give the formula with *half the trackwidth*. That is right for a
+# tank: its wheels push straight forward, T/2 beside the middle. The modules of a square swerve push
+# across the diagonal.
+#
+# Our robot really has 5.0 kg·m². **Predict:**
+
+# %%
+guess_lever = Prediction(
+    "You use half the trackwidth for a square swerve. What do you get?",
+    "too little, about 3.7 kg·m²",
+    "about right",
+    "too much, about 7 kg·m²",
+)
+guess_lever
+
+# %%
+turning = fit(simulate(robot.rotation, gentle, rng=np.random.default_rng(3))).in_units("radians")
+straight = fits["front-left"]
+levers = {"half the trackwidth, T/2": 0.5 * robot.trackwidth, "half the diagonal, T/√2": distance}
+found = {
+    name: moment_of_inertia(turning, straight, mass=robot.mass, lever=lever)
+    for name, lever in levers.items()
+}
+print(f"kA straight {straight.gains['kA']:.4f} V·s²/m")
+print(f"kA turning  {turning.gains['kA']:.4f} V·s²/rad")
+print(guess_lever.reveal("too little, about 3.7 kg·m²"))
+Table(
+    ("lever", "lever [m]", "moment of inertia [kg·m²]"),
+    tuple((name, one.lever, one.value) for name, one in found.items()),
+)
+
+# %% [markdown]
+# With the wrong lever the answer is too small by a factor of √2, whatever the robot.
+#
+# ### The log tells the lever
+#
+# You can check the lever without a tape measure. A wheel runs at lever · ω, with ω the rate of the
+# robot in rad/s. So the two kV have the same quotient:
+
+# %%
+quotient = turning.gains["kV"] / straight.gains["kV"]
+print(f"kV turning / kV straight = {quotient:.3f} m. T/√2 = {distance:.3f} m.")
+for doubt in found["half the trackwidth, T/2"].doubts:
+    print(doubt.message)
+
+# %% [markdown]
+# This check also finds degrees that were taken for radians: then the "lever" is 24 m.
+#
+# ### Why 5.2 and not 5.0?
+#
+# Wheels, gears and rotors also have to spin up. They are in both kA, but not in the same share.
+# Usually they are worth 3 to 10 % of the mass. Then the result is a few percent too large. Do not
+# trust the third digit.
+#
+# <details><summary>Want to know why? How much the rotors change</summary>
+#
+# Let the wheels and rotors be worth a mass m_w. Straight they add m_w to the mass; turning they add
+# m_w · lever² to the inertia. The robot's own inertia is about I − s · (mass · lever² − I), with
+# s = m_w / mass. `sysid fit` prints the range for s from 3 to 10 %.
+# </details>
+
+# %%
+least, most = found["half the diagonal, T/√2"].without_rotors
+print(f"Without wheels and rotors: {least:.2f} to {most:.2f} kg·m².")
+
+# %% [markdown]
+# ## 6 The push at a wall: when do the wheels slip?
+#
+# The carpet can hold only so much. If a motor pushes harder, the wheel spins on the floor: it
+# **slips**. While it slips, your log shows the speed of the wheel, not the speed of the robot.
+#
+# CTRE's program drives its translation test with a step of 4 V. **Predict:**
+
+# %%
+guess_step = Prediction(
+    "At 4 V, what do the wheels of this robot do in the first tenth of a second?",
+    "they roll, and the robot speeds up with them",
+    "they spin up almost at once, and the robot comes later",
+)
+guess_step
+
+
+# %%
+def speeds(step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Time since a step of voltage, speed of the wheels, speed of the robot."""
+    routine = sim.Routine(step=step, timeout=0.6, kinds=("dynamic",))
+    log = simulate(robot.translation, routine, rng=np.random.default_rng(4), period=0.005)
+    run = log.runs[0]
+    since = run.time - run.time[0]
+    floor = 9.81 * robot.grip * since  # the carpet gives the robot no more than this
+    return since, run.velocity, np.minimum(run.velocity, floor)
+
+
+def launch(step: float) -> Picture:
+    """Speed of the wheels and of the robot after a step of voltage."""
+    since, wheels, body = speeds(step)
+    lines = {"wheels (your log)": wheels, "robot": body}
+    return plot_curves(since, lines, xlabel="time since the step [s]", ylabel="speed [m/s]")
+
+
+limit = slip_voltage(robot.translation)
+print(guess_step.reveal("they spin up almost at once, and the robot comes later"))
+print(f"This robot slips from {limit:.1f} V on.")
+show_interactive(
+    launch, step=widgets.FloatSlider(4.0, min=1.0, max=5.0, step=0.5, description="step [V]")
+)
+
+# %% [markdown]
+# No slider on your screen? Change the number here:
+
+# %%
+launch(step=4.0)
+
+# %% [markdown]
+# The same in numbers, a fiftieth of a second after the step:
+
+# %%
+Table(
+    ("step [V]", "wheels [m/s]", "robot [m/s]"),
+    tuple((f"{step:g}", *(float(one[4]) for one in speeds(step)[1:])) for step in (1.8, 3.0, 4.0)),
+)
+
+# %% [markdown]
+# A fit of such a log finds a kA that is far too large, because the wheels wait for the robot.
+# Choose a step below the slip, here about 1.8 V. A heavier robot, or one with weaker motors, may
+# take more.
+#
+# ### Measure it
+#
+# Put the robot against a **wall**, bumper on, wheels straight. Raise the voltage slowly. At first
+# nothing turns, and the current grows with the voltage. Then the wheels break loose.
+#
+# *Safety: nobody stands near the robot or behind the wall. Stop at once when the wheels spin; they
+# burn the carpet. Do it once or twice, not ten times.*
+
+# %%
+push = record_wall_push(robot, rng=np.random.default_rng(5))
+first = int(np.argmax(push.velocity > 0.0))
+slip_current = float(push.current[first - 1])
+print(f"Just before the wheels turn, one motor takes {slip_current:.0f} A.")
+plot_curves(
+    push.time,
+    {"current of a motor [10 A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
+    xlabel="time [s]",
+    ylabel="current and speed",
+    marked=(float(push.time[first - 1]), slip_current / 10),
+)
+
+# %% [markdown]
+# This is the **slip current**. Set the stator current limit of the drive motors to it. (CTRE calls
+# it `kSlipCurrent`; its program starts with 120 A.) Then a driver can push the stick as hard as
+# they like, and the wheels keep their grip. Note that the current *falls* when the wheels slip:
+# rubber that slides holds less. Take the largest value before.
+
+# %% [markdown]
+# ## 7 Into the settings
+#
+# | number | from | PathPlanner | Choreo |
+# |---|---|---|---|
+# | mass [kg], with battery and bumpers | a scale | Robot Mass | Mass |
+# | moment of inertia [kg·m²] | section 5 | Robot MOI | MoI |
+# | wheel radius [m] | section 4 | Wheel Radius | Wheel Radius |
+# | gear ratio | count teeth | Drive Gearing | Gearing |
+# | top speed [m/s] | (12 V − kS) / kV | True Max Drive Speed | |
+# | slip current [A] | section 6 | Drive Current Limit | |
+# | torque of a motor at the slip current [N·m] | data sheet | | Motor Max Torque |
+# | distances between the wheels [m] | tape measure | Module Offsets | Wheelbase, Trackwidth |
+#
+# A motor's torque is proportional to its current. So the torque at the slip current is
+# stall torque · slip current / stall current. For the top speed, PathPlanner's page advises to
+# drive as fast as you can and read the speed; the formula is for those who lack the room. Choreo
+# advises about 80 % of the free speed for its *Motor Speed Limit*. ([Choreo docs: Robot
+# Configuration](https://choreo.autos/document-settings/robot-configuration/))
+
+# %%
+kraken = robot.motor
+top_speed = (12.0 - straight.gains["kS"]) / straight.gains["kV"]
+Table(
+    ("setting", "value"),
+    (
+        ("moment of inertia [kg·m²]", found["half the diagonal, T/√2"].value),
+        ("top speed [m/s]", top_speed),
+        ("current limit [A]", slip_current),
+        ("max torque of a motor [N·m]", kraken.torque_constant * slip_current),
+    ),
+)
+
+# %% [markdown]
+# kS, kV and kA do not go into a planner. They go into your drive code (lesson 8). In CTRE's program
+# they are the gains of the drive motor, per rotation of the *motor*; in YAGSL and WPILib they are
+# per meter.
+
+# %% [markdown]
+# ## 8 Your own robot
+#
+# 1. **Straight.** Mark 5 meters of carpet. Lock the wheels straight, and run the four tests of the
+#    translation routine, with a step below the slip.
+# 2. **Compare the modules:** `sysid fit straight.wpilog`. Look for the sentence that names two
+#    modules.
+# 3. **Spin** slowly, five turns or more, on carpet. Write down gyro and motor turns.
+# 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
+#    robot, and nobody in it. Use a small step here, too.
+# 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
+#    names in your log. In the place of V comes a `MotorVoltage`, of P the gyro's `Yaw`, of W its
+#    `AngularVelocityZWorld`:
+#
+#    ```
+#    sysid fit turning.wpilog --voltage V --position P --velocity W
+#    ```
+#
+#    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
+#
+# 6. **Push** at a wall, once.
+#
+# <details><summary>For mentors: AdvantageKit and YAGSL</summary>
+#
+# AdvantageKit's templates have one routine, for going straight. Its page shows the two lines to
+# change so that the modules stand across the diagonals: drive open loop, steer to the angle of the
+# module's place plus 90°. That turns the robot with a *voltage*, and its log has one. YAGSL's
+# `SwerveDriveTest` has a drive and an angle routine; the drive routine centers the modules first,
+# and each module logs itself in meters. For the gyro's angle add your own entries.
+# </details>
+
+# %% [markdown]
+# ## 9 System check
+#
+# Before you type a number into a planner, check all five:
+#
+# - [ ] The wheels were locked straight, and no module differs from the others.
+# - [ ] The step was below the slip: no jump at the start of the dynamic tests (lesson 6).
+# - [ ] The "voltage" of the rotation log is a voltage, and the angle is in the unit that you said.
+# - [ ] kV turning / kV straight is the lever, within a few percent.
+# - [ ] The robot had battery and bumpers on, as in a match.
+#
+# ## 10 Knowledge check
+#
+# Click an answer to the first question; you get feedback at once.
+
+# %%
+from grader import QuickCheck
+
+quick = QuickCheck(
+    "You moved the battery from the middle of the robot to its edge. Which kA changes?",
+    {
+        "kA straight": "The mass is the same, and going straight pushes only the mass.",
+        "kA turning": "The mass is the same, but it is further from the middle: harder to turn.",
+        "both": "Going straight pushes the mass, and that did not change.",
+    },
+    right="kA turning",
+)
+quick
+
+# %% [markdown]
+# **1.** The kV of one module is 5 % smaller than that of the three others. What do you look at?
+#
+# <details><summary>Answer</summary>
+#
+# The size of its wheel: a worn wheel turns more often. (Then its gear ratio, if somebody built in
+# another module.) A module that rubs would *not* look different: the floor couples the wheels.
+# </details>
+#
+# **2.** A rotation log gives kV = 1.02 and no unit that makes sense. What did you load as voltage?
+#
+# <details><summary>Answer</summary>
+#
+# `Rotational_Rate`. It is the rate that was asked for, so the robot turns with about that rate: kV
+# is about 1. No moment of inertia follows from it. Load a `MotorVoltage`.
+# </details>
+#
+# **3.** PathPlanner's formula gives 3.5 kg·m² for your square swerve. What do you check first?
+#
+# <details><summary>Answer</summary>
+#
+# The lever. With half the trackwidth the result is too small by √2: 3.5 · 1.41 = 5.0.
+# </details>
+#
+# **4.** Your robot gets 10 kg heavier. What happens to the slip current?
+#
+# <details><summary>Answer</summary>
+#
+# It grows: more weight presses the wheels on the carpet, so they hold more. Measure it again, and
+# measure both kA again.
+# </details>
+
+# %% [markdown]
+# ## 11 Practice
+#
+# **Exercise 13: swerve** (`exercises/exercise13/README.md`). You get the logs of your own swerve
+# drive, with one worn wheel, and find the numbers for both planners.
+#
+# ```
+# grade exercise13
+# ```
+#
+# Or answer from a notebook:
+#
+# ```python
+# from grader import submit
+#
+# submit("exercise13", kS=0.15, kV=2.5, worn="back-left", lever=0.42)
+# ```
+#
+# <details><summary>More, if you like</summary>
+#
+# Give the robot of section 1 a mass of 68 kg, at the same inertia, and run the lesson again. Which
+# numbers of section 7 change?
+# </details>
+#
+# **Next:** `grade` in a terminal shows which exercises are left.

@@ -1,0 +1,148 @@
+"""``sysid fit --straight``: the moment of inertia, from turning on the spot and going straight."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial, wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from sim.cli.fit.parts import fit_parts, kind_of_parts
+from sim.cli.options import FILE, read_parts
+from sim.core.errors import BadRequest
+
+if TYPE_CHECKING:
+    from sim.core.log import Log
+    from sim.fit import Fit
+    from sim.fit.physics.inertia import MomentOfInertia
+
+FINEST = 0.005  # [share] no scale tells a mass better
+
+
+@dataclass(frozen=True)
+class Turning:
+    """What is said about a robot that turns on the spot.
+
+    Args:
+        straight: log of the same robot going straight.
+        mass: [kg].
+        lever: [m] of a wheel; None takes what the speeds tell.
+    """
+
+    straight: Path
+    mass: float
+    lever: float | None
+
+
+def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options for a robot that turns on the spot; the command gets them as ``turning``."""
+    options = (
+        click.option(
+            "--straight",
+            type=FILE,
+            help="Log of the same robot going straight; FILES are of turning on the spot …",
+        ),
+        click.option("--mass", type=float, help="… the mass of the robot [kg] …"),
+        click.option(
+            "--lever",
+            type=float,
+            help="… and how far a wheel's push passes from the middle [m]: trackwidth/√2 of a "
+            "square swerve, half of it of a tank.  [default: what the speeds tell]",
+        ),
+    )
+
+    @wraps(command)
+    def asked(
+        *args: object,
+        straight: Path | None,
+        mass: float | None,
+        lever: float | None,
+        **others: object,
+    ) -> object:
+        turning = _read_turning(straight, mass=mass, lever=lever)
+        return command(*args, turning=turning, **others)
+
+    for option in reversed(options):
+        asked = option(asked)
+    return asked
+
+
+def _read_turning(
+    straight: Path | None, *, mass: float | None, lever: float | None
+) -> Turning | None:
+    """The options as one; refuses what would be ignored, and a log without a mass."""
+    if straight is None:
+        if mass is None and lever is None:
+            return None
+        raise click.UsageError(
+            "Missing option '--straight': --mass and --lever are for the moment of inertia, which "
+            "needs a log of the robot going straight, too."
+        )
+    if mass is None:
+        raise click.UsageError("Missing option '--mass': the mass of the robot [kg].")
+    return Turning(straight, mass, lever)
+
+
+def find_inertia(
+    found: "Fit", log: "Log", turning: Turning | None, *, method: str
+) -> "MomentOfInertia | None":
+    """The moment of inertia, from a fit of turning and the log of going straight; None without.
+
+    Raises:
+        Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
+            two.
+    """
+    if turning is None:
+        return None
+    from sim.fit import fit as find_gains  # noqa: PLC0415 - as below: --help must not wait for it
+    from sim.fit.physics.inertia import moment_of_inertia  # noqa: PLC0415
+
+    if any(doubt.code == "rate-as-voltage" for doubt in log.doubts):
+        raise BadRequest(
+            "the log of turning has a rate where its voltage should be",
+            where=log.source,
+            advice="Name the MotorVoltage of a drive motor with --voltage.",
+        )
+    parts = read_parts(
+        (turning.straight,),
+        units=None,
+        type="simple",
+        motor=None,
+        entries={},
+        velocity=1.0,
+        pick=None,
+    )
+    find = partial(find_gains, type="simple", method=method)
+    gone = fit_parts(parts, find, kind=kind_of_parts(parts, 1)).found
+    wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
+    return moment_of_inertia(found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels)
+
+
+def add_inertia(
+    found: "Fit", notes: tuple[str, ...], log: "Log", turning: Turning | None, *, method: str
+) -> "tuple[Fit, tuple[str, ...], MomentOfInertia | None]":
+    """A fit, its notes and the moment of inertia, with what speaks against that; None without.
+
+    Raises:
+        Refusal: as ``find_inertia``.
+    """
+    turned = find_inertia(found, log, turning, method=method)
+    if turned is None:
+        return found, notes, None
+    doubted = replace(found, doubts=(*turned.doubts, *found.doubts))
+    return doubted, (describe_inertia(turned), *notes), turned
+
+
+def describe_inertia(turned: "MomentOfInertia") -> str:
+    """The moment of inertia in a sentence, and what rotors and wheels have to do with it."""
+    least, most = turned.without_rotors
+    share = turned.error / turned.value
+    error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"
+    said = " as the speeds tell it" if turned.lever == turned.lever_seen else ""
+    return (
+        f"Moment of inertia {turned.value:.3g} {error}: mass · lever · kA "
+        f"turning / kA straight, with a lever of {turned.lever:.3g} m{said}. Wheels and rotors are "
+        "in it: if they are worth 3 to 10 % of the mass, as usual, the robot's own is "
+        f"{least:.3g} to {most:.3g} kg·m²."
+    )

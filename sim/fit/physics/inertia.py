@@ -1,0 +1,161 @@
+"""The moment of inertia of a robot, from a test going straight and one turning on the spot.
+
+    straight:  kA = c·m          turning:  kA' = c·J/R          J = m·R·kA'/kA
+
+with c [V/N] the volts that a newton at the wheels takes, and R the lever: how far the push of a
+wheel passes from the middle. For a tank that is half the trackwidth; the modules of a square swerve
+stand in the corners and push across the diagonal, so it is trackwidth/√2. The speeds tell it, too:
+a wheel runs at R·ω, so that R = kV'/kV. (PathPlanner, "Robot Config", and Choreo, "Estimating MoI",
+give the formula, both with half the trackwidth.)
+
+Wheels and rotors are in both kA. Where they are worth a share s of the mass, the robot's own
+inertia is J - s·(m·R² - J).
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+from sim.core.doubt import Doubt
+from sim.core.errors import BadRequest
+from sim.core.units import find_unit
+from sim.fit.physics.parts import SURELY, fit_in_si
+from sim.fit.physics.theory import FACTORS
+from sim.fit.result import Fit
+
+ROTORS = 0.03, 0.10  # [share of the mass] that rotors and wheels are worth, as in parts.py
+NEAR = 0.06  # [share] by which the lever that the speeds tell may differ from the one given
+MISTAKEN = (
+    (math.sqrt(2.0), "half the trackwidth was given, a tank's lever; a square swerve's is T/√2"),
+    (1.0 / math.sqrt(2.0), "the trackwidth was given; a square swerve's lever is T/√2"),
+    (0.5, "the trackwidth was given; a tank's lever is half of it"),
+    *FACTORS,
+)
+"""The lever that the speeds tell over the one given, and the mistake that makes it."""
+
+
+@dataclass(frozen=True)
+class MomentOfInertia:
+    """What two tests tell about how hard a robot is to turn.
+
+    Args:
+        value: [kg·m²] J = m·R·kA'/kA, rotors and wheels included.
+        error: [kg·m²] one standard error, from those of the two kA.
+        without_rotors: [kg·m²] the least and the most of the robot's own.
+        lever: [m] that was used.
+        lever_seen: [m] that the speeds tell, kV'/kV.
+        doubts: what speaks against it.
+    """
+
+    value: float
+    error: float
+    without_rotors: tuple[float, float]
+    lever: float
+    lever_seen: float
+    doubts: tuple[Doubt, ...] = ()
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data; the keys are fixed, other programs read them."""
+        return {
+            "value": self.value,
+            "error": self.error,
+            "without_rotors": list(self.without_rotors),
+            "lever": self.lever,
+            "lever_seen": self.lever_seen,
+        }
+
+
+def moment_of_inertia(
+    turning: Fit,
+    straight: Fit,
+    *,
+    mass: float,
+    lever: float | None = None,
+    by_wheels: bool = False,
+) -> MomentOfInertia:
+    """The moment of inertia from two fits whose voltages are those of the same motors.
+
+    Args:
+        turning: of a test on the spot, its position an angle of the robot.
+        straight: of a test straight ahead, its position a length.
+        mass: [kg] of the robot.
+        lever: [m] of a wheel; None takes the one that the speeds tell.
+        by_wheels: the position of ``turning`` is the wheels' way, a length, and no gyro's angle.
+
+    Raises:
+        BadRequest: a mass or a lever that no robot has, none where only the wheels were read, a
+            position of the wrong kind, or gains of which one is not above zero.
+    """
+    if by_wheels:
+        turning = _per_radian(turning, lever)
+    _check(turning, straight, mass=mass, lever=lever)
+    turn, go = fit_in_si(turning), fit_in_si(straight)
+    seen = turn.gains["kV"] / go.gains["kV"]
+    arm = seen if lever is None else lever
+    value = mass * arm * turn.gains["kA"] / go.gains["kA"]
+    parts = [one.errors["kA"] / one.gains["kA"] for one in (turn, go)]
+    if lever is None:
+        parts += [one.errors["kV"] / one.gains["kV"] for one in (turn, go)]
+    own = sorted(value - share * (mass * arm**2 - value) for share in ROTORS)
+    doubts = () if lever is None else tuple(_lever_doubts(turn, go, seen, lever))
+    return MomentOfInertia(value, value * math.hypot(*parts), (own[0], own[1]), arm, seen, doubts)
+
+
+def _per_radian(turning: Fit, lever: float | None) -> Fit:
+    """The fit of turning per radian of the robot, from the one per meter of its wheels."""
+    if lever is None:
+        raise BadRequest(
+            "the log of turning has the way of the wheels and no angle of the robot",
+            advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
+        )
+    found = turning.in_units("meters")
+    gains, errors = (
+        {name: value * lever if name in {"kV", "kA"} else value for name, value in one.items()}
+        for one in (found.gains, found.errors)
+    )
+    return replace(found, units="radians", log_units="radians", gains=gains, errors=errors)
+
+
+def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> None:
+    for name, number, unit in (("mass", mass, "kg"), ("lever", lever, "m")):
+        if number is not None and not (math.isfinite(number) and number > 0.0):
+            raise BadRequest(f"a {name} of {number:g} {unit}", advice="Give a number above zero.")
+    if not find_unit(turning.units).angular:
+        raise BadRequest(
+            f"the log of turning is in {turning.units}",
+            advice="Give the angle of the robot: a gyro's position and velocity, with --position, "
+            "--velocity and --units degrees.",
+        )
+    if find_unit(straight.units).angular:
+        raise BadRequest(
+            f"the log of going straight is in {straight.units}",
+            advice="Log meters of the wheels: rotations of a wheel times 2π times its radius.",
+        )
+    for what, one in (("turning", turning), ("going straight", straight)):
+        low = [gain for gain in ("kV", "kA") if not one.gains[gain] > 0.0]
+        if low:
+            raise BadRequest(
+                f"{low[0]} of {what} is {one.gains[low[0]]:.3g}, and no inertia follows from that",
+                advice="Look at that log with  sysid inspect  first.",
+            )
+
+
+def _lever_doubts(turn: Fit, go: Fit, seen: float, lever: float) -> list[Doubt]:
+    """A doubt where the speeds tell another lever than the one given."""
+    unsure = SURELY * math.hypot(*(one.errors["kV"] / one.gains["kV"] for one in (turn, go)))
+    share = seen / lever
+    if abs(share - 1.0) <= NEAR + unsure:
+        return []
+    near = [
+        (abs(math.log(share / factor)), why)
+        for factor, why in MISTAKEN
+        if abs(share / factor - 1.0) <= NEAR + unsure
+    ]
+    cause = min(near)[1] if near else "the lever, the wheel's radius or a unit is wrong"
+    return [
+        Doubt(
+            "lever",
+            f"A wheel runs at R·ω, so kV of turning over kV of going straight is the lever: "
+            f"{seen:.3g} m, and {lever:.3g} m was given. Probably {cause}.",
+            grave=True,
+        )
+    ]

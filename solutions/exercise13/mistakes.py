@@ -1,0 +1,159 @@
+"""Wrong answers to exercise 13, and what a learner must be told about each."""
+
+import math
+
+from grader.mistake import (
+    Mistake,
+    change_number,
+    exchange_numbers,
+    put_value,
+    replace_text,
+    scale_numbers,
+)
+
+ANSWERS = "answers.toml"
+MODULES = ("front-left", "front-right", "back-left", "back-right")
+
+
+def another_module(text: str) -> str:
+    """The module after the right one."""
+    right = next(name for name in MODULES if f'worn = "{name}"' in text)
+    return put_value("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
+
+
+MISTAKES = (
+    Mistake("nothing for kV", ANSWERS, put_value("kV", '""'), "kv", "nothing yet"),
+    Mistake(
+        "velocity in rotations of a wheel's radian",
+        ANSWERS,
+        scale_numbers(2 * math.pi, "kV", "kA"),
+        "kv",
+        "2π = 6.28",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the motor's own velocity",
+        ANSWERS,
+        change_number("kS", lambda right: right["kS"] / 12.0),
+        "ks",
+        "12 V is a full battery",
+        "M-DUTY",
+    ),
+    Mistake(
+        "kS and kV swapped",
+        ANSWERS,
+        exchange_numbers("kS", "kV"),
+        "kv",
+        "did you swap them?",
+        "M-ARGORDER",
+    ),
+    Mistake("another module", ANSWERS, another_module, "worn", "turns more often for the same"),
+    Mistake(
+        "a module there is not", ANSWERS, put_value("worn", '"middle"'), "worn", "none of them"
+    ),
+    Mistake(
+        "a diameter",
+        ANSWERS,
+        scale_numbers(2.0, "worn_radius"),
+        "worn-radius",
+        "a diameter",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the gyro's degrees",
+        ANSWERS,
+        scale_numbers(180.0 / math.pi, "worn_radius"),
+        "worn-radius",
+        "The gyro counts degrees",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the lever of a tank",
+        ANSWERS,
+        scale_numbers(1.0 / math.sqrt(2.0), "lever"),
+        "lever",
+        "half the trackwidth is the lever of a tank",
+        "M-LEVER",
+    ),
+    Mistake(
+        "the trackwidth for the lever",
+        ANSWERS,
+        scale_numbers(math.sqrt(2.0), "lever"),
+        "lever",
+        "this is the trackwidth",
+        "M-LEVER",
+    ),
+    Mistake(
+        "a rate called volts",
+        ANSWERS,
+        put_value("rate_unit", '"volts"'),
+        "rate-unit",
+        "SysId knows nothing else",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a rate in degrees",
+        ANSWERS,
+        put_value("rate_unit", '"degrees-per-second"'),
+        "rate-unit",
+        "compare it with the gyro",
+        "M-UNITS",
+    ),
+    Mistake(
+        "kA per degree",
+        ANSWERS,
+        scale_numbers(math.pi / 180.0, "kA_turning"),
+        "ka-turning",
+        "The gyro logs degrees",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the moment of inertia with a tank's lever",
+        ANSWERS,
+        scale_numbers(1.0 / math.sqrt(2.0), "inertia"),
+        "inertia",
+        "half the trackwidth is the lever of a tank",
+        "M-LEVER",
+    ),
+    Mistake(
+        "the quotient upside down",
+        ANSWERS,
+        change_number(
+            "inertia",
+            lambda right: right["inertia"] * (right["kA"] / right["kA_turning"]) ** 2,
+        ),
+        "inertia",
+        "upside down",
+    ),
+    Mistake(
+        "a unit that measures something else",
+        ANSWERS,
+        put_value("inertia", '"5 kg·m"'),
+        "inertia",
+        "is not a unit of",
+        "M-UNITS",
+    ),
+    Mistake(
+        "four motors at once",
+        ANSWERS,
+        scale_numbers(4.0, "slip_current"),
+        "slip-current",
+        "of all four motors",
+    ),
+    Mistake(
+        "turning for going",
+        ANSWERS,
+        change_number("top_speed", lambda right: right["top_speed"] / right["lever"]),
+        "top-speed",
+        "is this a rate of turning?",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a number from nowhere",
+        ANSWERS,
+        scale_numbers(1.31, "max_torque"),
+        "max-torque",
+        "outside the accepted",
+    ),
+    Mistake("not a number", ANSWERS, replace_text(("kA = ", "kA = nan # ")), "ka", "nan"),
+)

@@ -1,0 +1,177 @@
+"""Exercise 13: a swerve drive of one's own, from its logs to the settings of a planner."""
+
+import csv
+import math
+import re
+import runpy
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from grader.cli import run_command
+from grader.exercise import Exercise
+from grader.variant import make_folder_name
+from sim.bench.slip import slip_voltage
+from sim.inspect.detect_faults import inspect
+from sim.io import list_entries, read, read_motors
+
+ROOT = Path(__file__).resolve().parents[1]
+OWN = Exercise("exercise13", ROOT / "exercises" / "exercise13")
+CLASS = [f"student {number}" for number in range(50)]
+POINTS = 16  # as the README lists them
+GYRO = {
+    "voltage": "Phoenix6/TalonFX-1/MotorVoltage",
+    "position": "Phoenix6/Pigeon2-1/Yaw",
+    "velocity": "Phoenix6/Pigeon2-1/AngularVelocityZWorld",
+}
+TWO = CLASS[:2]
+
+
+def data_of(exercise, student):
+    exercise.prepare(student, say=lambda _: None)
+    return exercise.folder / "data" / make_folder_name(student)
+
+
+def solved(exercise, student):
+    """The text of the solution, made from what the learner is given and nothing else."""
+    solve = runpy.run_path(str(ROOT / "solutions" / exercise.name / "solve.py"))["solve"]
+    return solve(OWN.folder, data_of(exercise, student))["answers.toml"]
+
+
+def graded(exercise, text, student):
+    path = exercise.folder / "answers.toml"
+    path.write_text(text, "utf-8")
+    return {check.id: check for check in exercise.grade(path, student=student).checks}
+
+
+def test_fifty_students_can_solve_theirs_from_what_they_are_given(copy):
+    for student in CLASS:
+        found = graded(copy, solved(copy, student), student)
+
+        assert [(one.id, one.seen, one.hint) for one in found.values() if one.hint] == [], student
+        assert sum(one.points for one in found.values()) == POINTS
+
+
+def test_between_them_they_get_every_motor_and_every_worn_module():
+    variants = [OWN.module.draw(student) for student in CLASS]
+
+    assert {one.motor for one in variants} == {"krakenX60", "falcon500", "neoVortex"}
+    assert len({one.worn for one in variants}) == 4
+    assert len({one.ratio for one in variants}) >= 5
+
+
+def test_a_drive_is_one_that_a_team_can_have():
+    for student in CLASS:
+        variant = OWN.module.draw(student)
+        drive = variant.drive
+        plate = variant.mass * variant.trackwidth**2 / 6.0  # an even plate within the wheels
+
+        assert 0.02 < drive.wheel_mass / drive.mass < 0.10, student
+        assert 1.2 * plate < variant.inertia < 3.0 * plate, student
+        assert 40.0 < drive.slip_current < 120.0, (
+            student
+        )  # the limit of Phoenix 6 is not in the way
+        assert 0.7 < variant.step / slip_voltage(drive.translation) < 0.81, student
+        assert variant.step < slip_voltage(drive.rotation), student
+
+
+def test_every_wrong_lever_is_named_for_everybody(copy):
+    for student in CLASS[:20]:
+        variant = OWN.module.draw(student)
+        lever = variant.asked["lever"].expected
+        for times in (2**-0.5, 2**0.5, 2.0):
+            found = graded(copy, f"lever = {lever * times}\n", student)["lever"]
+
+            assert (found.status, found.misconception) == ("failed", "M-LEVER"), (student, times)
+
+
+@pytest.mark.parametrize("student", TWO)
+def test_the_logs_are_sound_and_what_they_say_to_be(copy, student):
+    data, variant = data_of(copy, student), OWN.module.draw(student)
+
+    modules = read_motors(data / "straight.wpilog")
+    turning = read(data / "turning.wpilog", entries=GYRO)
+
+    assert set(modules) == {"front-left", "front-right", "back-left", "back-right"}
+    for log in (*modules.values(), turning):
+        assert inspect(log).is_clean
+        assert len(log.runs) == 4
+    assert turning.units == "degrees"
+    names = {entry.name for entry in list_entries(data / "turning.wpilog")}
+    assert names >= {*GYRO.values(), "Rotational_Rate", "SysIdRotation_State"}
+    with (data / "push.csv").open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    assert max(float(row["stator_current"]) for row in rows) == pytest.approx(
+        variant.drive.slip_current, rel=0.05
+    )
+
+
+@pytest.mark.parametrize("student", TWO)
+def test_the_spin_tells_the_radius_of_each_wheel(copy, student):
+    data, variant = data_of(copy, student), OWN.module.draw(student)
+    given = tomllib.loads((data / "given.toml").read_text("utf-8"))
+    angle = math.radians(given["spin"]["gyro"])
+    for module, turns in given["spin"]["motor_turns"].items():
+        way = angle * given["robot"]["trackwidth"] / math.sqrt(2.0)
+        radius = way / (2.0 * math.pi * turns / given["robot"]["ratio"])
+        real = variant.worn_radius if module == variant.worn else variant.radius
+
+        assert radius == pytest.approx(real, rel=3e-3), module
+
+
+def test_a_student_gets_the_same_files_every_time_and_nobody_elses(copy):
+    made = []
+    for student in ("ann", "Ann", "ben"):
+        data = data_of(copy, student)
+        made.append({path.name: path.read_bytes() for path in sorted(data.iterdir())})
+
+    assert made[0] == made[1] != made[2]
+
+
+@pytest.mark.parametrize("student", TWO)
+def test_nothing_a_learner_reads_holds_an_answer(copy, student, capsys):
+    variant = OWN.module.draw(student)
+    said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
+    wrong = "".join(f"{name} = 777.7\n" for name in variant.asked) + 'worn = "x"\n'
+    graded(copy, wrong, student)
+    run_command(["13", "--student", student])
+    run_command(["13", "--student", student, "--json"])
+    said += capsys.readouterr().out
+    said += (data_of(copy, student) / "given.toml").read_text("utf-8")
+    numbers = [abs(float(text)) for text in re.findall(r"\d+\.\d+", said)]
+
+    assert len(numbers) > 20
+    for name, asked in variant.asked.items():
+        near = [one for one in numbers if abs(one - asked.expected) < 1e-3 * asked.expected]
+        assert near == [], name
+
+
+@pytest.mark.parametrize(
+    ("line", "status"),
+    [
+        ('lever = "{0} m"', "passed"),
+        ('lever = "{1} cm"', "passed"),
+        ('lever = "{0} kg"', "failed"),
+        ("lever = [1]", "failed"),
+        ('lever = ""', "failed"),
+    ],
+)
+def test_a_lever_may_be_written_in_many_ways(copy, line, status):
+    lever = OWN.module.draw("ann").asked["lever"].expected
+    text = line.format(f"{lever:.4f}", f"{100 * lever:.2f}")
+
+    assert graded(copy, text, "ann")["lever"].status == status
+
+
+@pytest.mark.parametrize("unit", ["kg·m²", "kg m^2", "kg*m2", "kilogram meter squared"])
+def test_an_inertia_may_have_its_unit(copy, unit):
+    inertia = OWN.module.draw("ann").asked["inertia"].expected
+    wanted = "passed" if unit != "kg*m2" else "failed"  # m2 is no way to write a square
+
+    assert graded(copy, f'inertia = "{inertia:.4f} {unit}"', "ann")["inertia"].status == wanted
+
+
+@pytest.mark.parametrize("word", ["rad/s", "Radians per second", "radians_per_second"])
+def test_the_unit_of_a_rate_may_be_written_in_many_ways(copy, word):
+    assert graded(copy, f'rate_unit = "{word}"', "ann")["rate-unit"].status == "passed"

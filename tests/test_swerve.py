@@ -1,0 +1,570 @@
+"""A swerve drive on the bench, its logs, and the moment of inertia that they tell."""
+
+import json
+import math
+import tarfile
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import sim
+from sim.bench.mechanism import Sensor
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.bench.slip import slip_voltage
+from sim.bench.swerve import GRAVITY, SWERVE, SwerveDrive
+from sim.bench.swerve_logs import (
+    MODULES,
+    RATE,
+    VOLTS,
+    YAW,
+    YAW_RATE,
+    record_modules,
+    record_spin,
+    record_wall_push,
+    write_modules,
+    write_rotation,
+)
+from sim.cli import sysid
+from sim.core.errors import BadRequest
+from sim.fit import fit
+from sim.fit.physics.inertia import moment_of_inertia
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.inspect.faults import FAULTS
+from sim.io import read_motors
+from sim.physics.motors import find_motor
+from sim.reconcile import reconcile
+from sim.support.command_line import run_command
+
+GENTLE = Routine(ramp=0.5, step=2.0)
+KRAKEN = SwerveDrive(
+    motor=find_motor("krakenX60"),
+    ratio=6.75,
+    wheel_radius=0.0508,
+    trackwidth=0.6,
+    mass=60.0,
+    inertia=5.0,
+    wheel_inertia=0.0015,
+    friction=0.15,
+)
+EXACT = Sensor(1e-9, 0.0, 0.05, 0.0)
+
+
+def rng(seed=1):
+    return np.random.default_rng(seed)
+
+
+def both(drive, routine=GENTLE):
+    """Fits of turning on the spot and of going straight."""
+    return (
+        fit(simulate(one, routine, rng=rng(seed)))
+        for seed, one in enumerate((drive.rotation, drive.translation))
+    )
+
+
+# ---- the drive ----
+
+
+def test_its_gains_are_those_of_its_parts():
+    """By hand: one newton at the floor takes c volts, and the lever is the diagonal's half."""
+    r, kt, ke = 12 / 366, 7.09 / 366, (12 - 12 / 366 * 2) / (6000 * 2 * math.pi / 60)
+    c = r * 0.0508 / (4 * kt * 6.75)
+    rotors = 4 * 0.0015 / 0.0508**2
+    lever = math.hypot(0.3, 0.3)
+
+    straight, turning = KRAKEN.translation.gains, KRAKEN.rotation.gains
+
+    assert straight["kV"] == pytest.approx(ke * 6.75 / 0.0508)
+    assert straight["kA"] == pytest.approx(c * (60 + rotors))
+    assert turning["kV"] == pytest.approx(straight["kV"] * lever)
+    assert turning["kA"] == pytest.approx(c * (5.0 + rotors * lever**2) / lever)
+    assert turning["kS"] - straight["kS"] == pytest.approx(c * 4.0 / lever)
+
+
+def test_both_ways_of_it_are_mechanisms_of_the_bench():
+    assert MECHANISMS["swerve"].gains == SWERVE.translation.gains
+    assert MECHANISMS["swerve-rotation"].gains == SWERVE.rotation.gains
+
+
+@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
+def test_the_catalogues_own_never_slip_at_the_step_of_wpilib(name):
+    drawn = [MECHANISMS[name].draw(rng(seed)) for seed in range(200)]
+
+    assert min(slip_voltage(one) for one in drawn) > 7.0
+
+
+# ---- slip ----
+
+
+def quiet(mechanism):
+    """The mechanism with an exact sensor, an ideal battery and no current limit."""
+    ideal = replace(mechanism.battery, resistance=0.0, rest=14.0)
+    return replace(mechanism, sensor=EXACT, battery=ideal, stator=1e6, supply=1e6, travel=None)
+
+
+@settings(max_examples=25)
+@given(step=st.floats(2.6, 12.0), grip=st.floats(0.8, 1.2))
+def test_wheels_that_slip_follow_the_closed_form(step, grip):
+    """While they slip, robot and wheels have speeds that one can write down."""
+    one = quiet(replace(KRAKEN, grip=grip).translation)
+    gains, spin = one.gains, one.spin
+    log = simulate(one, Routine(ramp=0.5, step=step, timeout=1.0, kinds=("dynamic",)), rng=rng())
+    run = log.runs[0]
+    since = run.time - run.time[0]
+    held = gains["kA"] / (1 + spin) * one.grip
+    wheel = (step - gains["kS"] - held) / gains["kV"]
+    tau = gains["kA"] * spin / (1 + spin) / gains["kV"]
+    slipping = (since > 0) & (since < 0.9 * wheel / one.grip)
+
+    expected = wheel * -np.expm1(-since / tau)
+
+    assert slip_voltage(one) < 2.6
+    assert run.velocity[slipping] == pytest.approx(expected[slipping], abs=0.01 * wheel)
+    assert run.velocity[-1] == pytest.approx((step - gains["kS"]) / gains["kV"], rel=0.01)
+
+
+def test_the_robot_cannot_be_pushed_harder_than_the_floor_holds():
+    one = quiet(KRAKEN.translation)
+    wheels = simulate(one, Routine(step=8.0, timeout=2.0, kinds=("dynamic",)), rng=rng())
+    (run, _) = wheels.runs
+
+    behind = run.position[-1] - 0.5 * one.grip * (run.time[-1] - run.time[0]) ** 2
+    caught = float(run.time[np.argmax(np.abs(run.velocity))] - run.time[0])
+
+    assert run.velocity[1] > 4 * one.grip * 0.02  # the wheels spin up at once
+    assert caught > run.velocity[5] / one.grip  # and the robot takes its time
+    assert behind < run.position[-1]
+
+
+@pytest.mark.parametrize(("step", "found"), [(2.0, set()), (4.0, {"wheel-slip"})])
+def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step, found):
+    """4 V is the generator's step; this robot slips from 2.3 V on."""
+    log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=step), rng=rng())
+
+    assert {one.fault for one in inspect(log).damages} == found
+    assert (step > slip_voltage(KRAKEN.translation)) == bool(found)
+
+
+def test_slip_makes_ka_too_large_and_leaves_kv():
+    log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=4.0), rng=rng())
+    gains, true = fit(log, method="sysid").gains, KRAKEN.translation.gains
+
+    assert gains["kV"] == pytest.approx(true["kV"], rel=0.02)
+    assert gains["kA"] > 1.2 * true["kA"]
+
+
+def test_slip_beside_a_hidden_effect_is_left_out_and_it_is_said():
+    robot = KRAKEN.translation.hide("drag")
+
+    (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
+
+    assert doubt.code == "slip-left-out"
+    assert "from 2.3 V at a start on" in doubt.message
+    assert simulate(robot, GENTLE, rng=rng()).doubts == ()
+
+
+def test_below_the_slip_nothing_changes_by_a_digit():
+    free = replace(KRAKEN.translation, grip=None)
+    one, other = (simulate(x, GENTLE, rng=rng()) for x in (KRAKEN.translation, free))
+
+    for run, same in zip(one.runs, other.runs, strict=True):
+        assert np.array_equal(run.velocity, same.velocity)
+
+
+# ---- the moment of inertia ----
+
+
+def own_share(drive):
+    """[kg·m²] the formula's own answer: rotors and wheels are in both kA."""
+    rotors, lever = drive.wheel_mass, drive.lever
+    return drive.mass * (drive.inertia + rotors * lever**2) / (drive.mass + rotors)
+
+
+@settings(max_examples=15)
+@given(
+    mass=st.floats(40.0, 68.0),
+    inertia=st.floats(2.5, 8.0),
+    trackwidth=st.floats(0.45, 0.7),
+    wheel=st.floats(0.0010, 0.0025),
+    scrub=st.floats(0.0, 8.0),
+)
+def test_two_tests_tell_the_moment_of_inertia(mass, inertia, trackwidth, wheel, scrub):
+    drive = replace(
+        KRAKEN, mass=mass, inertia=inertia, trackwidth=trackwidth, wheel_inertia=wheel, scrub=scrub
+    )
+    step = Routine(ramp=0.5, step=0.9 * slip_voltage(drive.translation))
+
+    found = moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever)
+
+    assert found.value == pytest.approx(own_share(drive), rel=0.01)
+    assert found.error < 0.02 * found.value
+    assert found.lever_seen == pytest.approx(drive.lever, rel=0.005)
+    assert found.doubts == ()
+    if 0.03 < drive.wheel_mass / mass < 0.10:
+        least, most = found.without_rotors
+        assert 0.99 * least < inertia < 1.01 * most
+
+
+def test_half_the_trackwidth_reads_five_as_three_and_a_half():
+    """Facts: 5.0 kg·m² of a square swerve reads as 3.54 with a tank's lever."""
+    light = replace(KRAKEN, wheel_inertia=0.0)
+    turning, straight = both(light)
+
+    right = moment_of_inertia(turning, straight, mass=60.0, lever=light.lever)
+    wrong = moment_of_inertia(turning, straight, mass=60.0, lever=0.3)
+
+    assert (right.value, right.doubts) == (pytest.approx(5.0, rel=0.01), ())
+    assert wrong.value == pytest.approx(3.54, abs=0.03)
+    assert "half the trackwidth was given, a tank's lever" in wrong.doubts[0].message
+    assert wrong.doubts[0].grave
+
+
+@pytest.mark.parametrize(
+    ("times", "says"),
+    [
+        (1 / math.sqrt(2), "half the trackwidth was given"),
+        (math.sqrt(2), "the trackwidth was given; a square swerve's lever is T/√2"),
+        (1 / 2 / math.pi, "rotations read as radians"),
+        (1.3, "the lever, the wheel's radius or a unit is wrong"),
+    ],
+)
+def test_a_wrong_lever_is_named(times, says):
+    turning, straight = both(KRAKEN)
+
+    found = moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever * times)
+
+    assert [doubt.code for doubt in found.doubts] == ["lever"]
+    assert says in found.doubts[0].message
+
+
+def test_without_a_lever_the_speeds_tell_it():
+    found = moment_of_inertia(*both(KRAKEN), mass=60.0)
+
+    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever, rel=1e-3)
+    assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (dict(mass=0.0), "a mass of 0 kg"),
+        (dict(mass=math.nan), "a mass of nan kg"),
+        (dict(lever=-1.0), "a lever of -1 m"),
+    ],
+)
+def test_a_robot_there_cannot_be_is_refused(change, says):
+    turning, straight = both(KRAKEN)
+
+    with pytest.raises(BadRequest, match=says):
+        moment_of_inertia(turning, straight, **{"mass": 60.0, **change})
+
+
+def test_logs_that_changed_places_are_refused():
+    turning, straight = both(KRAKEN)
+
+    with pytest.raises(BadRequest, match="the log of turning is in meters"):
+        moment_of_inertia(straight, turning, mass=60.0)
+    with pytest.raises(BadRequest, match="the log of going straight is in radians"):
+        moment_of_inertia(turning, turning, mass=60.0)
+    bad = replace(turning, gains={**turning.gains, "kA": -0.1})
+    with pytest.raises(BadRequest, match="kA of turning is -0.1"):
+        moment_of_inertia(bad, straight, mass=60.0)
+
+
+# ---- its logs ----
+
+
+@pytest.fixture
+def logs(tmp_path):
+    """The two files that a team with CTRE's program has."""
+    modules = record_modules(KRAKEN, GENTLE, rng=rng())
+    write_modules(modules, tmp_path / "straight.wpilog")
+    turning = simulate(KRAKEN.rotation, GENTLE, rng=rng(2))
+    write_rotation(turning, tmp_path / "turning.wpilog", volts_per_rate=1.03)
+    return tmp_path
+
+
+def test_four_modules_are_read_as_four_motors_and_agree(logs):
+    found = read_motors(logs / "straight.wpilog")
+
+    assert tuple(found) == MODULES
+    for log in found.values():
+        gains = fit(log).gains
+        assert gains["kV"] == pytest.approx(KRAKEN.translation.gains["kV"], rel=1e-3)
+        assert gains["kA"] == pytest.approx(KRAKEN.translation.gains["kA"], rel=5e-3)
+
+
+def test_a_worn_wheel_turns_faster_and_its_kv_is_as_much_lower(tmp_path):
+    worn = {"back-left": 0.95 * KRAKEN.wheel_radius}
+    found = record_modules(KRAKEN, GENTLE, rng=rng(), radii=worn)
+    kv = {name: fit(log).gains["kV"] for name, log in found.items()}
+
+    assert kv["back-left"] / kv["front-left"] == pytest.approx(0.95, rel=1e-3)
+    write_modules(found, tmp_path / "log.wpilog")
+    assert set(read_motors(tmp_path / "log.wpilog")) == set(MODULES)
+
+
+def test_an_unknown_module_is_refused():
+    with pytest.raises(BadRequest, match="Choose from front-left, front-right"):
+        record_modules(KRAKEN, GENTLE, rng=rng(), radii={"middle": 0.05})
+
+
+def run(capsys, *arguments):
+    code = run_command(sysid, name="sysid", arguments=[str(one) for one in arguments])
+    said = capsys.readouterr()
+    return code, said.out, said.err
+
+
+GYRO = ("--position", YAW, "--velocity", YAW_RATE)
+TURNED = ("--voltage", VOLTS.format(1), *GYRO)
+
+
+def test_the_command_prints_the_moment_of_inertia(logs, capsys):
+    code, said, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
+        "--mass", 60, "--lever", KRAKEN.lever,
+    )  # fmt: skip
+
+    assert code == 0
+    assert "simple mechanism in degrees" in said
+    assert "Moment of inertia 5.2" in said
+    assert "with a lever of 0.424 m." in said
+    assert "the robot's own is 4.6" in said
+
+
+def test_modules_that_agree_roughly_are_not_said_to_agree_within_their_errors(tmp_path, capsys):
+    """One wheel is 4 % smaller: no warning yet, but no accident of noise either."""
+    worn = {"front-right": 0.96 * KRAKEN.wheel_radius}
+    modules = record_modules(KRAKEN, GENTLE, rng=rng(), radii=worn)
+    write_modules(modules, tmp_path / "worn.wpilog")
+
+    _, said, _ = run(capsys, "fit", tmp_path / "worn.wpilog")
+
+    assert "All 4 motors, each fitted alone, agree within 4.0%" in said
+
+
+def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
+    code, said, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
+        "--mass", 60, "--lever", 0.3, "--json",
+    )  # fmt: skip
+    found = json.loads(said)
+
+    assert code == 1
+    assert found["moment_of_inertia"]["value"] == pytest.approx(3.69, abs=0.05)
+    assert found["moment_of_inertia"]["lever_seen"] == pytest.approx(0.424, abs=0.001)
+    assert "lever" in {one["code"] for one in found["warnings"]}
+
+
+def test_a_rate_in_place_of_a_voltage_is_told_and_gives_no_inertia(logs, capsys):
+    rate = ("--voltage", RATE, *GYRO)
+
+    code, said, _ = run(capsys, "fit", logs / "turning.wpilog", *rate)
+    refused, _, why = run(
+        capsys, "fit", logs / "turning.wpilog", *rate, "--straight", logs / "straight.wpilog",
+        "--mass", 60,
+    )  # fmt: skip
+
+    assert code == 0
+    assert "'Rotational_Rate' is no voltage but the rate" in said
+    assert refused == 2
+    assert "Name the MotorVoltage of a drive motor with --voltage." in why
+    assert why.count("\n") == 1
+
+
+def test_the_gyro_is_read_in_degrees_though_the_motors_are_in_rotations(logs):
+    entries = {"voltage": VOLTS.format(1), "position": YAW, "velocity": YAW_RATE}
+    log = sim.read(logs / "turning.wpilog", entries=entries)
+
+    assert log.units == "degrees"
+    assert fit(log).gains["kV"] == pytest.approx(KRAKEN.rotation.gains["kV"], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (("--mass", "60"), "Missing option '--straight'"),
+        (("--lever", "0.4"), "Missing option '--straight'"),
+        (("--straight", "x.wpilog"), "Missing option '--mass'"),
+        (("--straight", "x.wpilog", "--mass", "60"), "there is no such file"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(logs, capsys, options, says):
+    code, _, why = run(capsys, "fit", logs / "turning.wpilog", *TURNED, *options)
+
+    assert code == 2
+    assert says in why
+
+
+# ---- wheel radius and slip current ----
+
+
+@settings(max_examples=20)
+@given(radius=st.floats(0.035, 0.055), turns=st.floats(2.0, 12.0), seed=st.integers(0, 99))
+def test_a_slow_spin_tells_the_radius_of_the_wheels(radius, turns, seed):
+    drive = replace(KRAKEN, wheel_radius=radius)
+    spin = record_spin(drive, turns=turns, rng=rng(seed))
+    mean = np.mean(list(spin.motor_turns.values()))
+
+    assert spin.turned * drive.lever * drive.ratio / (2 * math.pi * mean) == pytest.approx(
+        radius, rel=2e-3
+    )
+
+
+def test_a_push_at_a_wall_tells_the_slip_current():
+    """By hand: µ·m·g on four wheels, through gears and motors, and what friction takes."""
+    torque = 1.1 * 60 * GRAVITY * 0.0508 / 4 / 6.75
+    by_hand = torque / (7.09 / 366) + 0.15 / (12 / 366)
+    push = record_wall_push(KRAKEN, rng=rng())
+    first = int(np.argmax(push.velocity > 0.0))
+
+    assert KRAKEN.slip_current == pytest.approx(by_hand, rel=1e-6)
+    assert push.current[first - 10 : first].max() == pytest.approx(by_hand, abs=2.0)
+    assert push.current[first + 2 :].mean() < 0.95 * by_hand
+    assert not push.velocity[:first].any()
+
+
+# ---- logs of real robots ----
+
+
+@pytest.fixture(scope="module")
+def real(shared, tmp_path_factory):
+    """The folder of further logs of real robots, unpacked."""
+    packed = shared / "data" / "real-more" / "logs.tar.xz"
+    if not packed.is_file():
+        pytest.skip(f"logs of real robots not found: {packed}")
+    folder = tmp_path_factory.mktemp("real")
+    with tarfile.open(packed) as archive:
+        archive.extractall(folder, filter="data")
+    return folder / "real-more"
+
+
+PIKE = "PikeRoboDevils+FRC-2022-Software~sysid~sysid_data20220305-"
+EDWIN = "StuyPulse+Edwin~sysid~data~drivetrain"
+CUBE = "StuyPulse+SwerveSysId~client~data.json"
+
+
+@pytest.mark.slow
+@pytest.mark.shared
+def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real, capsys):
+    """A tank of 2022, some 55 kg; its track width is not known, 0.55 m is ordinary."""
+    turning, straight = f"{PIKE}151809-angular.json", f"{PIKE}152235.json"
+
+    _, said, _ = run(
+        capsys, "fit", real / turning, "--straight", real / straight,
+        "--mass", 55, "--lever", 0.275, "--json",
+    )  # fmt: skip
+    found = json.loads(said)["moment_of_inertia"]
+
+    assert 2.0 < found["value"] < 6.0
+    assert found["error"] > 0.05 * found["value"]  # the log is poor, and the error says so
+
+
+@pytest.mark.slow
+@pytest.mark.shared
+def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsys):
+    """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
+    turning, straight = f"{EDWIN}-angular.json", f"{EDWIN}.json"
+
+    code, said, _ = run(
+        capsys, "fit", real / turning, "--straight", real / straight,
+        "--mass", 55, "--lever", 0.3, "--json",
+    )  # fmt: skip
+
+    assert code == 1
+    assert "lever" in {one["code"] for one in json.loads(said)["warnings"]}
+
+
+@pytest.mark.slow
+@pytest.mark.shared
+def test_wheels_read_while_turning_need_a_lever(real, capsys):
+    code, _, why = run(
+        capsys, "fit", real / f"{EDWIN}-angular.json", "--straight", real / f"{EDWIN}.json",
+        "--mass", 55,
+    )  # fmt: skip
+
+    assert code == 2
+    assert "Give --lever as well: trackwidth/√2" in why
+
+
+@pytest.mark.slow
+@pytest.mark.shared
+def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
+    """Its velocity is the position times a factor: no gains describe it, and it is said so."""
+    code, _, why = run(capsys, "fit", real / CUBE)
+
+    assert code == 2
+    assert "no gains describe this log" in why
+    assert why.count("\n") == 1
+
+
+# ---- its contaminated sets ----
+
+STEP = Routine(ramp=0.5, step=3.5)
+SPOILS = [name for name, one in FAULTS.items() if "simple" in one.types]
+
+
+@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
+@pytest.mark.parametrize("fault", SPOILS)
+def test_a_damaged_log_of_it_is_found_out(name, fault):
+    """Of five damaged logs each, at least four; what is found is nothing that was not done."""
+    found = []
+    for seed in range(5):
+        chance = rng([seed, len(name)])
+        log = simulate(MECHANISMS[name].draw(chance), STEP, rng=chance)
+        spoilt = contaminate(log, fault, severity=1.5, rng=chance)
+        found.append(fault in {one.fault for one in inspect(spoilt.log).damages})
+
+    assert sum(found) >= 4
+
+
+def test_a_dataset_holds_swerve_logs_and_what_is_wrong_with_them(tmp_path, capsys):
+    spec = tmp_path / "swerve.toml"
+    spec.write_text(
+        """
+name = "swerve"
+seed = 1
+students = ["ann"]
+formats = ["wpilog"]
+
+[[logs]]
+mechanisms = ["swerve", "swerve-rotation"]
+count = 2
+drawn = true
+
+[[logs.faults]]
+name = ["wheel-slip", "encoder-slip"]
+severity = 1.0
+""",
+        encoding="utf-8",
+    )
+
+    code, said, why = run(capsys, "dataset", spec, "-o", tmp_path / "out")
+
+    assert code == 0, why
+    assert said
+    logs = sorted((tmp_path / "out").rglob("*.wpilog"))
+    assert len(logs) == 4
+    assert all(not inspect(sim.read(path)).is_clean for path in logs)
+
+
+# ---- the solvers accept it ----
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
+def test_reconcile_finds_what_is_hidden_in_it(name):
+    robot = MECHANISMS[name].hide("velocity-filter", 1.5)
+    logs = [
+        simulate(robot, Routine(ramp=0.5, step=step, timeout=6.0), rng=rng(int(10 * step)))
+        for step in (3.5, 2.5)
+    ]
+
+    story = reconcile(logs[0], validation=logs[1], type="simple")
+
+    assert [one.effect for one in story.findings] == ["velocity-filter"]
