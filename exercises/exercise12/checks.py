@@ -44,6 +44,10 @@ NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
 SAME = (0.6, 1.6)  # [of the gap graded] what another honest way to compute it may give
 BASE = (0.3, 3.0)  # [of the same] of a base that another method fitted
 REPORTED = 0.5  # points for the two gaps
+OTHER_FIT = (
+    "The grader fits kS, kV and kA to your log itself, as try_it.py does. Another program, such as "
+    "sysid reconcile, fits them in another way and gets another gap"
+)
 
 
 @dataclass(frozen=True)
@@ -178,18 +182,26 @@ def held_out(answers: Answers) -> str | None:
 
 
 def _reported(answers: Answers, *, before: float, after: float, seen: str) -> str:
-    """Whether the gaps that the learner wrote down are those of this model."""
+    """Whether the gaps that the learner wrote down are those of this model.
+
+    Returns:
+        What the grader measured; and for a gap that is right but another number, why.
+    """
+    others = []
     for name, expected, bounds in (("gap_before", before, BASE), ("gap_after", after, SAME)):
         asked = AskedNumber(name, expected, "", Band(0.0, 0.0))
         try:
-            _near(read_answer_number(answers.given.get(name), asked), expected, bounds)
+            value = read_answer_number(answers.given.get(name), asked)
+            _check_near(value, expected, bounds)
         except WrongAnswer as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise
-    return seen
+        if f"{value:.2g}" != f"{expected:.2g}":
+            others.append(f"The grader used {name} = {expected:.3g}; your {value:g} counts, too")
+    return ". ".join([seen, *others, *([OTHER_FIT] if others else [])])
 
 
-def _near(value: float, expected: float, bounds: tuple[float, float]) -> None:
+def _check_near(value: float, expected: float, bounds: tuple[float, float]) -> None:
     if not bounds[0] * expected <= value <= bounds[1] * expected:
         hint = "this is not the gap of your model on the held-out log, in times the noise"
         raise WrongAnswer(f"{value:g}", hint=hint)
