@@ -124,7 +124,6 @@ def test_a_gap_of_another_fit_is_right_and_the_note_says_which_one_was_used(tmp_
     assert "The grader fits kS, kV and kA to your log itself" in other.hint
 
 
-
 def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
     text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ann"))
 

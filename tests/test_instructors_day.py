@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 ROOT = Path(__file__).resolve().parents[1]
-WHOLE = 218  # points of the twelve exercises and of practice
+WHOLE = 220  # points of the twelve exercises and of practice
 PROGRAMS = {"grade": "grader.cli", "sysid": "sim.cli"}
 ALONE = ("Anna Bauer", "Diaz Cara", "week-3-ginah-2010")  # exercises in folders, whole courses
 LESSONS_SHOWN = 1  # of the ten that `grade edition` runs: the others take minutes

@@ -303,12 +303,7 @@ def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProbl
             there = methods(target.name, home, names) or target.name in INHERITED
             record = home.classes[-1].place.text.split("{")[0]
             if not there and "enum" not in record and "record" not in record:
-                where = home.classes[-1].name
-                meant = suggest_name(target.name, _own_methods(home, names) | METHODS)
-                if meant:
-                    yield name_misspelled("method", target.name, meant=meant, line=line)
-                else:
-                    yield ParseProblem(f"{where} has no method {target.name}()", line)
+                yield _missing_method(target, home, names)
             return
         if _defined(target.name, names):
             return
@@ -328,6 +323,15 @@ def _method(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProbl
             return
         if not static and _closed(scope, names) and scope.classes:
             yield ParseProblem(f"nothing declares the method {target.name}()", line)
+
+
+def _missing_method(target: Member, home: Scope, names: SymbolTable) -> ParseProblem:
+    """A method that a class in sight does not have."""
+    line = target.place.line
+    meant = suggest_name(target.name, _own_methods(home, names) | METHODS)
+    if meant:
+        return name_misspelled("method", target.name, meant=meant, line=line)
+    return ParseProblem(f"{home.classes[-1].name} has no method {target.name}()", line)
 
 
 def _own_methods(home: Scope, names: SymbolTable) -> frozenset[str]:
