@@ -98,7 +98,7 @@ def draw_solvable(
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
-        rng = make_student_rng(student, "exercise9", draw=attempt)
+        rng = make_student_rng(student, exercise, draw=attempt)
         mechanism = draw_mechanism(rng)
         volts = step or STEPS.get(mechanism.name, USUAL_STEP)
         routine = Routine(ramp=RAMP, step=volts, timeout=TIMEOUT)
