@@ -50,10 +50,7 @@ def format_grade(
         plain: words for signs and nothing in columns, as a screen reader reads it best.
         then: what the answer would do on the robot, in words; empty where that is not known.
     """
-    lines = [_format_verdict(grade), style_line()]
-    said: set[str] = set()  # what has been said once is not said again
-    for result in grade.checks:
-        lines += _format_result(result, said, plain=plain)
+    lines = format_checks(grade, plain=plain)
     if then:
         lines += [style_line(), *wrap_text(then, lead="then  ")]
         lines.append(style_line(f"See it: grade {grade.exercise} --picture what.svg", "cyan"))
@@ -62,6 +59,20 @@ def format_grade(
     elif solution is not None:
         place = f"{solution.parent.name}/{solution.name}"
         lines += [style_line(), style_line(f"A solution, for comparison: {place}", "cyan")]
+    return _replace_signs(lines) if plain else lines
+
+
+def format_checks(grade: Grade, *, plain: bool = False) -> list[Line]:
+    """The verdict, and what each check found.
+
+    Args:
+        grade: what became of the answer.
+        plain: as for ``format_grade``.
+    """
+    lines = [_format_verdict(grade), style_line()]
+    said: set[str] = set()  # what has been said once is not said again
+    for result in grade.checks:
+        lines += _format_result(result, said, plain=plain)
     return _replace_signs(lines) if plain else lines
 
 

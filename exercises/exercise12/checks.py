@@ -1,6 +1,7 @@
 """Exercise 12: what is missing in a model, named, sized, and shown on runs nobody fitted."""
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,16 +10,19 @@ from typing import TYPE_CHECKING
 
 from grader.answer import AskedNumber, Band, read_answer_number
 from grader.check import NotReachedError, WrongAnswer, check
+from grader.mystery import Mystery
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 from grader.variant import make_folder_name
 
-from .drawn import FLOOR, Variant, draw
+from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
 from .gap import compared, gap, noise, with_effects, with_gains
 from .patch import names_of, on_a_bound, parts_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import numpy as np
 
     from sim.core.log import Log
     from sim.physics.model import Model, Part
@@ -95,6 +99,35 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
         for suffix in (".wpilog", ".csv")
     }
     write_student_files(made, exercise=HERE, student=student, what="logs", say=say)
+
+
+def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
+    """One to three hidden effects, more at higher levels; the answer is their names.
+
+    Args:
+        rng: the source of chance.
+        level: from 1.
+    """
+    count = min((level + 1) // 2, max(len(effects) for _, effects in HIDDEN))
+    variant = draw_determined(rng, [one for one in HIDDEN if len(one[1]) == count])
+    return Mystery(
+        logs={"log": variant.log, "validation": variant.validation},
+        task=(
+            f"The model kS, kV, kA lacks {count} effect{'s' if count > 1 else ''}. Which? Write "
+            f"{'the most important one first' if count > 1 else 'its name'}; sysid effects lists "
+            "the names. Put the names that you try after try_it.py"
+        ),
+        tool="python exercises/exercise12/try_it.py --logs {folder}",
+        example=", ".join(("delay", "backlash", "cogging")[:count]),
+        solution=", ".join(variant.hidden),
+        checks=(first_effect, all_effects),
+        read=lambda text: Answers({"effects": _split_names(text)}, variant),
+    )
+
+
+def _split_names(text: str) -> list[str]:
+    """The names in one line, between commas or spaces."""
+    return [one for one in re.split(r"[,\s]+", text) if one]
 
 
 def read(path: Path, *, student: str) -> Answers:

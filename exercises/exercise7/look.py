@@ -77,7 +77,12 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
     All tests have the same axes, so that they can be compared. The time steps begin at zero.
     """
     per = find_unit(log.units)
-    names = ("voltage [V]", f"velocity [{per.symbol}/s]", f"position [{per.symbol}]", "step [ms]")
+    names = (
+        "voltage [V]",
+        f"velocity [{per.symbol}/s]",
+        f"position [{per.symbol}]",
+        "time step [ms]",
+    )
     figure, grid = make_panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
     shown: list[list[Array]] = []
     for column, run in enumerate(runs):

@@ -30,6 +30,7 @@ MODULES = {
     "doctor": "doctor",
     "edition": "edition",
     "export": "export",
+    "mystery": "mystery",
     "release": "release",
     "serve": "serve",
     "watch": "watch",
@@ -61,7 +62,8 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
-            "grade", "watch | doctor | class FOLDER | release | export | serve FOLDER  [--help]"
+            "grade",
+            "watch | mystery | doctor | class FOLDER | release | export | serve FOLDER  [--help]",
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
