@@ -416,12 +416,12 @@ Table(
 # > **Lesson says:** SysId does not ask "what gain produces behavior I like", it asks "what physical
 # > model best explains the data this mechanism actually produced".
 # >
-# > **Source says:** the same in drier words: system identification is finding a mathematical model
+# > **Source says:** the same in other words: system identification is finding a mathematical model
 # > of a system "through statistical analysis of its inputs and outputs". And it adds that the model
 # > "is not perfect", but usually good enough. ([WPILib docs: Introduction to System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
-# > **Try it:** in the table of section 3, which row was made by which question?
+# > **Try it:** look at the table of section 3. Which row answers which question?
 # </details>
 #
 # <details><summary>For mentors: does every good team use SysId?</summary>
@@ -435,7 +435,7 @@ Table(
 # > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
 # >
 # > **Try it:** that is what this course is for. Each lesson makes one of those errors on purpose,
-# > on a bench where the truth is known, until you recognize it.
+# > in a simulation whose truth is known, until you recognize it.
 # </details>
 
 # %% [markdown]
