@@ -33,7 +33,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     "M-ARGORDER": Misconception(
         "Only their order separates values in a list of arguments. Look up which comes first.",
         lesson="08_from_analyzer_to_robot",
-        section="The class, and its slots",
+        section="The class, and its arguments",
     ),
     "M-CMDVOLT": Misconception(
         "The commanded voltage is not the applied voltage: an empty battery or a current limit "

@@ -1,11 +1,13 @@
 """What a learner is told: the verdict first, then what to do next. And the same as JSON."""
 
 import json
+import re
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 
 from grader.check import Result, Status
-from grader.course import Progress
+from grader.course import Progress, Standing
 from grader.exercise import HINTS, Exercise, Grade
 from grader.misconception import MISCONCEPTIONS
 from grader.submission import find_files, read_answers, read_text
@@ -20,6 +22,7 @@ MARKS = {
 }
 SPOKEN = {"✓": "right", "✗": "not right yet", "–": "not looked at yet", "!": "our mistake"}
 INDENT = "    "
+GRADED = re.compile(r'["`]grade (\w+)(?:\\n)?["`]')  # how a notebook's JSON has such a line
 ONCE = {"", "why  ", "see  "}  # leads of what is said once, however many checks it stands under
 
 
@@ -47,10 +50,7 @@ def format_grade(
         plain: words for signs and nothing in columns, as a screen reader reads it best.
         then: what the answer would do on the robot, in words; empty where that is not known.
     """
-    lines = [_format_verdict(grade), style_line()]
-    said: set[str] = set()  # what has been said once is not said again
-    for result in grade.checks:
-        lines += _format_result(result, said, plain=plain)
+    lines = format_checks(grade, plain=plain)
     if then:
         lines += [style_line(), *wrap_text(then, lead="then  ")]
         lines.append(style_line(f"See it: grade {grade.exercise} --picture what.svg", "cyan"))
@@ -59,6 +59,20 @@ def format_grade(
     elif solution is not None:
         place = f"{solution.parent.name}/{solution.name}"
         lines += [style_line(), style_line(f"A solution, for comparison: {place}", "cyan")]
+    return _replace_signs(lines) if plain else lines
+
+
+def format_checks(grade: Grade, *, plain: bool = False) -> list[Line]:
+    """The verdict, and what each check found.
+
+    Args:
+        grade: what became of the answer.
+        plain: as for ``format_grade``.
+    """
+    lines = [_format_verdict(grade), style_line()]
+    said: set[str] = set()  # what has been said once is not said again
+    for result in grade.checks:
+        lines += _format_result(result, said, plain=plain)
     return _replace_signs(lines) if plain else lines
 
 
@@ -172,7 +186,7 @@ def format_overview(
     student: str,
     plain: bool = False,
 ) -> list[Line]:
-    """Where a learner stands: lessons, exercises, and the next step."""
+    """Where a learner stands: lessons and exercises."""
     standings = [progress.find_standing(student, one.name) for one in found]
     done = sum(standing.is_done for standing in standings)
     name = f" ({student})" if student != Progress().student else ""
@@ -199,13 +213,53 @@ def format_overview(
                 StyledText(score, style),
             )
         )
-    open_ones = [one for one, how in zip(found, standings, strict=True) if not how.is_done]
-    return [*lines, style_line(), *_format_next_step(open_ones)]
+    return lines
 
 
-def _format_next_step(open_ones: list[Exercise]) -> list[Line]:
-    if not open_ones:
-        return [style_line("Everything here is done.", "bold green")]
-    one = open_ones[0]
-    task = f"exercises/{one.name}/README.md"
-    return wrap_text(f"read {task}, then: grade {one.name}", lead="Next: ", style="cyan")
+def format_next_step(
+    course: Path, found: tuple[Exercise, ...], progress: Progress, *, student: str
+) -> list[Line]:
+    """The one thing to do next, in a line that begins with ``Next``."""
+    standings = {one.name: progress.find_standing(student, one.name) for one in found}
+    lesson, exercise = find_next_step(course, standings)
+    if lesson:
+        return [style_line(f"Next: open {lesson}", "cyan")]
+    if exercise:
+        word = "go on with" if standings[exercise].max_score > 0 else "do"
+        return [style_line(f"Next: {word} exercises/{exercise}/README.md", "cyan")]
+    return [style_line("Everything here is done.", "bold green")]
+
+
+def find_next_step(course: Path, standings: Mapping[str, Standing]) -> tuple[str, str]:
+    """The lesson to read next, or the exercise to do next.
+
+    An exercise that two lessons name, one for each of its parts, is due with the first until it has
+    been tried, and with the last until it is done.
+
+    Args:
+        course: the course folder.
+        standings: exercise -> how far the learner is with it, in the order of the course.
+
+    Returns:
+        A lesson's path in the course folder and nothing, or nothing and an exercise's name; nothing
+        twice if all is done.
+    """
+    lessons = sorted((course / "lessons").glob("*.ipynb"))
+    named = {one: [name for name in read_exercises(one) if name in standings] for one in lessons}
+    seen: set[str] = set()
+    for place, lesson in enumerate(lessons):
+        later = {name for other in lessons[place + 1 :] for name in named[other]}
+        tried = [name for name in named[lesson] if standings[name].max_score > 0]
+        begun = bool({*tried} - seen)  # the learner has come as far as this lesson's exercises
+        for name in named[lesson]:
+            how = standings[name]
+            if how.is_done or (name in tried and name in later):
+                continue
+            return ("", name) if begun else (lesson.relative_to(course).as_posix(), "")
+        seen.update(named[lesson])
+    return "", next((name for name, how in standings.items() if not how.is_done), "")
+
+
+def read_exercises(lesson: Path) -> list[str]:
+    """The exercises that a notebook says how to grade, in its order."""
+    return list(dict.fromkeys(GRADED.findall(lesson.read_text(encoding="utf-8", errors="replace"))))

@@ -11,7 +11,7 @@ from grader.course import Progress
 from grader.draw_cache import enable_draw_cache
 from grader.exec_process import INTERRUPTED, run_process
 from grader.exercise import list_exercises
-from grader.report import format_overview
+from grader.report import find_next_step, format_next_step, format_overview, read_exercises
 from grader.terminal import print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.physics.engine import engine_is_cached, load_engine
@@ -60,12 +60,24 @@ def start(course: Path, progress: Progress, *, student: str, lab: bool) -> int:
                 f"{describe_activation(Path(sys.prefix))}"
             )
         _print_line(f"Without that, type  {command} exercise4  for  grade exercise4")
+    standings = {one.name: progress.find_standing(student, one.name) for one in found}
+    lesson, exercise = find_next_step(course, standings)
+    if lab:
+        return _open_lab(course, course / lesson if lesson else _find_last_lesson(course, exercise))
+    if lesson:
+        first = "Begin" if not any(how.max_score for how in standings.values()) else "Go on"
+        _print_line(f"Ready. {first} with {lesson}; to open it in JupyterLab:  {command} start")
+    else:
+        _print_line("Ready.")
+        print_lines(format_next_step(course, found, progress, student=student))
+    return 0
+
+
+def _find_last_lesson(course: Path, exercise: str) -> Path:
+    """What to open beside an exercise: the last lesson that names it, or the course folder."""
     lessons = sorted((course / "lessons").glob("*.ipynb"))
-    if not lab:
-        place = lessons[0].relative_to(course).as_posix() if lessons else "exercises"
-        _print_line(f"Ready. Begin with {place}; to open it in JupyterLab:  {command} start")
-        return 0
-    return _open_lab(course, lessons[0] if lessons else course)
+    there = [one for one in lessons if exercise in read_exercises(one)]
+    return there[-1] if there else lessons[0] if lessons else course
 
 
 def describe_activation(prefix: Path, *, windows: bool = os.name == "nt") -> str:
@@ -90,7 +102,8 @@ def _open_lab(course: Path, what: Path) -> int:
             advice="Install it (python -m pip install jupyterlab), or: grade start --no-lab",
         )
     place = what.relative_to(course).as_posix()
-    _print_line("Opening JupyterLab in your browser. To end it: Ctrl-C here, twice.")
+    _print_line("To end JupyterLab later: press Ctrl-C here, twice.")
+    _print_line(f"Next: read {place} in your browser, which opens now.")
     sys.stdout.flush()
     scripts = sysconfig.get_path("scripts")
     paths = os.pathsep.join(part for part in (scripts, os.environ.get("PATH", "")) if part)

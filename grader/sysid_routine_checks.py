@@ -6,7 +6,7 @@ where they cannot be told by reading: then it asks, and never guesses.
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from grader.check import NotReachedError, WrongAnswer
@@ -315,10 +315,32 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         more = f" There are {len(errors)} such lines." if len(errors) > 1 else ""
         raise WrongAnswer(
             f"line {one.line}: {one.message}",
-            hint=f"Like this {stops}, and the robot runs none of it. Fix the name, its import or "
-            f"its type.{more}",
+            hint=f"With this line {stops}, and the robot does not start. "
+            f"{'Correct the name' if one.meant else 'Fix the name, its import or its type'}.{more}",
             earned=earned,
         )
+
+
+def check_spelling(
+    errors: Sequence[ParseProblem],
+    *,
+    lines: Collection[int] | None = None,
+    language: str,
+    earned: float = 0.0,
+) -> None:
+    """Whether a misspelled name explains what another check misses.
+
+    Args:
+        errors: what a compiler, or Python itself, would stop at.
+        lines: in which a misspelled name counts; None for all.
+        language: ``java`` or ``python``.
+        earned: points all the same.
+
+    Raises:
+        WrongAnswer: a name is misspelled.
+    """
+    misspelled = [one for one in errors if one.meant and (lines is None or one.line in lines)]
+    check_compiles(misspelled, language=language, earned=earned)
 
 
 READ = {  # what is said of code that nobody compiled

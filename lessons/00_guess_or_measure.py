@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Lesson 0: Start here: guess or measure?
 #
-# *About 40 minutes. You need nothing but this page: no robot, no math beyond a straight line, no
-# earlier lesson.*
+# *About 40 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
+# line.*
 #
 # **At the end you can**
 #
@@ -24,38 +24,39 @@
 # - use the three tools of this course, and find the mechanism that belongs to your name.
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
-# and its answer appears below. Go from top to bottom, and leave none out. You do not have to
+# and its answer appears below. Go from top to bottom, and run every cell. You do not have to
 # understand every line of code. Some cells are folded to a bar with three dots, because their code
-# would give away an answer; run them like the others.
+# would show the answer to a question. Run them like the others.
 #
-# **If you see no buttons or sliders:** you can type an answer in a cell, for example
-# `guess_race.value = "the three lines"` for a prediction or `quick.answer("kS")` for a quick check.
-# Below each slider there is a line of code with the same numbers to change; its picture is folded
-# to a bar, so click on the bar. This holds for all lessons.
+# <details><summary>You see no buttons or sliders?</summary>
+#
+# You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
+# prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
+# with the same numbers to change. Its picture is folded to a bar, so click on the bar. This is so
+# in all lessons.
+# </details>
 
 # %% [markdown]
 # ## 1 Why: somebody has to choose the numbers
 #
-# Your robot program wants the drivetrain to move at 2 m/s. But all it can control is a **voltage**.
-# How many volts give 2 m/s? A **feedforward** answers that: it is a formula that computes the
-# voltage for the motion you want. It does not wait for an error and then correct it; it gives the
-# right voltage from the start.
+# Your robot program wants the drivetrain to move at 2 m/s. But it can only control a **voltage**.
+# How many volts give 2 m/s? A **feedforward** is a formula that computes the voltage for the motion
+# you want. It does not wait for an error: it gives the right voltage from the start.
 #
 # The formula contains three numbers, called **gains**:
 #
-# - **kS**: the volts that overcome friction whenever the robot moves;
+# - **kS**: the volts that overcome friction while the robot moves;
 # - **kV**: volts for each m/s of velocity;
 # - **kA**: volts for each m/s² of acceleration. (An acceleration of 1 m/s² means: each second, the
 #   velocity grows by 1 m/s.)
 #
-# Lesson 1 explains where they come from. Today there is one question: **how do you find these
-# numbers?**
+# Lesson 1 explains where they come from. Today's question: **how do you find these numbers?**
 #
 # - You can **guess**: try 0.1, load the code onto the robot (*deploy*), watch, try 0.2.
 # - You can **measure**: let the robot run a few tests, write down what it did, and compute the
 #   gains from that. This is **system identification**, in short *SysId*.
 #
-# Let us not argue. Let us race.
+# Which is better? Let us race.
 
 # %%
 import math
@@ -105,15 +106,14 @@ print(f"{NAME}'s robot: {robot.summary}, more or less.")
 print("Its gains are hidden from you until the race is over.")
 
 # %% [markdown]
-# The robot is simulated. We call the simulation **the bench**. It has one great advantage over a
-# real robot: its true gains are known, so you can check who was right.
+# The robot is simulated. The simulation knows its true gains, so you can check who was right.
 #
 # ### The drive
 #
 # The robot should speed up to 2.5 m/s within half a second, hold that speed, stop, wait, and then
 # drive back at 1 m/s. The next cell describes this drive. The most important line is `volts = …`:
-# it computes the voltage from the motion we want. (`np.sign(v)` is +1 forward and −1 backward, so
-# the kS voltage always points in the direction of motion, against friction.)
+# it computes the voltage from the motion we want. (`np.sign(v)` is +1 forward and −1 backward,
+# because friction always acts against the motion.)
 
 # %%
 TIME = np.arange(0.0, 4.21, 0.02)  # [s] the robot program runs every 20 ms
@@ -132,19 +132,19 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 
 
 # %% [markdown]
-# Nothing corrects the robot while it drives. That is on purpose: a correction (*feedback*, such as
-# PID) would hide how good or bad the gains are.
+# Nothing corrects the robot while it drives. A correction (*feedback*, such as PID) would hide how
+# good or bad the gains are.
 
 # %% [markdown]
 # ## 3 The race
 #
-# **Round one: you.** You have **90 seconds** and two sliders, kS and kV. kA stays at 0: two sliders
-# are hard enough. The clock starts when you move the first one. Bring the colored line onto the
-# black one. The number to beat is in the table: the *typical error*. (It is the "root mean square"
-# of all errors: an average in which large errors count more.) Race first, then run the cells below.
+# **Round one: you.** You have **90 seconds** and two sliders, kS and kV. kA stays at 0. The clock
+# starts when you move the first slider. Bring the colored line onto the black one. Try to make the
+# *typical error* in the table small. (It is the "root mean square" of all errors: an average in
+# which large errors count more.) Race first, then run the cells below.
 #
-# **Predict first.** Nobody grades your prediction. After the experiment the page tells you whether
-# it was right, and keeps your score.
+# **Predict first.** Nobody grades your prediction. After the experiment, the page tells you whether
+# it was right.
 
 # %%
 guess_race = Prediction(
@@ -200,9 +200,9 @@ measured = fit(log, method="sysid").gains
 followed = drive(robot, measured)
 
 # %% [markdown]
-# The log contains two slow ramps and two sudden steps of the voltage: one forward and one backward
-# of each. SysId calls the ramps *quasistatic* and the steps *dynamic*. (The picture shows only the
-# first second of each step. Lesson 3 explains why SysId uses these four tests.)
+# The log contains two slow ramps and two sudden steps of the voltage, each forward and backward.
+# SysId calls the ramps *quasistatic* and the steps *dynamic*. (The picture shows only the first
+# second of each step. Lesson 3 explains these four tests.)
 
 # %%
 plot_time_series(log, dynamic_seconds=1.0)
@@ -255,9 +255,7 @@ Table(
 # Look at the second row of the table. The computer tried *every* pair of kS and kV in steps of
 # 0.05, and the best pair still has a large error. Look where: on the ramps of the drive, where the
 # robot speeds up and slows down. kS and kV alone cannot provide the voltage for acceleration. That
-# is the job of kA, and the three lines have it. So **round one could not be won**, by anybody.
-#
-# (Even the true gains have a tiny error, because the program sets the voltage only every 20 ms.)
+# is the job of kA, and only the three lines have it. So **nobody could win round one**.
 #
 # Was the race fair? Only partly.
 #
@@ -266,6 +264,11 @@ Table(
 # - The simulation was **kind to the three lines**, too. On a robot, line one is work: you need code
 #   for the tests, room to drive, a good battery, and a log that is not damaged. Lessons 3 to 6
 #   teach this.
+#
+# <details><summary>Want to know why the true gains have an error, too?</summary>
+#
+# The program sets the voltage only every 20 ms, but the motion changes all the time.
+# </details>
 #
 # On a real robot, line one would need this much driving:
 
@@ -372,14 +375,13 @@ Table(
 )
 
 # %% [markdown]
-# For kV it is almost a tie. A careful manual fit is *good*, and for kS it is often just as good
-# (SysId's kS comes out a little high on such logs; lesson 7 explains why). A maintainer of WPILib
-# calls this line "the better way" to find kS and kV by hand. ([frc-docs issue
+# For kV both are nearly equal, and for kS often, too. A careful line by hand is *good*. A
+# maintainer of WPILib calls it "the better way" to find kS and kV by hand. ([frc-docs issue
 # 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
 #
-# So the race was not "human against computer". Look closely at what your teammate did with the
-# pencil: they did *not* turn a knob until they liked the result. They **wrote down what the robot
-# did, and fitted a model to it**. That is system identification, done with a pencil.
+# So the race was not "human against computer". Your teammate did *not* move a slider until they
+# liked the result. They **wrote down what the robot did, and fitted a model to it**. That is system
+# identification, done with a pencil.
 #
 # The pencil cannot find kA, because it only looks at steady speeds.
 
@@ -414,12 +416,12 @@ Table(
 # > **Lesson says:** SysId does not ask "what gain produces behavior I like", it asks "what physical
 # > model best explains the data this mechanism actually produced".
 # >
-# > **Source says:** the same in drier words: system identification is finding a mathematical model
+# > **Source says:** the same in other words: system identification is finding a mathematical model
 # > of a system "through statistical analysis of its inputs and outputs". And it adds that the model
 # > "is not perfect", but usually good enough. ([WPILib docs: Introduction to System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
-# > **Try it:** in the table of section 3, which row was made by which question?
+# > **Try it:** look at the table of section 3. Which row answers which question?
 # </details>
 #
 # <details><summary>For mentors: does every good team use SysId?</summary>
@@ -433,13 +435,13 @@ Table(
 # > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
 # >
 # > **Try it:** that is what this course is for. Each lesson makes one of those errors on purpose,
-# > on a bench where the truth is known, until you recognize it.
+# > in a simulation whose truth is known, until you recognize it.
 # </details>
 
 # %% [markdown]
 # ## 6 Week 3: a brace
 #
-# Two weeks later the build team bolts a steel brace onto the frame: **+4 kg**. Nobody tells the
+# Two weeks later, the build team bolts a steel brace onto the frame: **+4 kg**. Nobody tells the
 # programmers.
 #
 # **Predict** two things:
@@ -509,9 +511,8 @@ Table(
 # ### Explain
 #
 # Only **kA** has moved. At a steady speed nothing accelerates, so a heavier robot needs no more
-# volts: kV stays the same. (On a real robot a brace may also add a little friction. The simulation
-# leaves that out.) So a guess only becomes wrong where it depends on mass: set the slider to 40 kg,
-# and look where the error grows.
+# volts: kV stays the same. So a guess only becomes wrong where it depends on mass: set the slider
+# to 40 kg, and look where the error grows.
 #
 # <details><summary>For mentors: do guesses stop being valid when the robot gets heavier?</summary>
 #
@@ -526,9 +527,9 @@ Table(
 # > holds a speed?
 # </details>
 #
-# To be fair to the guess: its kS and kV are as good or as bad as before, and it never had a kA. But
-# guessing gives you no way to *notice* the brace. Measuring does. The next cell uses the course's
-# own method (`fit` without `method="sysid"`; lesson 7 compares the two), before and after:
+# Your guess of kS and kV is as good as before, and it never had a kA. But when you guess, you do
+# not *notice* the brace. When you measure, you do. The next cell uses the course's own method
+# (`fit` without `method="sysid"`), before and after:
 
 # %%
 heavy_log = simulate(heavy, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(3))
@@ -541,8 +542,7 @@ sysid_growth = again["kA"] / measured["kA"]
 print(f"(SysId's recipe, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less sharp.)")
 
 # %% [markdown]
-# The log has *weighed* the brace. A number that just happened to work cannot do that. A number with
-# a physical meaning can.
+# The log has *weighed* the brace: its numbers have a physical meaning.
 #
 # How much do 4 kg matter? That depends on where they are:
 
@@ -565,21 +565,20 @@ Table(("where", "moves [kg]", "kV grows by", "kA grows by", "kG grows by"), tupl
 #   else, take the pencil.
 # - For **kA**, and for **kG**, measuring wins. You cannot see them in a single steady speed.
 # - When **something changes**, measuring wins: it shows what changed, and by how much.
-# - With a **damaged log**, measuring loses. A fit prints three neat numbers even when they are
-#   nonsense. Lesson 6 teaches you to recognize such a log.
+# - With a **damaged log**, measuring loses. A fit prints three numbers even when they are wrong.
+#   Lesson 6 teaches you to recognize such a log.
 #
 # ## 7 What you get for it
 #
 # Good gains help you more than once, because other code uses them.
 #
-# **Drivetrain.** A path planner such as PathPlanner plans a drive that the robot then has to
-# follow. It needs to know how hard it is to turn the robot: its *moment of inertia* (MOI). The
-# PathPlanner docs give a formula that uses two kA values, one measured while turning and one while
-# driving straight. ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
+# **Drivetrain.** A path planner such as PathPlanner needs to know how hard it is to turn the robot:
+# its *moment of inertia* (MOI). The PathPlanner docs give a formula that uses two kA values, one
+# measured while turning and one while driving straight. ([PathPlanner docs: Robot
+# Config](https://pathplanner.dev/robot-config.html))
 #
 # **Arm.** A motion profile asks for a velocity and an acceleration at every moment, as our drive
-# did. With good gains the arm follows, and the feedback has little left to correct. With bad gains
-# the feedback fights the feedforward all the way.
+# did. With good gains the arm follows, and the feedback has little to correct.
 #
 # **Shooter.** Ask for 4000 rpm with feedforward alone:
 
@@ -610,7 +609,7 @@ Table(
 )
 
 # %% [markdown]
-# Good gains leave little work for the feedback. They do not replace it: the gains in the last row
+# With good gains the feedback has little work. But you still need it: the gains in the last row
 # were perfect last month. And gains belong to *your* robot: another team's gains describe another
 # machine.
 #
@@ -645,8 +644,8 @@ Table(
 # python -m grader start
 # ```
 #
-# (WPILib's own tool is also called **SysId**. It comes with WPILib and opens the same `.wpilog`
-# files. This course explains what it does. You can use either tool.)
+# (WPILib's own tool is also called **SysId**. It opens the same `.wpilog` files. You can use either
+# tool.)
 #
 # ### Say who you are
 #
@@ -656,10 +655,10 @@ Table(
 # grade start --student ada
 # ```
 #
-# From then on, every exercise gives you your own numbers: your own mechanism and your own log, with
-# its own damage. Your neighbor's answers will not help you, but you can compare *how* you got
-# there. Your numbers are in `exercises/exercise1/data/ada/given.toml`, and so on. In a class, your
-# teacher may hand them out. (`NAME` at the top of this page is for the race only.)
+# From then on, every exercise gives you your own numbers: your own mechanism and your own log. Your
+# neighbor's answers will not help you, but you can compare *how* you found them. Your numbers are
+# in `exercises/exercise1/data/ada/given.toml`, and so on. (`NAME` at the top of this page is for
+# the race only.)
 #
 # The next cell shows which data you have:
 
@@ -675,8 +674,7 @@ else:
 # %% [markdown]
 # ### A first try
 #
-# In the terminal, these two commands do the same as lines one and two of the race, with a standard
-# simulated drivetrain: they run the four tests and compute the gains.
+# In the terminal, these two commands do the same as lines one and two of the race:
 #
 # ```
 # sysid simulate drivetrain --seed 1 -o drive.wpilog
@@ -768,9 +766,9 @@ quick
 # %% [markdown]
 # ## 11 Practice
 #
-# **Exercise 11** (`exercises/exercise11/README.md`) has the knowledge checks of the whole course.
-# Its first three questions, under *Guessing and measuring*, are about this page. Answer them now,
-# and leave the rest empty until lesson 8. In a terminal:
+# **Exercise 11** ([exercises/exercise11/README.md](../exercises/exercise11/README.md)) has the
+# knowledge checks of the whole course. Its first three questions, under *Guessing and measuring*,
+# are about this page. Answer them now, and leave the rest empty until lesson 8. In a terminal:
 #
 # ```
 # grade exercise11
@@ -785,8 +783,9 @@ quick
 # submit("exercise11", Q0_guess="...", Q0_sysid="...", Q0_brace="...")
 # ```
 #
-# It writes your answers into `exercises/exercise11/answers.toml` and shows the result. Hints cost
-# nothing: `grade exercise11 --hint`.
+# It writes your answers into `exercises/exercise11/answers.toml` and shows the result. Or write
+# into that file with an editor, and start `grade watch exercise11` in a terminal: it grades each
+# time you save. Hints cost nothing: `grade exercise11 --hint`.
 #
 # <details><summary>More, if you like</summary>
 #

@@ -28,12 +28,11 @@
 # %% [markdown]
 # ## 1 Why: a gain is a price
 #
-# In lesson 0 you moved kS and kV until a robot followed. They were just numbers on a slider. But
-# each gain means something and has a unit. You can read a gain as a **price**: kV = 2.5 V·s/m says
-# that each m/s of speed costs 2.5 volts.
+# In lesson 0, kS and kV were just numbers on a slider. But each gain has a meaning and a unit. You
+# can read a gain as a **price**: kV = 2.5 V·s/m says that each m/s of speed costs 2.5 volts.
 #
-# Whoever knows the prices can check the bill. "The analyzer says kV = 0.4." Can that be? After this
-# lesson you can answer that in a minute, with the motor's data sheet and a pocket calculator.
+# "The analyzer says kV = 0.4." Can that be right? After this lesson you can answer that in a
+# minute, with the motor's data sheet and a calculator.
 
 # %%
 import math
@@ -80,13 +79,13 @@ print(drivetrain.summary)
 # | kA·a | *changing* the speed | V·s²/m: volts for each m/s² | the speed is steady |
 #
 # Each product is in volts: V·s/m times m/s is V. If your mechanism turns, read rotations or radians
-# instead of meters (section 8). A mechanism that moves up and down pays a fourth price, for
-# gravity: lesson 2.
+# instead of meters (section 8). A mechanism that moves up and down also needs volts for gravity:
+# lesson 2.
 #
-# Friction takes the same voltage at any speed; only its direction changes. (This is a good
-# simplification. Friction that grows with speed becomes part of kV.)
+# Friction takes the same voltage at any speed; only its direction changes. (Friction that grows
+# with speed becomes part of kV.)
 #
-# The next table shows the three prices of our simulated drivetrain, and four bills. Cover the table
+# The next table shows the three terms of our simulated drivetrain in four moments. Cover the table
 # with your hand and compute the last row first: driving *backward* at 2 m/s.
 
 
@@ -136,8 +135,8 @@ print(f"They accelerate it by {left / gains['kA']:.1f} m/s every second: it only
 print(f"If its speed were steady, its kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
 
 # %% [markdown]
-# There are two good explanations for "7 V at 2 m/s": either the speed is not steady, or the robot
-# has a different kV. To decide, look at whether the velocity is still changing.
+# Two explanations for "7 V at 2 m/s" are possible: the speed is not steady, or the robot has a
+# different kV. To decide, look whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
@@ -146,10 +145,10 @@ print(f"If its speed were steady, its kV would have to be {(7.0 - gains['kS']) /
 # *motion* and stacks them on top of each other. The black line is the voltage that was *applied*.
 # If the model is right, the stack reaches the line.
 #
-# There are three drives. Two of them are the tests that SysId uses:
+# There are three drives:
 #
 # - a **slow ramp**: the voltage grows slowly (SysId's *quasistatic* test);
-# - a **sudden step**: all at once (SysId's *dynamic* test);
+# - a **sudden step**: the voltage jumps at once (SysId's *dynamic* test);
 # - **there and back**: 5 V, then nothing, then −3 V, then nothing.
 #
 # **Predict:**
@@ -245,13 +244,12 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 #   needs the test: **kA takes many volts only here.**
 # - **Slow ramp.** The acceleration is small the whole time. Most volts go into kS and kV·v, so this
 #   test shows **kS and kV**.
-# - **The gap at the start of the ramp.** Until the voltage reaches kS, nothing moves, and the stack
-#   is empty. Friction holds the robot and uses up all the voltage there is.
-# - **There and back.** When the voltage drops to 0 V, kA·a is negative and hangs below the line:
-#   the robot's own motion pays for friction and speed, so the robot gets slower.
+# - **The gap at the start of the ramp.** Until the voltage reaches kS, friction holds the robot:
+#   nothing moves, and the stack is empty.
+# - **There and back.** When the voltage drops to 0 V, kA·a is negative, and the robot gets slower.
 #
-# Make the robot heavy, then light. Which area changes? Then increase the friction. Note also that
-# kA·a never quite vanishes in the ramp: lesson 3 shows why that matters for kS.
+# Make the robot heavy, then light. Which area changes? Then increase the friction. In the ramp,
+# kA·a is small, but never zero: lesson 3 shows why that matters for kS.
 #
 # <details><summary>For mentors: is kS the intercept of the quasistatic test?</summary>
 #
@@ -302,12 +300,11 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # | kV | Ke·G/r | the kind of motor, gears, wheel |
 # | kA | R·r·m/(n·G·Kt) | mass, motors, gears, wheel |
 #
-# Look for the mass m. It appears in kA and nowhere else, as you saw in week 3 of lesson 0.
+# Look for the mass m. It is in kA and nowhere else, as you saw in week 3 of lesson 0. (We leave out
+# losses in the gears and the spinning parts.)
 #
-# (We leave out losses in the gears and the spinning parts.)
-#
-# Is that true? The next cell computes the gains by hand from the motor's data, and compares them
-# with a log:
+# Is that true? The next cell computes the gains from the motor's data, and compares them with a
+# log:
 
 # %%
 kraken = drivetrain.motor
@@ -328,7 +325,7 @@ Table(
 )
 
 # %% [markdown]
-# You cannot compute kS by hand: no data sheet knows your friction. You have to measure it.
+# You cannot compute kS: no data sheet knows your friction. You have to measure it.
 #
 # Now build another robot. **Predict:**
 
@@ -397,9 +394,9 @@ Table(
 # ## 5 Is this kV possible?
 #
 # A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing attached. It
-# tells you which kV to expect. We call this the kV *on paper*:
+# tells you which kV to expect, the **theoretical kV**:
 #
-# > kV on paper = 12 V / (free speed of the *mechanism*)
+# > theoretical kV = 12 V / (free speed of the *mechanism*)
 #
 # The data sheet gives the speed of the motor in rpm, without gears and wheel. So convert it one
 # step at a time:
@@ -412,14 +409,12 @@ free_speed = wheel_turns * math.pi * 2 * r
 print(f"{rpm:.0f} rpm are {motor_turns:.2f} turns of the motor per second")
 print(f"... divided by the ratio {G}: {wheel_turns:.2f} turns of the wheel per second")
 print(f"... times the circumference {math.pi * 2 * r:.4f} m: {free_speed:.2f} m/s")
-print(f"kV on paper: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m")
+print(f"theoretical kV: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m")
 print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s: no robot does that.")
 
 # %% [markdown]
-# **Myth check.** "kV on paper is exactly 12 V divided by the free speed." *Almost:* it is a good
-# first check. WPILib's `DCMotor` also subtracts the small voltage drop of the free current, so its
-# kV is a little lower. The last column of the next table shows how much lower, for eight motors at
-# 1:1. (FOC is a mode of the same Kraken motor that needs a license. It has a different free speed.)
+# The next table has the theoretical kV of eight motors at 1:1. WPILib's `DCMotor` also subtracts a
+# small voltage drop inside the motor, so its kV is a little lower: see the last column.
 #
 # <details><summary>For mentors: 12 V ÷ free speed, with source</summary>
 #
@@ -440,32 +435,32 @@ TURN = 2 * math.pi  # [rad]
 rows = []
 for name in NAMES:
     one = MOTORS[name]
-    paper, exact = theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
-    lower = f"{100 * (1 - exact / paper):.1f} %"
-    rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", f"{paper:.4f}", f"{exact:.4f}", lower))
+    theory, exact = theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
+    lower = f"{100 * (1 - exact / theory):.1f} %"
+    rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", f"{theory:.4f}", f"{exact:.4f}", lower))
 Table(
-    ("motor", "free speed [rpm]", "on paper [V·s/rot]", "exact [V·s/rot]", "lower by"), tuple(rows)
+    ("motor", "free speed [rpm]", "12 V ÷ free speed [V·s/rot]", "DCMotor [V·s/rot]", "lower by"),
+    tuple(rows),
 )
 
 # %% [markdown]
-# ### Measured against paper
+# ### Measured kV against theory
 #
-# A real kV is a little **above** the kV on paper: grease and seals brake more, the faster they
+# A real kV is a little **above** the theoretical kV: grease and seals brake more, the faster they
 # turn. If kV is far above, something is wrong. And if it is **below**? A motor cannot turn faster
 # than its free speed. So somebody wrote down a wrong number.
 #
-# | measured kV | name | what to do |
+# | measured kV | verdict | what to do |
 # |---|---|---|
-# | below paper | *bookkeeping* | find the wrong number |
+# | below the theoretical kV | *bookkeeping* | find the wrong number |
 # | 0 to 8 % above | *ok* | nothing |
 # | 8 to 20 % above | *watch* | compare again next week |
-# | more than 20 % above | *inspect* | look before you test on |
+# | more than 20 % above | *inspect* | look for the cause before the next test |
 #
-# (These limits are rules of thumb. Data sheets are rounded, so 1 or 2 % below paper proves
-# nothing.)
+# (These limits are rules of thumb. Data sheets are rounded, so 1 or 2 % below proves nothing.)
 #
-# Here are seven robots. All have the same healthy drivetrain, but all except the first have one
-# fault. Which of them have a kV more than 20 % above paper?
+# Here are seven robots with the same drivetrain. All except the first have one fault. Which of them
+# have a kV more than 20 % above the theoretical one?
 #
 # **Predict:**
 
@@ -481,7 +476,7 @@ guess_cause
 # %%
 sound = replace(drivetrain, drag=0.05)
 quick = sim.Routine(ramp=1.0, step=2.0)
-PAPER = 12 / free_speed
+THEORY = 12 / free_speed
 
 
 def found(log: sim.Log) -> dict[str, float]:
@@ -519,14 +514,14 @@ VERDICTS = {"bookkeeping": 0.0, "ok": 8.0, "watch": 20.0, "inspect": 40.0}
 
 
 def above(story: str) -> float:
-    """How far the measured kV is above paper [%]."""
-    return 100 * (found(STORIES[story])["kV"] / PAPER - 1)
+    """How far the measured kV is above the theoretical one [%]."""
+    return 100 * (found(STORIES[story])["kV"] / THEORY - 1)
 
 
 def verdict(story: str) -> Picture:
     """Where the kV of a robot lies."""
     marks = {story: above(story)}
-    return plot_gauge(marks, VERDICTS, label="kV above paper [%]", good="ok", least=-20.0)
+    return plot_gauge(marks, VERDICTS, label="kV above theory [%]", good="ok", least=-20.0)
 
 
 show_interactive(
@@ -547,7 +542,7 @@ for story, one in STORIES.items():
     got = found(one)
     over = f"{above(story):+.0f} %".replace("-", "−")
     rows.append((story, got["kS"], got["kV"], got["kA"], over))
-Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tuple(rows))
+Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tuple(rows))
 
 # %% [markdown]
 # ### Explain
@@ -556,12 +551,12 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tup
 # - **Friction that grows with speed** adds to kV: a belt or chain that is too tight, a dry bearing,
 #   thick grease.
 # - **Wrong numbers** (ratio, wheel, unit) multiply kV *and* kA by the same factor, and do not
-#   change kS. You can recognize them by that.
+#   change kS.
 # - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` sets
-#   a share of the battery voltage, not a voltage. With an 11 V battery the motors get 11/12 of what
-#   the log says, and less under load. Look at that row's kS and kA: all three gains are wrong.
+#   a share of the battery voltage, not a voltage. With an 11 V battery the motors get only 11/12 of
+#   what the log says: all three gains are wrong.
 #
-# When kV is more than 20 % above paper, check the easiest things first:
+# When kV is more than 20 % above the theoretical kV, check the easiest things first:
 #
 # 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
 # 2. **Electrical** (in the log): did the logged voltage really reach the motors? Are all motors
@@ -572,9 +567,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tup
 #
 # ### Check somebody else's numbers
 #
-# You can now check numbers that somebody else wrote. One published lesson gives a drivetrain with
-# kV = 2.68 V·s/m, a ratio of 8.46, 4 inch wheels and TalonFX motors. A TalonFX can be one of three
-# motors. Which of them could it be?
+# One published lesson gives a drivetrain with kV = 2.68 V·s/m, a ratio of 8.46, 4 inch wheels and
+# TalonFX motors. A TalonFX can be one of three motors. Which of them could it be?
 #
 # <details><summary>For mentors: the source lesson's drivetrain</summary>
 #
@@ -590,14 +584,13 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above paper"), tup
 # %%
 rows = []
 for name in ("falcon500", "krakenX60", "krakenX44"):
-    paper = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
-    rows.append((name, paper, f"{100 * (2.68 / paper - 1):+.0f} %".replace("-", "−")))
-Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
+    theory = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
+    rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
+Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 
 # %% [markdown]
 # Two of these motors would have to turn faster than they can. Either that robot had the third
-# motor, or the ratio is wrong. There it is only an example. In your own constants file you would
-# have found a *bookkeeping* error without touching the robot.
+# motor, or the ratio is wrong. You found that without touching the robot.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
@@ -606,9 +599,9 @@ Table(("motor", "kV on paper [V·s/m]", "2.68 is above paper by"), tuple(rows))
 # the **time constant**, τ ("tau"). SysId's window shows it as *Response Timescale*, in
 # milliseconds.
 #
-# After a step of voltage, the velocity does not rise in a straight line. It rises fast, then slower
-# and slower: in each τ it covers 63 % of the remaining difference. (Such a curve is called
-# *exponential*.) After 3 τ it has almost reached its final speed. The star in the picture marks τ.
+# After a step of voltage, the velocity rises fast, then slower and slower: in each τ it covers 63 %
+# of the remaining difference. (Such a curve is called *exponential*.) After 3 τ it has almost
+# reached its final speed. The star in the picture marks τ.
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -655,20 +648,19 @@ Table(
 )
 
 # %% [markdown]
-# The third column matters. A robot program writes one row every 20 ms. If τ is only two or three
-# rows long, the log hardly shows the acceleration, and kA depends on very few numbers. Then log
-# faster, or do not trust the digits of kA. (Lesson 7 counts the rows.)
+# Look at the third column. A robot program writes one row every 20 ms. If τ is only two or three
+# rows long, the log hardly shows the acceleration, and kA is uncertain. Then log faster. (Lesson 7
+# counts the rows.)
 
 # %% [markdown]
 # ## 7 kS: when to get a wrench
 #
 # A low kS means that the mechanism turns easily. A high kS means friction: a tilted bearing, a bent
-# shaft, a screw that rubs. Do not just put a high kS into the code. The feedforward would then
-# *hide* the part that is wearing out.
+# shaft, a screw that rubs. Do not just put a high kS into the code: that *hides* the part that is
+# wearing out.
 #
-# But how high is too high? You may hear this rule: be alarmed when kS is much higher than kV ×
-# typical velocity. WPILib gives no limit at all. So test the rule: how large may our drivetrain's
-# kS get at 2 m/s before the rule raises an alarm?
+# But how high is too high? One rule says: stop when kS is much higher than kV × typical velocity.
+# Test the rule: how large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
 #
@@ -686,20 +678,18 @@ Table(
 # %%
 TYPICAL = 2.0  # [m/s] in a match
 flag = gains["kV"] * TYPICAL
-print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The flag goes up above that: {100 * flag / 12:.0f} %")
-print(f"of a 12 V battery, for friction alone. Ours has {gains['kS']:.2f} V.")
+print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop above that, which is")
+print(f"{100 * flag / 12:.0f} % of 12 V, for friction alone. Ours has {gains['kS']:.2f} V.")
 
 # %% [markdown]
-# So this rule only detects an emergency: **stop now**. It is correct, but very late. Add a second,
-# earlier limit, **watch**: kS above 0.5 V, which is about 4 % of 12 V. (This number is our rule of
-# thumb. Some healthy mechanisms with a high gear ratio are above it.)
+# So this rule comes very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
+# about 4 % of 12 V. (This is our rule of thumb. Some healthy mechanisms with a high gear ratio are
+# above it.)
 #
 # Two warning signs need no limit at all:
 #
 # - **kS has grown since last week.** Write it down each time.
 # - **Left and right differ.** They are built the same, so they should have the same friction.
-#
-# The gauge starts with a slow robot, at 1 m/s. There, *stop* already begins at a lower kS.
 
 
 # %%
@@ -729,15 +719,13 @@ show_interactive(
 red_flag(left=0.15, right=0.45, typical=1.0)
 
 # %% [markdown]
-# In this example the gauge says *fine* for both sides. Would you accept that? No: the right side
-# has three times the friction of the left. The gauge does not notice, because it looks at one side
-# at a time. You do.
+# Here the gauge says *fine* for both sides. But the right side has three times the friction of the
+# left. The gauge looks at one side at a time. You compare them.
 
 # %% [markdown]
 # ## 8 Units: per rotation, per radian, per meter
 #
-# A full turn is 1 rotation, or 2π = 6.28 radians, or 360 degrees. The wheel turns the same, however
-# you count, but the numbers differ.
+# A full turn is 1 rotation, or 2π = 6.28 radians, or 360 degrees.
 #
 # **Predict:**
 
@@ -772,8 +760,7 @@ Table(
 # rad/s must cost fewer volts. **When the number for the speed grows, the gain shrinks by the same
 # factor.**
 #
-# - from V·s/rot to V·s/rad: **divide** by 2π. The same goes for kA. kS has no distance in its unit,
-#   so it stays.
+# - from V·s/rot to V·s/rad: **divide** by 2π. Do the same with kA. kS is in volts, so it stays.
 # - from V·s/rot of a wheel to V·s/m: divide by its circumference.
 #
 # Two traps:
@@ -781,7 +768,7 @@ Table(
 # - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
 #   If you use it on a **gain**, the gain changes in the wrong direction: it is wrong by 2π twice.
 # - kV and the velocity that you pass to the feedforward must be in the **same** unit. The code does
-#   not notice when they differ. The motor does.
+#   not notice when they differ.
 
 # %%
 per_radian = per_rotation / TURN
@@ -797,9 +784,9 @@ print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V
 # Before you trust a set of gains, your own or somebody else's:
 #
 # - [ ] Each gain has its **unit** written next to it.
-# - [ ] kV is positive, and between 0 and 8 % above paper. If not, you know why.
+# - [ ] kV is positive, and 0 to 8 % above the theoretical kV. If not, you know why.
 # - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
-# - [ ] kA/kV in milliseconds makes sense for the mechanism: tens if it is light, hundreds if it is
+# - [ ] kA/kV makes sense for the mechanism: tens of milliseconds if it is light, hundreds if it is
 #   heavy for its motors.
 # - [ ] The velocity that you pass to the feedforward has the same length or angle unit as kV.
 #
@@ -838,8 +825,8 @@ quick
 # costs less.
 # </details>
 #
-# **3.** A drivetrain's kV is 25 % above paper. A teammate says: "It is the new bumpers, they are
-# heavy." What do you say, and where do you look first?
+# **3.** A drivetrain's kV is 25 % above the theoretical kV. A teammate says: "It is the new
+# bumpers, they are heavy." What do you say, and where do you look first?
 #
 # <details><summary>Answer</summary>
 #
@@ -847,8 +834,8 @@ quick
 # motor. Then the log: did this voltage reach the motors? Then belts and bearings.
 # </details>
 #
-# **4.** Another drivetrain's kV is 15 % *below* paper. "Great, our robot is better than theory." Is
-# it?
+# **4.** Another drivetrain's kV is 15 % *below* the theoretical kV. "Great, our robot is better
+# than theory." Is it?
 #
 # <details><summary>Answer</summary>
 #
@@ -876,8 +863,9 @@ quick
 # %% [markdown]
 # ## 11 Practice
 #
-# **Exercise 1: voltage budget** (`exercises/exercise1/README.md`). Your own mechanism, four
-# moments. Section 2 of this lesson has the worked table, section 8 the units. In a terminal:
+# **Exercise 1: voltage budget**
+# ([exercises/exercise1/README.md](../exercises/exercise1/README.md)). Your own mechanism in four
+# moments. You need sections 2 and 8. In a terminal:
 #
 # ```
 # grade exercise1
@@ -891,16 +879,18 @@ quick
 # submit("exercise1", kV_unit="...", largest="...")
 # ```
 #
-# **Exercise 2: kV against theory** (`exercises/exercise2/README.md`). You get a team, a log, and
-# perhaps a mistake to find. You need section 5, and section 7 for kS.
+# **Exercise 2: kV against theory**
+# ([exercises/exercise2/README.md](../exercises/exercise2/README.md)). You get a team, a log, and
+# perhaps a mistake to find. You need sections 5 and 7.
 #
 # ```
 # grade exercise2
 # ```
 #
-# Hints cost nothing: `grade exercise1 --hint`. You may grade as often as you like.
+# Hints cost nothing: `grade exercise1 --hint`. If you write into `answers.toml` with an editor,
+# start `grade watch exercise1`: it grades each time you save.
 #
-# **On your own robot:** compute its kV on paper today. Write it into your constants file as a
+# **On your own robot:** compute its theoretical kV today. Write it into your constants file as a
 # comment, so your team can compare when you measure it.
 #
 # <details><summary>More, if you like</summary>

@@ -34,8 +34,8 @@
 # With 0 V, this model says, nothing moves. That is right for a drivetrain. But an elevator falls
 # when you let go of it. The model lacks something: gravity.
 #
-# Today's elevator and arm are simulated (on *the bench*), so we know their true gains. Run the next
-# cell to set them up. (You do not need to read the code. Run each cell, and read what it prints.)
+# Today's elevator and arm are simulated, so we know their true gains. Run the next cell to set them
+# up. (You do not need to read the code. Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -92,8 +92,8 @@ print(f"0 V: after 0.4 s it moves at {let_go(0.0):.2f} m/s. Minus is down.")
 # (θ, "theta", is the arm's angle from level. sgn(v) is the direction: +1 up, −1 down.)
 #
 # Compare the first two terms. The kS term changes its sign with the direction, because friction
-# always acts *against* the motion. The kG term does not: gravity always pulls down. This whole
-# lesson is about that difference.
+# always acts *against* the motion. The kG term does not: gravity always pulls down. Remember this
+# difference; you will need it in every section.
 #
 # **Predict:**
 
@@ -138,16 +138,19 @@ Table(
 # > **Try it:** change `TIMES` above to 3. Which rows move?
 # </details>
 #
-# **A quick check for free.** The mass is in kG and in kA in the same way, so it cancels in kG/kA.
-# Only gravity itself remains:
+# **A quick check.** Both kG and kA grow in proportion to the mass. So kG/kA does not depend on the
+# mass. For an elevator it is the acceleration of gravity:
 
 # %%
 print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the earth is 9.81.")
 
 # %% [markdown]
 # On a real elevator with one stage the ratio is a little smaller, because kA also contains the
-# spinning parts of the motors, which gravity does not pull down. If your ratio is 15, look for a
-# mistake before you trust either gain.
+# spinning parts of the motors. If your ratio is 15, look for a mistake before you trust one of the
+# two gains.
+#
+# <details><summary>Want to know more? Cascades and counterweights</summary>
+#
 #
 # A **cascade** elevator is different. Its lower stage moves at half the carriage's speed. With a
 # carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and
@@ -155,7 +158,8 @@ print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the
 # mass.
 #
 # A **counterweight** on the other end of the rope adds inertia and takes away weight. Then kG/kA is
-# below g. The simulation has both:
+# below g. The next cell simulates both.
+# </details>
 
 # %%
 for name in ("cascade-elevator", "counterweight-elevator"):
@@ -187,8 +191,8 @@ print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s it moves at {little_less:.3f} m/
 
 # %% [markdown]
 # It stays. Friction acts against *any* motion, also against falling, so it helps you to hold the
-# carriage. Gravity wins only if your voltage is more than kS below kG. The same is true upward: the
-# carriage rises only if your voltage is more than kS above kG.
+# carriage. The carriage sinks only if your voltage is more than kS below kG. It rises only if your
+# voltage is more than kS above kG.
 #
 # So there is a **window**, from kG − kS to kG + kS, in which nothing moves. The usual methods for
 # kG raise the voltage and stop at "the right moment". Let us try two of them, in steps of 10 mV.
@@ -237,9 +241,8 @@ window_picture(1.5)
 # to rise?
 #
 # **Myth check.** "Raise the voltage until the elevator just does not drop: that is kG." *Not
-# quite:* that is the lower edge, kG − kS. Another method says "as much as you can without the
-# elevator moving upward". That is the upper edge, kG + kS. The two agree only without friction.
-# They are the two marks in the picture.
+# quite:* that is the lower edge, kG − kS. Another method says: "as much as you can without the
+# elevator moving upward". That is the upper edge, kG + kS. The two are equal only without friction.
 #
 # <details><summary>For mentors: the two methods, and their sources</summary>
 #
@@ -277,8 +280,8 @@ Table(
 
 # %% [markdown]
 # The last column shows what a wrong kG does later, in a feedforward. With the first method the
-# elevator is too slow on the way up and too fast on the way down. With the second it is the other
-# way around. The speed error is always kS/kV.
+# elevator is too slow on the way up and too fast on the way down. With the second method it is too
+# fast on the way up and too slow on the way down. The speed error is always kS/kV.
 #
 # (This is simplified: our simulated friction is the same at rest and in motion. Real friction is
 # often larger at rest. Then the window is wider than the friction in motion.)
@@ -316,8 +319,8 @@ edges_picture(0.25)
 # %% [markdown]
 # ## 4 An arm: the cosine
 #
-# Hold a heavy bag with your arm stretched out level. Now let it hang straight down. It is the same
-# bag and the same arm, but level is far harder. What matters is how far the weight is from your
+# Hold a heavy bag with your arm stretched out level. Now let it hang straight down. The bag is the
+# same, but the level arm needs far more strength. What matters is how far the weight is from your
 # shoulder *sideways*. For an arm of length L at the angle θ from level, that distance is L·cos(θ).
 # The cosine is 1 when the arm is level, and 0 when it points straight up or down.
 #
@@ -345,7 +348,7 @@ Table(("angle from level", "share of kG"), tuple(cosines))
 # Beyond 90° the share is negative: the arm is past the top, and gravity pulls it further over.
 #
 # Friction does not depend on the angle. So the window has the same width at every angle, and its
-# middle follows the cosine. Let us measure it at seven angles, as we did with the elevator.
+# middle follows the cosine. The next cell measures the window at seven angles.
 
 
 # %%
@@ -389,9 +392,9 @@ arm_picture(60)
 # %% [markdown]
 # ### An encoder with an offset
 #
-# All this needs the angle from **level**. But an encoder does not know where level is. It counts
-# from wherever its zero was when somebody mounted it. Suppose our encoder shows 25° too much. Then
-# the true angle is reading + offset, with an offset of −25°.
+# The formula needs the angle from **level**. But an encoder does not know where level is: its zero
+# depends on how somebody mounted it. Suppose our encoder shows 25° too much. Then the true angle is
+# reading + offset, with an offset of −25°.
 #
 # You can find the offset from the windows. Their middle follows kG·cos(reading + offset), and a
 # cosine with an offset is a sum of a cosine and a sine:
@@ -420,9 +423,8 @@ print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
 print(f"offset = {found_offset:.1f}°, to be added to every reading")
 
 # %% [markdown]
-# The result is not exactly the truth, because we tried voltages in steps of 10 mV. An edge can be
-# anywhere between two steps, so half the width may be too small by up to 10 mV. Finer steps do
-# better.
+# The result is not exactly the truth, because we tried voltages in steps of 10 mV. Finer steps give
+# a better result.
 #
 # In the picture, the cosine is highest where the arm is *really* level, not at a reading of 0.
 
@@ -450,8 +452,8 @@ askew_picture(0)
 # Find the offset at which the band covers all marks. SysId does the same for an arm: it fits a
 # cosine and a sine, and computes kG and the offset from them.
 #
-# So "the voltage at horizontal" is only kG if your encoder reads 0 at horizontal, and if you take
-# the middle of the window. What would you get at a *reading* of 0°?
+# So "the voltage at horizontal" is kG only if you take the middle of the window, and if your
+# encoder reads 0 at horizontal. What would you get at a *reading* of 0°?
 #
 # <details><summary>For mentors: kG at horizontal, and its source</summary>
 #
@@ -472,9 +474,8 @@ print(f"At a reading of 0° the middle is {at_zero:.2f} V; kG is {arm.gains['kG'
 # %% [markdown]
 # ## 5 From a log: choose the analysis type
 #
-# Finding the window by hand takes patience. The four tests of SysId find kG as well, together with
-# the other gains, *if* you choose the right **analysis type**. The types are the models of section
-# 2:
+# To find the window by hand takes time. The four tests of SysId find kG, too, together with the
+# other gains, *if* you choose the right **analysis type**. The types are the models of section 2:
 #
 # | analysis type | model | for |
 # |---|---|---|
@@ -526,13 +527,12 @@ Table(
 )
 
 # %% [markdown]
-# With the right type, the gains are close to the truth. (kS is the least accurate. It usually is.)
-# Fitted as Simple, the elevator's gains are nonsense: kV is negative. The model has no term that is
-# the same up and down, so the fit bends the other terms. (Our `sysid fit` prints warnings about
-# such gains.)
+# With the right type, the gains are close to the truth. With the type Simple, the elevator's gains
+# are nonsense: kV is negative. The model has no term that is the same up and down, so the fit makes
+# the other terms wrong. (`sysid fit` warns about such gains.)
 #
-# The arm fitted as Elevator is worse: every gain is positive and looks plausible, but every gain is
-# wrong. The last row is harmless: a drivetrain fitted as Elevator only gets a kG near 0.
+# The arm with the type Elevator is worse: every gain is positive and looks plausible, but every
+# gain is wrong. The last row is harmless: a drivetrain with the type Elevator gets a kG near 0.
 #
 # **Myth check.** "SysId does not find kG; you must measure it separately." *False:* SysId fits kG
 # for the types Elevator and Arm. It is true only for the type Simple. Compare kG in the second row
@@ -556,14 +556,13 @@ Table(
 # DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
 # Check it every time. In this course: `sysid fit log.wpilog --type elevator`.
 #
-# **Why does an arm's log need the position?** An arm's gravity depends on the angle, so the fit
-# needs the angle of every row. The other types need only velocity and voltage. (SysId's window asks
-# for a position in any case.)
+# **Why does an arm's log need the position?** Gravity on an arm depends on the angle, so the fit
+# needs the angle of every row. The other types need only velocity and voltage.
 
 # %% [markdown]
 # ## 6 Only up: two gains become one
 #
-# Testing downward is unpleasant. The carriage drops from the first moment, and somebody has to lift
+# Tests downward are unpleasant. The carriage drops from the first moment, and somebody has to lift
 # it again. So why not skip the reverse tests and drive up only? **Predict:**
 
 # %%
@@ -589,8 +588,8 @@ except sim.Refusal as refusal:
 #
 # > V = **kG + kS** + kV·v + kA·a
 #
-# The two only ever appear as a sum. If you take 1 V from kG and add it to kS, every row fits as
-# well as before. Even a thousand rows do not help, because they all say the same.
+# kG and kS are always together in a sum. If you take 1 V from kG and add it to kS, every row fits
+# as well as before. Even a thousand rows do not help, because they all say the same.
 #
 # The next picture shows this. If you repeated the tests many times, noise would change the fitted
 # pair (kS, kG) a little each time. The shaded region contains 95 of 100 such fits: it is called a
@@ -648,12 +647,11 @@ show_interactive(
 up_and(0)
 
 # %% [markdown]
-# Without data from moving down, the ellipse never closes: it is an endless band, as wide as the
-# noise. Everywhere in this band the sum kG + kS is the same. A single row from the way down closes
-# the ellipse.
+# Without rows from the way down, the ellipse is an endless band. Everywhere in this band the sum
+# kG + kS is nearly the same. A single row from the way down closes the ellipse.
 #
-# An arm is easier. On the way up its cosine changes and kS does not, so the fit can separate the
-# two, though not precisely:
+# An arm is easier. On the way up its cosine changes and kS does not. So the fit can separate the
+# two, but not precisely:
 
 # %%
 rows = []
@@ -673,8 +671,8 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard erro
 # (A *standard error* is the typical distance between a fit and the truth if noise is the only
 # cause.)
 #
-# So the reverse tests are what separates kS from kG on an elevator. SysId's window asks for all
-# four tests. Run them, and be ready: with 0 V the carriage already falls.
+# So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four
+# tests. Run them, and be ready: with 0 V the carriage already falls.
 #
 # <details><summary>For mentors: are reverse tests needed for gravity mechanisms?</summary>
 #
@@ -687,8 +685,8 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard erro
 # > accurate", and that they cannot be run accurately where the mechanism does not hold itself up.
 # > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492))
 # >
-# > **Try it:** on the bench, an arm agrees roughly with the maintainer. An elevator does not: see
-# > the table. Down is what separates kS from kG.
+# > **Try it:** in the simulation, an arm agrees roughly with the maintainer. An elevator does not:
+# > see the table. Only the way down separates kS from kG.
 # </details>
 
 # %%
@@ -833,15 +831,16 @@ quick
 # %% [markdown]
 # ## 10 Practice
 #
-# **Exercise 3** (`exercises/exercise3/README.md`). You get your own elevator and your own arm. In a
-# terminal, in the course's folder:
+# **Exercise 3** ([exercises/exercise3/README.md](../exercises/exercise3/README.md)). You get your
+# own elevator and your own arm. In a terminal, in the course's folder:
 #
 # ```
 # grade exercise3
 # ```
 #
-# The first time, this makes your numbers. Later it checks `exercises/exercise3/answers.toml`. You
-# may also answer from a notebook:
+# The first time, this makes your numbers. Later it checks `exercises/exercise3/answers.toml`.
+# (`grade watch exercise3` checks each time you save that file.) You may also answer from a
+# notebook:
 #
 # ```python
 # from grader import submit

@@ -28,10 +28,10 @@
 #
 # SysId cannot find what the data do not contain. If a robot never accelerates in the log, no
 # mathematics will find its kA. So before you press a button you decide: how fast, how hard, how
-# far, how long. This is test design. It takes ten minutes; driving all tests again takes an
-# evening.
+# far, how long. This is test design. It takes ten minutes. If you have to drive all tests again, it
+# takes an evening.
 #
-# Today's mechanisms are simulated (on *the bench*), so we know their true gains. (You do not need
+# Today's mechanisms are simulated, so we know their true gains. (You do not need
 # to read the code. Run each cell, and read what it prints.)
 
 # %%
@@ -156,9 +156,8 @@ plot_curves(
 # the voltage where it meets velocity 0 (its *intercept*) is kS. A high intercept means much
 # friction; a low one means that it moves easily.
 #
-# That is a good first look. Now compare it with the truth: is the intercept really the robot's kS?
-# We test a drivetrain and a shooter's flywheel. The flywheel is heavy for its motors, so its τ is
-# much longer.
+# Now compare it with the truth: is the intercept really the robot's kS? We test a drivetrain and a
+# shooter's flywheel. The flywheel is heavy for its motors, so its τ is much longer.
 #
 # **Predict:**
 
@@ -242,12 +241,17 @@ Table(
 # A ramp never stops accelerating. The voltage rises by `ramp` volts each second, so the speed rises
 # by ramp/kV each second. This is a small but constant acceleration, and it takes
 #
-# > kA · (ramp/kV) = **τ·ramp** volts, all the way along.
+# > kA · (ramp/kV) = **τ·ramp** volts, during the whole ramp.
 #
-# The straight line counts these volts as kS. So the error of the intercept is proportional to the
-# ramp: twice the ramp, twice the error. (The small remaining difference in the picture has two
-# causes. Each row contains the current speed, but the voltage for the next 20 ms, so the two are 10
-# ms apart. And noise in the velocity bends the line a little: lesson 7.)
+# The straight line adds these volts to kS. So the error of the intercept is proportional to the
+# ramp: twice the ramp, twice the error.
+#
+# <details><summary>Want to know why the picture shows a little more?</summary>
+#
+# The small remaining difference has two causes. Each row contains the current speed, but the
+# voltage for the next 20 ms, so the two are 10 ms apart. And noise in the velocity bends the line a
+# little: lesson 7.
+# </details>
 #
 # SysId itself does not read an intercept: it fits all runs at once, with a kA term for the ramps,
 # too. If you read one by eye, use a slow ramp. How slow must the flywheel's ramp be for an error
@@ -299,8 +303,7 @@ guess_ramps = Prediction(
 display(guess_drop, guess_ramps)
 
 # %% [markdown]
-# (You may skip the code. It takes rows without noise, because noise in an acceleration looks like
-# acceleration, and computes how far noise could move a fit.)
+# (You may skip the code. It computes how far noise could move a fit.)
 
 # %%
 sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
@@ -357,9 +360,9 @@ show_interactive(
 map_picture("all four", "kS and kA")
 
 # %% [markdown]
-# Add runs one by one: use the first four lines of the menu. With one ramp, kS and kA lie on a long
-# slanted ellipse: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts.
-# A single step separates them. Here are all the sets in numbers:
+# Add runs one by one: use the first four lines of the menu. With one ramp, the ellipse of kS and kA
+# is long: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts. A single
+# step separates them. Here are all the sets in numbers:
 
 # %%
 rows = []
@@ -387,7 +390,7 @@ Table(
 # - **Without the dynamic reverse** this drivetrain loses almost nothing. Forward and reverse are
 #   equal *here*, because we simulated them so.
 #
-# SysId needs all four anyway:
+# But SysId accepts only a log with all four:
 
 # %%
 three = replace(log, runs=tuple(run for run in log.runs if run.test != "dynamic-reverse"))
@@ -397,7 +400,7 @@ except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
-# So the ramps and the steps each do a part of the work, and neither can replace the other.
+# So you need ramps and steps: neither can replace the other.
 #
 # <details><summary>For mentors: one test alone, with source</summary>
 #
@@ -409,8 +412,8 @@ except sim.Refusal as refusal:
 # > determined". Neither does the other's work.
 # > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
 # >
-# > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines. Turn the picture upside
-# > down: what changes?
+# > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines, and the ellipse is a
+# > band.
 # </details>
 
 # %% [markdown]
@@ -451,13 +454,13 @@ print(guess_lean.reveal("kA"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
-# Each direction alone gives a good fit. Both together do not, because there is only one kS for
-# both, and the error ends up in kA. The simulated velocity R² (SysId's score; 1 is perfect, lesson
+# Each direction alone gives a good fit. Both together do not, because the model has only one kS for
+# both, and the error goes into kA. The simulated velocity R² (SysId's score; 1 is perfect, lesson
 # 7) stays high. So compare the gains of one direction with those of the other: that shows more than
 # any score.
 #
-# If you had skipped the reverse runs, the table would have one row. Driving backward, your
-# feedforward would give a third of the voltage that friction needs, and you would not know why.
+# Without the reverse runs, the table would have one row. On the way back, your feedforward would
+# give a third of the voltage that friction needs, and you would not know why.
 #
 # **Reason 3: the way back.** The reverse run brings the robot back to where it started, so the next
 # test has room again.
@@ -530,10 +533,10 @@ Table(
 # > **d ≈ kV·v² / (2·ramp)**
 #
 # So "slow is safe" is wrong if your room is short. With a very slow ramp the robot reaches the end
-# of the room before it has any speed, and a log without speed contains little about kV. Choose the
-# ramp so that it *just* fits. WPILib recommends "at least 10' of space, ideally closer to 20'", and
-# never on blocks, where the robot's mass does not move. In the table, row 0.5: how far does this
-# drivetrain go in 10 s?
+# of the room before it is fast, and a log without speed contains little about kV. Choose the
+# slowest ramp that fits into your room. WPILib recommends "at least 10' of space, ideally closer to
+# 20'" (3 to 6 m), and never on blocks, where the robot's mass does not move. In the table, row 0.5:
+# how far does this drivetrain go in 10 s?
 #
 # <details><summary>For mentors: 10 feet and 0.5 V/s, with source</summary>
 #
@@ -557,14 +560,13 @@ Table(
 # the step.
 #
 # 1. **Grip.** Wheels slip when the motors push harder than the carpet can hold. From standstill
-#    they slip above `V_slip = kS + kA·μ·g`, with the grip μ (about 1.1 on carpet; measure yours)
-#    and g = 9.81 m/s², if all wheels are driven. When wheels spin, the encoder counts meters that
-#    the robot does not move.
+#    they slip above `V_slip = kS + kA·μ·g`. The grip μ is about 1.1 on carpet (measure yours), and
+#    g is 9.81 m/s². When wheels spin, the encoder counts meters that the robot does not move.
 # 2. **Current.** At standstill a motor draws `stall_current · step / 12 V`. (The *stall current* is
 #    on its data sheet: what it draws at 12 V when it cannot turn.) Above its current limit the
 #    controller reduces the voltage, and the rise begins as a straight line. (Phoenix 6 limits the
 #    current in a motor to 120 A unless you change it.)
-# 3. **Room.** The top speed is (step − kS)/kV, and your thumb needs time to react.
+# 3. **Room.** The top speed is (step − kS)/kV, and you need time to let go of the button.
 #
 # (For the limit see
 # [CTRE's docs: CurrentLimitsConfigs](https://api.ctr-electronics.com/phoenix6/stable/csharp/api/CTRE.Phoenix6.Configs.CurrentLimitsConfigs.html).)
@@ -594,10 +596,9 @@ Table(
 )
 
 # %% [markdown]
-# The robot is the same, but other motors need another step. Strong motors slip early: 3.5 V is
-# harmless for one of these two and spins the wheels of the other. Stay at 90 % of V_slip or less.
-# For that you need kA *before* the test: compute it from mass and motors (lesson 1), or start with
-# a small step.
+# Other motors need another step. With 3.5 V, the wheels of one of these two robots spin, and those
+# of the other do not. Stay at 90 % of V_slip or less. For that you need kA *before* the test:
+# compute it from mass and motors (lesson 1), or start with a small step.
 #
 # <details><summary>For mentors: typical steps and the default of 7 V</summary>
 #
@@ -652,8 +653,8 @@ Table(
 
 # %% [markdown]
 # SysId uses the rows up to 90 % of the top speed and drops the rest, so a long test does not harm
-# kA. But your wall is the problem: look at the last column. After 3τ, everything about kA has been
-# said. (A fit that does not trim *is* harmed by a long test: lesson 7.)
+# kA. But it needs a long room: look at the last column. After 3τ, the rows contain nothing new
+# about kA. (A fit that does not drop the later rows gets a wrong kA: lesson 7.)
 #
 # <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
@@ -673,14 +674,14 @@ Table(
 # %% [markdown]
 # ## 9 Plan one
 #
-# Now plan a complete test: the drivetrain, a room of your choice, and a thumb that reacts after 0.3
-# s. The picture shows where the robot is in both tests until it has stopped. The table below shows
-# four of the rules of exercise 6, and the current limit. Find a plan that keeps all of them in a
-# room of 4 m. Then try 2.5 m.
+# Now plan a complete test for the drivetrain. You let go of the button 0.3 s after the robot passes
+# the mark. The picture shows where the robot is in both tests until it has stopped. The table below
+# shows four of the rules of exercise 6, and the current limit. Find a plan that keeps all of them
+# in a room of 4 m. Then try 2.5 m.
 #
-# **Choose your limit first.** The current limit of the motor controller protects the motors and the
-# battery, and you measure it together with the robot. It cuts the start of a step that is too
-# large. So set the limit that you will drive with, then plan the step below it.
+# **Choose your current limit first.** It protects the motors and the battery. If a step is too
+# large, the limit reduces the voltage at the start. So set the limit that you will drive with, then
+# plan a step below it.
 
 # %%
 REACTION = 0.3  # [s] from the mark to the thumb off the button
@@ -837,8 +838,8 @@ quick
 # %% [markdown]
 # ## 12 Practice
 #
-# **Exercise 6, part (a)** (`exercises/exercise6/README.md`). You get four mechanisms and plan their
-# tests. In a terminal, in the course's folder:
+# **Exercise 6, part (a)** ([exercises/exercise6/README.md](../exercises/exercise6/README.md)). You
+# get four mechanisms and plan their tests. In a terminal, in the course's folder:
 #
 # ```
 # grade exercise6
@@ -852,7 +853,8 @@ quick
 # ```
 #
 # You need section 6 for the ramp and the mark, section 7 for the step, and section 8 for the
-# timeout. Part (b) comes with lesson 5. Hints cost nothing: `grade exercise6 --hint`.
+# timeout. Part (b) comes with lesson 5. Hints cost nothing: `grade exercise6 --hint`. If you write
+# into `answers.toml` with an editor, start `grade watch exercise6`: it grades each time you save.
 #
 # <details><summary>More, if you like</summary>
 #

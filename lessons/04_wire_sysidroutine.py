@@ -33,10 +33,9 @@
 # A `SysIdRoutine` does two things, fifty times a second: it **sets a voltage**, and it **writes
 # down what happened**. Nothing more. You compute the gains later, from the log.
 #
-# So a mistake in the wiring code causes no crash. The robot moves, the log fills, and the analyzer
-# prints numbers. But they are the gains of a different robot. Today you make such mistakes on
-# purpose, on a simulated robot with known gains (on *the bench*), and learn what each mistake looks
-# like.
+# So a mistake in this code causes no crash. The robot moves, the log fills, and the analyzer prints
+# numbers. But they are the gains of a different robot. Today you make such mistakes on purpose, on
+# a simulated robot with known gains, and learn what each mistake looks like.
 #
 # Run the next cell to set up the simulated robot.
 
@@ -83,9 +82,9 @@ Table(
 # | acceleration a | SysId computes it from v and the time | nobody logs it |
 # | position | the encoder | arms (gravity depends on the angle); finding when motion starts |
 #
-# SysId's window needs position, velocity and voltage before it loads a log, but the fit of a
-# drivetrain or a shooter then uses only velocity and voltage. The last cell of this section removes
-# the positions and fits again. Do the gains change?
+# SysId's window loads a log only if it has position, velocity and voltage. But the fit of a
+# drivetrain or a shooter uses only velocity and voltage. The last cell of this section removes the
+# positions and fits again. Do the gains change?
 #
 # <details><summary>For mentors: which signals does the regression need?</summary>
 #
@@ -137,8 +136,8 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
 #
-# SysId needs no project of its own. You add the routine as one more field to a subsystem that you
-# already have, because the subsystem owns the motors and the encoders.
+# SysId needs no project of its own. You add the routine as a field to a subsystem that you already
+# have, because the subsystem owns the motors and the encoders.
 #
 # ### Two arguments
 #
@@ -223,30 +222,33 @@ for mass in (60.0, 30.0):
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
 # </details>
 #
-# Python differs in one point: there, `None` is *not* "the default" but an error. Leave the argument
-# out. If you give the state to a logger of your own, use `SysIdRoutineLog.stateEnumToString`: it
-# makes the word that the analyzer looks for; `str(state)` does not.
+# In Python, `None` is *not* the default but an error. Leave the argument out.
 #
-# (The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
+# <details><summary>Want to know more? A logger of your own</summary>
+#
+# If you give the state to a logger of your own in Python, use `SysIdRoutineLog.stateEnumToString`:
+# it makes the word that the analyzer looks for. `str(state)` does not.
+#
+# The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
-# first loop of the test: write `lambda log: None`. In this course you write the callback.)
+# first loop of the test: write `lambda log: None`. In this course you write the callback.
+# </details>
 
 # %% [markdown]
 # ### Mechanism, first callback: drive
 #
-# The routine gives you a voltage; you hand it to **every** motor of the mechanism. There are three
+# The routine gives you a voltage. You send it to **every** motor of the mechanism. There are three
 # rules:
 #
 # 1. **Open loop.** Nothing may correct the motion: no PID, no `VelocityVoltage`, no Motion Magic.
 #    If a controller corrects the motion, SysId measures that controller too.
 # 2. **A voltage, not a share of the battery.** `set(0.3)` means "30 % of the present battery
-#    voltage". The battery voltage drops when motors draw current, so the motor does not get the
-#    voltage you think.
-# 3. **Every motor.** If one gets no voltage, the others have to drag it along, and you measure
-#    that.
+#    voltage". The battery voltage drops when motors draw current, so the motor gets less voltage
+#    than you think.
+# 3. **Every motor.** If one gets no voltage, the others have to turn it, too, and you measure that.
 #
-# On a TalonFX (Phoenix 6) you may use either call: `setVoltage()` *is* a `VoltageOut` request. Rule
-# 2 is what matters; you can test it in section 4.
+# On a TalonFX (Phoenix 6) you may write `setVoltage()` or `setControl(new VoltageOut(…))`: they do
+# the same. You can test rule 2 in section 4.
 #
 # <details><summary>For mentors: setVoltage or VoltageOut?</summary>
 #
@@ -273,7 +275,7 @@ for mass in (60.0, 30.0):
 #   the *output*, after the gear ratio.
 # - **Direction.** A positive voltage must give a positive velocity. Check this first.
 # - **Name.** `log.motor("drive-left")`: one name for each motor, or for each pair that shares an
-#   encoder. You will look for this name in a long list.
+#   encoder. Later you choose this name from a long list.
 #
 # The Java logger accepts any unit of angle, but it always *stores rotations*. So the gains are per
 # rotation. If your feedforward uses radians, convert the **gain**, at the end. The next cell fits
@@ -445,9 +447,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #         test_mode.and_(pad.y()).whileTrue(self.drive.sysid_dynamic(reverse))
 # ```
 #
-# **Spot the defect.** WPILib's docs show `routine = SysIdRoutine(…, Mechanism(self.voltageDrive,
-# …, self))` and do not say where it stands. In the body of a class there is no `self`, and Python
-# stops with a `NameError`. It belongs into `__init__`, as `self.routine = …` above.
+# **Where does this line go?** WPILib's docs show `routine = SysIdRoutine(…,
+# Mechanism(self.voltageDrive, …, self))`, but not in which method. In the body of a class there is
+# no `self`, and Python stops with a `NameError`. Write it into `__init__`, as `self.routine = …`
+# above.
 # ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/latest/docs/software/advanced-controls/system-identification/creating-routine.html))
 
 # %% [markdown]
@@ -459,8 +462,8 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # - **`whileTrue`**, so that letting go ends the test. With `onTrue` the test continues after you
 #   let go, until the timeout.
-# - **A comment on each binding** that names the test *and what it measures*. You will read it in
-#   six months, tired, in a gym.
+# - **A comment on each binding** that names the test *and what it measures*. In six months you will
+#   need it.
 # - **A guard**, so that nobody starts a test in a match: Test mode (as here), a separate
 #   controller, or two buttons at once.
 #
@@ -484,10 +487,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # motor's duty cycle with `setThrottle` instead of `set`; `setVoltage` keeps its name.
 # ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
 #
-# **Myth check.** "A SysId test bypasses all limits." *Only partly.* A test bypasses the safety code
-# in your own *commands*, because the test command has the subsystem for itself. Limits **inside the
-# motor controller** still work if you set them up, and that is your job. Such a limit protects the
-# robot. But when it acts, the data show the limit and not the motor.
+# **Myth check.** "A SysId test bypasses all limits." *Only partly.* During a test, your other
+# *commands* do not run, so their safety code does not work. Limits **inside the motor controller**
+# still work if you set them up, and that is your job. Such a limit protects the robot. But when it
+# acts, the data show the limit and not the motor.
 #
 # <details><summary>For mentors: which limits does a test bypass?</summary>
 #
@@ -671,15 +674,14 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # motion, and the fit measures your PID.
 
 # %% [markdown]
-# ## 5 From your robot to this bench
+# ## 5 From your robot to your computer
 #
 # 1. Call `DataLogManager.start()` when the robot program starts, if it does not already.
-# 2. Run the four tests (lesson 5 shows each step). **One routine per log:** power-cycle before
-#    you test another mechanism. WPILib's docs say that analysis fails otherwise.
+# 2. Run the four tests (lesson 5 shows each step). **One routine per log:** switch the robot off
+#    and on before you test another mechanism. WPILib's docs say that analysis fails otherwise.
 #    ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
-# 3. Fetch the `.wpilog` file with WPILib's Data Log Tool or with AdvantageScope.
-#
-# Section 5 of lesson 5 shows where it is.
+# 3. Fetch the `.wpilog` file with WPILib's Data Log Tool or with AdvantageScope. Section 5 of
+#    lesson 5 shows where it is.
 # 4. Fit it on your own computer. In a terminal:
 #
 # ```
@@ -817,26 +819,28 @@ quick
 # %% [markdown]
 # ## 9 Practice
 #
-# **Exercise 4** (`exercises/exercise4/README.md`). Write the routine for the mechanism of your
-# exercise. In a terminal, in the course's folder:
+# **Exercise 4** ([exercises/exercise4/README.md](../exercises/exercise4/README.md)). Write the
+# routine for a drivetrain. In a terminal, in the course's folder:
 #
 # ```
 # grade exercise4
 # ```
 #
-# It reads your code without running it and reports what it found. Hints cost nothing: `grade
-# exercise4 --hint`.
+# It reads your code and says what is wrong. If RobotPy is installed, it also runs Python code in
+# WPILib's simulation. Hints cost nothing: `grade exercise4 --hint`.
 #
-# The exercise uses the source lesson's numbers: 0.5 V/s, 3.5 V, 10 s. They are only for reading
-# your code; on a real robot choose your own (lesson 3). It accepts both `setVoltage` and a
-# `VoltageOut` request.
+# The exercise asks for 0.5 V/s, 3.5 V and 10 s. On a real robot, choose your own numbers (lesson
+# 3).
 #
-# **Exercise 5.** Bind four tests to buttons, each with a comment, behind a guard
-# (`exercises/exercise5/README.md`):
+# **Exercise 5** ([exercises/exercise5/README.md](../exercises/exercise5/README.md)). Bind four
+# tests to buttons, each with a comment, behind a guard:
 #
 # ```
 # grade exercise5
 # ```
+#
+# **While you write code,** leave `grade watch exercise4` running in a terminal next to your editor:
+# it grades each time you save the file.
 #
 # **On your own robot:** write the four bindings and the guard, with a comment on each that names
 # the test and what it measures. Then ask somebody who was not here to find the dynamic reverse

@@ -43,7 +43,7 @@
 # | 3. inspect and fit | look at the data first, then compute the gains | lessons 6 and 7 |
 # | 4. place the gains | put them into the constants and the feedforward | lesson 8 |
 #
-# The order matters. If nobody inspected the data, the gains are only guesses with more digits.
+# The order matters. If nobody looked at the data, the gains are only guesses with more digits.
 #
 # Cover the table and write down the four steps in order. Exercise 6 asks for them.
 #
@@ -97,13 +97,13 @@ Table(
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# (This formula ignores that the robot lags a little behind the voltage. The simulation includes
-# it.)
+# (The formula ignores that the robot reacts a little later than the voltage. The simulation does
+# not.)
 #
-# Then you let go. First your thumb needs time to react, and the voltage is still on. Then the
-# motors brake, if their neutral mode is *Brake*. They cannot brake harder than the carpet can hold.
-# So braking adds at least `v² / (2·μ·g)` to your reaction distance, with g = 9.81 m/s² and the grip
-# μ (about 1.1 for wheels on carpet, less on a smooth floor).
+# Then you let go. You need time to react, and the voltage is still on. Then the motors brake, if
+# their neutral mode is *Brake*. They cannot brake harder than the carpet can hold. So braking takes
+# at least another `v² / (2·μ·g)`, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on
+# carpet, less on a smooth floor).
 #
 # **Predict:**
 
@@ -187,7 +187,7 @@ Table(
 )
 
 # %% [markdown]
-# Ten feet give you *some* data, but the braking distance comes on top. More room allows more speed,
+# Ten feet give you *some* data, but then the robot still has to brake. More room allows more speed,
 # and you need speed to measure kV.
 #
 # **And on blocks?** Then the motors only turn the wheels. Suppose the wheels are a tenth of the
@@ -201,14 +201,14 @@ print(f"On blocks: kV ÷ true = {lifted['kV'] / TRUTH['kV']:.2f}")
 print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
-# Here kV is almost right (a real robot also has less friction on blocks). But kA is that of bare
-# wheels. You cannot use it for a robot on the floor.
+# Here kV is almost right (a real robot also has less friction on blocks). But kA is the kA of the
+# wheels alone. You cannot use it for a robot on the floor.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
 #
 # Now you are the person at the button. The hall is 12 m long. There is a strip of tape on the
-# floor. When the front bumper passes it, you let go; your thumb needs 0.3 s.
+# floor. When the front bumper passes the tape, you let go 0.3 s later.
 #
 # The ramp is 1 V/s, the step 3.5 V, the timeout 10 s.
 #
@@ -450,14 +450,19 @@ Table(
 
 # %% [markdown]
 # Without a brownout, the empty battery gives the same kA in both columns: this robot sets a
-# *voltage*, and its motor controllers compensate for the lower battery voltage. (A share of the
-# battery, as in lesson 4, does not.) A brownout damages both columns, and the commanded one far
-# more. So charge the battery anyway, begin with a small step, and log the applied voltage. The
-# source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
+# *voltage*, and its motor controllers compensate for the lower battery voltage. (With a share of
+# the battery, as in lesson 4, they do not.) A brownout damages both columns, and the commanded one
+# far more. So charge the battery anyway, begin with a small step, and log the applied voltage.
+#
+# Ask for **12.5 V or more at rest**, and for 20 mΩ or less on a battery tester.
+#
+# <details><summary>Want to know why 12.5 V?</summary>
+#
+# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
 # flat: WPILib's docs call 11.7 to 12.5 V on an idle robot "depleted", and advise against a battery
-# of more than 20 mΩ. So ask for **12.5 V or more at rest**, and for 20 mΩ or less on a battery
-# tester.
+# of more than 20 mΩ.
 # ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# </details>
 #
 # ### Encoder
 #
@@ -473,12 +478,11 @@ Table(
 #
 # ### Guard
 #
-# Turn the guard *off*, so that the tests are locked, and enable the robot. (If your guard is Test
-# mode, called *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move.
-# (Lesson 4 shows three kinds of guard.) And one person does nothing but wait to press *Disable*.
-# In the 2026 Driver Station the **Enter** key disables, and the **space bar** is the emergency
-# stop: it works even if another window is in front, and you have to reboot the roboRIO afterwards.
-# ([WPILib docs: Driver
+# Lock the tests with your guard, and enable the robot. (If your guard is Test mode, called
+# *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4 shows
+# three kinds of guard.) One person has no other job than to press *Disable*. In the 2026 Driver
+# Station the **Enter** key disables, and the **space bar** is the emergency stop: it works even if
+# another window is in front, and you have to reboot the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Your own safety code in *commands* does not run during a test. Limits *in the motor controller*
@@ -621,8 +625,8 @@ Table(
 # You may run the four tests in any order. With forward and then reverse, the robot returns to where
 # it was.
 #
-# **Do step 10 before anybody packs up.** It takes a minute, and repeating a test takes five.
-# Tomorrow it takes an evening.
+# **Do step 10 before anybody packs up.** It takes a minute. To repeat a test now takes five
+# minutes; to repeat it tomorrow takes an evening.
 #
 # Here are steps 9 to 11 with a simulated log. `sim.write` writes the same kind of file as a robot:
 
@@ -765,7 +769,7 @@ Table(
 # %% [markdown]
 # ## 8 System check
 #
-# Read it aloud before you press the first button. If one is missing, it is *no-go*:
+# Read it aloud before you press the first button. If one point is missing, it is *no-go*:
 #
 # - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. Tape is on
 #   the floor.
@@ -773,10 +777,11 @@ Table(
 # - [ ] **Encoder.** Pushed forward, the position rises smoothly. Plus volts, plus velocity.
 # - [ ] **Log.** You have fetched a log from this robot before, and know its folder. One mechanism
 #   per log.
-# - [ ] **Guard.** With the guard off, no button moves anything. One person only waits to disable.
+# - [ ] **Guard.** While the guard locks the tests, no button moves anything. One person only waits
+#   to disable.
 #
-# Write two more things beside the log. **Brake or coast.** Set the mode that you drive with; it
-# decides how far the robot rolls after a test. And the current limit that was set.
+# Write down two more things for each log: **brake or coast** (set the mode that you drive with; it
+# decides how far the robot rolls after a test), and the current limit that was set.
 #
 # ## 9 Knowledge check
 #
@@ -847,9 +852,10 @@ quick
 # %% [markdown]
 # ## 10 Practice
 #
-# **Exercise 6, part (b).** You get a description of a morning. Some things in it are wrong. Decide
-# *go* or *no-go* for each line, put the four steps in order, and say where the log is. (Part (a),
-# the four plans, belongs to lesson 3.) Read `exercises/exercise6/README.md`, then
+# **Exercise 6, part (b)** ([exercises/exercise6/README.md](../exercises/exercise6/README.md)). You
+# get a description of a morning. Some things in it are wrong. Decide *go* or *no-go* for each line,
+# put the four steps in order, and say where the log is. (Part (a), the four plans, belongs to
+# lesson 3.)
 #
 # ```
 # grade exercise6
@@ -865,7 +871,7 @@ quick
 # ```
 #
 # (These answers are only examples. Yours depend on your morning.) Hints cost nothing: `grade
-# exercise6 --hint`.
+# exercise6 --hint`. With an editor, use `grade watch exercise6`: it grades each time you save.
 #
 # **On your own robot:** do the five checks today, with the robot disabled. Fetch any log from it,
 # and open it in AdvantageScope.

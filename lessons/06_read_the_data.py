@@ -13,8 +13,7 @@
 # %% [markdown]
 # # Lesson 6: Read the data
 #
-# *About 50 minutes. You need lessons 1 and 3. You do not need to know how a fit works: that is
-# lesson 7. Today you decide whether you can trust a log.*
+# *About 50 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
 #
 # **At the end you can**
 #
@@ -27,13 +26,12 @@
 # ## 1 Why: a fit never says "I do not know"
 #
 # A fit gives you three numbers for any log. It does not know that a wheel slipped, or that the
-# battery was empty. It finds the numbers that match that data best, good or bad.
+# battery was empty. It finds the numbers that match the data best, good or bad.
 #
-# > The fit believes the log: nonsense in, nonsense out. So somebody has to check the log first.
-# > That is you.
+# > The fit believes the log. So somebody has to check the log first. That is you.
 #
 # Today's robot is our simulated drivetrain. We know its true gains, so we can say how wrong a fit
-# is. On your robot you do not know them. That is why you need this lesson.
+# is. On your robot you do not know them.
 
 # %%
 from dataclasses import replace
@@ -100,8 +98,7 @@ plot_time_series(sound, dynamic_seconds=0.6)
 #
 # - The voltage is a ramp. The velocity stays at zero until the voltage is above kS, then it climbs
 #   in a straight line.
-# - Forward and reverse are mirror images, nearly. (For an elevator or an arm they are not, because
-#   gravity helps in one direction: lesson 2.)
+# - Forward and reverse are mirror images, nearly. (Not for an elevator or an arm: lesson 2.)
 # - Voltage over velocity is a straight line with little scatter: the plot below.
 #
 # **A sound dynamic test** (right):
@@ -117,9 +114,7 @@ plot_voltage_velocity(sound)
 
 # %% [markdown]
 # The straight line is a good sign. Look where it meets velocity 0: near kS, but not exactly at kS
-# (lesson 7 explains why). You do not find this plot in SysId 2026: SysId draws velocity over time,
-# acceleration over velocity, and the time steps. And it shows *two* R², which mean different things
-# (section 5).
+# (lesson 7 explains why).
 #
 # <details><summary>For mentors: the plots of SysId, with source</summary>
 #
@@ -131,8 +126,8 @@ plot_voltage_velocity(sound)
 # > (section 5). ([WPILib docs: Viewing
 # > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 # >
-# > **Try it:** the straight line is a good sign all the same, and our bench draws it. Look where it
-# > leaves standstill: that is near kS, not at it (lesson 7 says why).
+# > **Try it:** look where our plot leaves velocity 0. That is near kS, but not exactly at kS
+# > (lesson 7 explains why).
 # </details>
 #
 # Now look at the rise of the dynamic test: acceleration over velocity.
@@ -153,13 +148,11 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # ### Explain
 #
 # The motor accelerates with the remaining voltage: V − kS − kV·v. The faster it goes, the less
-# remains. So the acceleration is **largest at the start** and fades, by the same share in each
-# equal piece of time: after each kA/kV, about 37 % remains. Such a curve is called *exponential*.
-# In the plot above it is a straight line that falls: the faster, the less acceleration.
+# remains. So the acceleration is **largest at the start**. After each kA/kV, only about 37 % of it
+# remains. Such a curve is called *exponential*. In the plot above it is a straight line that falls.
 #
-# **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test.
-# In section 3, choose *current limit*: that is what a constant acceleration looks like. It is a
-# warning, not a good sign.
+# **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test. A
+# constant acceleration is a warning: in section 3, choose *current limit*.
 #
 # <details><summary>For mentors: the rise is exponential, with source</summary>
 #
@@ -177,7 +170,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # ## 3 Reading: thirteen ways to damage a log
 #
 # The source lesson names four *contaminations*. Five more are common in the field, and four more
-# are easy to see once you know them. The names are those of exercise 7 and of `sysid inspect`.
+# are easy to see. Exercise 7 and `sysid inspect` use the same names.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
@@ -217,8 +210,7 @@ guess_gap = Prediction(
 display(guess_late, guess_gap)
 
 # %% [markdown]
-# The next cell makes one log with each fault. Choose a log and a plot. Look at *clean* in every
-# plot first.
+# Choose a log and a plot. Look at *clean* in every plot first.
 
 
 # %%
@@ -297,9 +289,8 @@ look("current limit", "over time")
 look("velocity filter", "velocity and position's slope")
 
 # %% [markdown]
-# The next table shows what each fault does to the gains. (The two **R²** are SysId's scores. 1 is
-# perfect. 0 means that the gains explain nothing, and below zero is even worse. Section 5 explains
-# them.)
+# The next table shows what each fault does to the gains. The two **R²** are SysId's scores. 1 is
+# perfect, 0 means that the gains explain nothing. Section 5 explains them.
 
 
 # %%
@@ -316,36 +307,36 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # %% [markdown]
 # ### What to look for
 #
-# Ask one question about every plot: **could the motor have done that?** A mass cannot change its
-# speed within one sample.
+# Ask one question about every plot: **could the motor do that?** A mass cannot change its speed
+# within one sample.
 #
 # - **Encoder slip.** The velocity drops by a share of its value from one sample to the next, and
 #   comes back just as suddenly. Voltage over velocity gets a second branch.
-# - **Brownout.** The velocity falls along a *curve*, as without a motor, and rises again along a
-#   curve: the controller turned the motors off. If the log holds the **commanded** voltage, it
-#   still shows a voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0
-#   and comes back, again and again. The **bus voltage**, if the log has it, shows both: it falls
-#   below the threshold.
+# - **Brownout.** The controller turned the motors off. The velocity falls along a *curve*, and
+#   later rises again along a curve. If the log holds the **commanded** voltage, it still shows a
+#   voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0 and comes back,
+#   again and again. If the log has the **bus voltage**, you see it fall below the threshold.
 # - **Hard stop.** The velocity goes to zero within a few samples. The position stays, the voltage
 #   stays on.
 # - **Loop overrun.** Only *time steps* shows it well.
 # - **Command logged.** The step in the log is perfect, but the velocity starts to rise in a
 #   straight line.
 # - **Current limit.** The velocity rises in the same way, but the *voltage* shows the limit,
-#   because the log holds the applied voltage. This log is correct: look how small the errors of the
-#   gains are.
+#   because the log holds the applied voltage. This log is correct: the errors of its gains are
+#   small.
 # - **Velocity filter.** The velocity is later than the slope of the position. The position is not
 #   filtered.
 # - **Wheel slip.** The velocity jumps up, pauses, then rises slowly: the wheels were faster than
 #   the robot.
-# - **Stale samples.** Stairs: the same value two or three times, then a jump. (Some logs write a
-#   value only when it *changes*. That looks the same.)
+# - **Stale samples.** Stairs: the same value two or three times, then a jump.
 # - **Unit error.** The velocity has the right shape but the wrong size compared with the slope of
 #   the position.
 # - **Mislabelled test.** A "ramp" starts with a step, or a "forward" test goes backward.
 # - **Voltage dropout.** The voltage drops to zero for single samples, but the velocity does not
 #   react.
 # - **Stuck sensor.** Position and velocity stay at one value, then jump to where they should be.
+#
+# <details><summary>For mentors: the voltage in a brownout, with source</summary>
 #
 # > **Lesson says:** "Voltage data suddenly drops mid-test, then recovers."
 # >
@@ -355,13 +346,13 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
 # >
 # > **Try it:** look at both brownouts above in the plot *over time*.
+# </details>
 #
 # ### How bad are timing gaps?
 #
 # SysId divides each difference of velocities by the *mean* time step of the test, so a gap gives a
 # wrong acceleration. The normal step is 20 ms, and half of all steps are a bit longer. So count
-# only steps that are longer than 1.5 times the usual one. The next cell makes ten logs each with
-# few or many, short or long gaps.
+# only steps that are longer than 1.5 times the usual one. How wrong does kA get?
 #
 # <details><summary>For mentors: gaps and kA, with source</summary>
 #
@@ -408,8 +399,7 @@ print(guess_gap.reveal("kA"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
-# kV hardly changes. kA does, and it depends on luck: does a gap fall into the few samples of the
-# rise? A single log cannot show you how lucky you were.
+# kV hardly changes. kA does, if a gap falls into the few samples of the rise.
 #
 # ### How bad are repeated samples?
 #
@@ -426,9 +416,8 @@ for rate in (50, 100, 250):
 Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
 
 # %% [markdown]
-# SysId takes the acceleration from neighboring rows, and between two repeated rows it is zero. So
-# log as fast as the frames come, or set faster frames for the test. (`sysid fit` finds the repeated
-# readings and leaves them out.)
+# Between two repeated rows, SysId sees an acceleration of zero. So log as fast as the frames come,
+# or set faster frames for the test. (`sysid fit` finds the repeated readings and leaves them out.)
 
 # %% [markdown]
 # ## 4 Doing it: trim what is not physics
@@ -538,18 +527,15 @@ tries = {
 Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
-# - Each setting repairs another fault. None of them repairs all. (The threshold removes both the
-#   noisy standstill and the stop, because the encoder is quiet at this stop. The wild readings
-#   stay.)
-# - **More is not better.** A median of 15 samples is longer than the rise itself: it flattens the
-#   rise, and kA is only half its true value. A threshold of 1 m/s drops the part of the ramp that
-#   shows kS.
+# - Each setting repairs another fault. None of them repairs all.
+# - **More is not better.** A median of 15 samples flattens the rise, and kA is only half its true
+#   value. A threshold of 1 m/s drops the part of the ramp that shows kS.
 #
 # ### Do not trim for beauty
 #
 # The fast end of a ramp is its most valuable part: kV is a slope, and you need a long line to
-# measure a slope. Here is the **clean** log. We keep less and less of its ramps. *One standard
-# error* is the typical error from noise alone.
+# measure a slope. We keep less and less of the ramps of the **clean** log. *One standard error* is
+# the typical error from noise alone.
 
 # %%
 rows = []
@@ -566,9 +552,8 @@ Table(
 # %% [markdown]
 # ## 5 R² is not a lie detector
 #
-# Now you see no plots, only a score: SysId's **simulated velocity R²**. Below are many logs of one
-# drivetrain. One is clean. One was damaged and then repaired. In all others something is wrong,
-# from a single bad reading to an encoder that counts backward.
+# Now you see no plots, only a score: SysId's **simulated velocity R²**. Below are logs A to V of
+# one drivetrain. One is clean. One was damaged and then repaired. In all others something is wrong.
 #
 # The official docs say: "A value north of .9 indicates a good fit." ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 #
@@ -592,9 +577,12 @@ guess_robust = Prediction(
 display(guess_count, guess_robust)
 
 # %% [markdown]
-# Sort the logs as you like. First decide which ones you would use. Then choose *reveal*.
+# **Decide first:** which of these logs would you use? Write down their letters. Then choose
+# *reveal*, and read on.
 
 # %%
+order = np.random.default_rng(6).permutation(len(all_cases))
+LETTERS = {all_cases[index].name: chr(ord("A") + place) for place, index in enumerate(order)}
 SIM, ACC = "simulated velocity R²", "acceleration R²"
 SCORES = {
     SIM: {case.name: case.fit.simulated_velocity_r2 for case in all_cases},
@@ -604,19 +592,28 @@ OFF = {
     gain: {case.name: case.gain_error(gain) for case in all_cases} for gain in ("kS", "kV", "kA")
 }
 KEYS = {
-    "as made": lambda _: 0.0,
+    "letter": lambda name: LETTERS[name],
     SIM: lambda name: -SCORES[SIM][name],
     ACC: lambda name: -SCORES[ACC][name],
     "error of kA": lambda name: abs(OFF["kA"][name]),
 }
 
 
+def label(name: str, *, revealed: bool) -> str:
+    """What a log is called before and after its damage is revealed."""
+    return f"{LETTERS[name]}: {name}" if revealed else f"log {LETTERS[name]}"
+
+
 def grid(sort: str, truth: str) -> Picture:
-    """All logs with their scores, and on demand the errors of their gains."""
-    scores = {name: SCORES[SIM][name] for name in sorted(SCORES[SIM], key=KEYS[sort])}
-    return plot_r2_vs_gain_error(
-        scores, good=GOOD, score=SIM, off=OFF if truth == "reveal" else None
-    )
+    """All logs with their scores, and on demand their damage and the errors of their gains."""
+    revealed = truth == "reveal"
+    key = KEYS[sort] if revealed or sort in SCORES else KEYS["letter"]  # an error would tell
+    names = {name: label(name, revealed=revealed) for name in sorted(LETTERS, key=key)}
+    scores = {shown: SCORES[SIM][name] for name, shown in names.items()}
+    off = {
+        gain: {shown: found[name] for name, shown in names.items()} for gain, found in OFF.items()
+    }
+    return plot_r2_vs_gain_error(scores, good=GOOD, score=SIM, off=off if revealed else None)
 
 
 show_interactive(
@@ -632,7 +629,7 @@ show_interactive(
 grid(sort="error of kA", truth="reveal")
 
 # %% [markdown]
-# This is the damage in each log, and the whole table with both R²:
+# This is the damage in each log, and the whole table with both R². Decide before you look.
 
 
 # %%
@@ -645,7 +642,10 @@ def percent(share: float) -> str:
 display(
     Table(
         ("log", "what happened"),
-        tuple((case.name, case.story) for case in all_cases),
+        tuple(
+            (label(case.name, revealed=True), case.story)
+            for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
+        ),
         caption="60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V unless the name says more",
     ),
     Table(
@@ -687,23 +687,25 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 #   only a few about kA.
 # - **The acceleration R² is the more sensitive of the two.** Sort by it: spikes, lurch and the
 #   worst slips are at the bottom. But it does *not notice* a wrong voltage, a wrong ratio or a
-#   wrong sign. And a low value proves nothing: the docs say that it "rarely goes above 0.5, even on
-#   very good datasets".
+#   wrong sign. And a low value proves nothing: it is low on many good logs, too.
+#
+# <details><summary>Want to know more?</summary>
+#
+# - The docs say that the acceleration R² "rarely goes above 0.5, even on very good datasets".
 # - A repaired log can have a **lower** R² than a wrong one, because SysId compares the simulation
 #   with the recorded samples, wild readings included.
-#
-# These are single simulated logs, and their errors also depend on luck, for example on where a gap
-# falls. So learn the *kind* of error from this table, not its digits.
+# - These are single simulated logs, and their errors also depend on luck, for example on where a
+#   gap falls. So learn the *kind* of error from this table, not its digits.
+# </details>
 #
 # ## 6 What does catch them
 #
-# These five checks find more than the question "does it fit?":
+# These five checks find more:
 #
 # 1. **Signs.** kV and kA are positive, kS is not negative.
-# 2. **kV agrees with motors and gears**, within 10 %. (Lesson 1. Our simulation has no drag; a real
-#    robot is often a few percent above.)
+# 2. **kV agrees with motors and gears**, within 10 % (lesson 1).
 # 3. **kA agrees with motors and mass**, within 25 %.
-# 4. **Acceleration R² is not below 0.2**: below that, the docs call kA dubious.
+# 4. **Acceleration R² is not below 0.2.**
 # 5. **Somebody looked** at the plots of section 3. Here the program `inspect` does it.
 
 # %%
@@ -732,12 +734,12 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"Caught by their signs alone: {by_signs}.  By nothing: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# The clean log is in the list that nothing catches, as it should be. The others in that list are
-# damaged, and only a person who knows the robot will find out. To find a velocity filter, for
-# example, look into your motor controller's settings.
+# Nothing catches the clean log, and that is right. The others in this list are damaged, and only a
+# person who knows the robot can find out. For a velocity filter, look into the settings of your
+# motor controller.
 #
-# A sixth check takes one line of code: **fit forward and reverse apart.** R² does not show that
-# friction differs between the directions, and one kS cannot describe both:
+# A sixth check: **fit forward and reverse apart.** Friction may differ between the directions. R²
+# does not show that, and one kS cannot describe both:
 
 # %%
 leaning = by_name["friction differs"].log
@@ -748,12 +750,12 @@ for way in ("forward", "reverse"):
     print(f"{way}: the line of the ramp meets velocity 0 at {volts:.2f} V")
 
 # %% [markdown]
-# One trap comes before any data: SysId's menu *Analysis Type* starts on **Elevator**. If you fit a
-# drivetrain as an elevator, the fit looks for gravity where there is none (lesson 2).
+# One trap comes before any data: SysId's menu *Analysis Type* starts on **Elevator**. Choose the
+# type of your mechanism (lesson 2).
 #
 # ### Let the program look, after you did
 #
-# `inspect` reports which fault it sees, where, how sure it is, and what to do:
+# `inspect` says which fault it sees, where, how sure it is, and what to do:
 
 # %%
 print(f"It knows {len(FAULTS)} faults.")
@@ -765,8 +767,8 @@ for damage in seen.damages:
 plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
-# In a terminal: `sysid inspect drive.wpilog`. It gives you a second opinion. But it has never seen
-# *your* robot, so look yourself first.
+# In a terminal: `sysid inspect drive.wpilog`. It is a second opinion: it has never seen *your*
+# robot, so look yourself first.
 
 # %% [markdown]
 # ## 7 System check
@@ -853,15 +855,16 @@ quick
 # %% [markdown]
 # ## 9 Practice
 #
-# **Exercise 7, Detective.** You get twelve logs, most of them damaged. Name the fault, where it is,
-# and what to do. Read `exercises/exercise7/README.md`, then
+# **Exercise 7, Detective** ([exercises/exercise7/README.md](../exercises/exercise7/README.md)). You
+# get twelve logs, most of them damaged. Name the fault, where it is, and what to do.
 #
 # ```
 # grade exercise7
 # ```
 #
-# **Exercise 8, Trim and clean.** You get one log with a hard stop, a noisy standstill and wild
-# readings. You choose what to keep. Read `exercises/exercise8/README.md`, then
+# **Exercise 8, Trim and clean**
+# ([exercises/exercise8/README.md](../exercises/exercise8/README.md)). You get one log with a hard
+# stop, a noisy standstill and wild readings. You choose what to keep.
 #
 # ```
 # grade exercise8
@@ -876,12 +879,12 @@ quick
 # submit("exercise8", quasistatic_forward="0 to 4.4", threshold=0.1, median=3)
 # ```
 #
-# It writes into the exercise's `answers.toml` and shows the result. Hints cost nothing:
-# `grade exercise7 --hint`.
+# Or write into `answers.toml` with an editor: `grade watch exercise7` grades each time you save.
+# Hints cost nothing: `grade exercise7 --hint`.
 #
-# **On your own robot:** open an old log in AdvantageScope, drag velocity and voltage into a line
-# graph, and go through the list of section 7. Fit it, and note both R². If the simulated velocity
-# R² is below 0.9, write down which fault you suspect, and what you would check first. Then run
-# `sysid inspect` on it.
+# **Want more logs?** `grade mystery` draws a fresh one whenever you like.
+#
+# **On your own robot:** open an old log in AdvantageScope, and go through the list of section 7.
+# Then run `sysid inspect` on it.
 #
 # **Next:** [Lesson 7, fit it yourself](07_fit_it_yourself.ipynb). How does the fit find the gains?

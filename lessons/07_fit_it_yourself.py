@@ -30,8 +30,8 @@
 # SysId reads a log and prints gains. Often they are good. Sometimes they are nonsense that looks
 # just as good. When you have built the fit yourself, you know where it can go wrong.
 #
-# Today's robot is our simulated drivetrain with a bit of play in the gears, so its velocity reading
-# is noisy. We know its true gains.
+# Today's robot is our simulated drivetrain. There is some play in its gears, so its velocity
+# reading is noisy. We know its true gains.
 
 # %%
 from dataclasses import replace
@@ -61,6 +61,7 @@ from sim.plot import (
     plot_voltage_velocity,
     show_interactive,
 )
+from sim.teaching.fit_gaps import fill_gaps
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -89,8 +90,8 @@ plot_time_series(log, dynamic_seconds=1.0)
 #
 # > V ≈ kS + kV·v
 #
-# is a straight line: it meets velocity 0 at kS and has the slope kV. You could read the gains off
-# this line. `np.polyfit` finds the straight line that fits the samples best.
+# is a straight line. It meets velocity 0 at kS, and its slope is kV. `np.polyfit` finds the
+# straight line that fits the samples best.
 #
 # **Predict:**
 
@@ -165,19 +166,18 @@ Table(
 # ### Explain
 #
 # A ramp never stops accelerating. When the voltage rises by `ramp` volts each second, the speed
-# rises by `ramp/kV` each second. So during the whole ramp `kA·a = (kA/kV)·ramp` volts go into
-# acceleration. The straight line has no term for acceleration, so it counts these volts as kS.
+# rises by `ramp/kV` each second. So during the whole ramp, `kA·a = (kA/kV)·ramp` volts go into
+# acceleration. The straight line has no place for them, so it adds them to kS.
 #
 # <details><summary>Want to know why? The last column</summary>
 #
-# (The last column adds half a loop, 10 ms: a row contains the current speed and the voltage for the
+# The last column adds half a loop, 10 ms: a row contains the current speed and the voltage for the
 # *next* 20 ms, so the voltage is on average half a loop ahead. The remaining difference is noise;
-# section 4 shows how noise bends a line.)
+# section 4 shows how noise bends a line.
 # </details>
 #
-# SysId does not read lines off a plot. It fits all four tests at once, and the quantity it explains
-# is the acceleration. So this plot is only a good *first look*. For kS and kA we need all three
-# terms at once.
+# So this plot is only a good *first look*. For kS and kA we need all three terms at once. SysId
+# does not use this line either: it fits all four tests at once.
 #
 # <details><summary>For mentors: does SysId read an intercept?</summary>
 #
@@ -203,8 +203,7 @@ Table(
 # rows give three equations, and three equations have one solution. So take three rows: one slow,
 # one fast, one that accelerates. (All go forward, so sgn(v) is 1.)
 #
-# The acceleration is not in the log. `np.gradient` computes it from neighboring rows: the change of
-# velocity divided by the change of time.
+# The acceleration is not in the log. `np.gradient` computes it from neighboring rows.
 
 # %%
 slow, step = log.runs_of_test("quasistatic-forward")[0], log.runs_of_test("dynamic-forward")[0]
@@ -230,10 +229,9 @@ Table(
 # and three rows cannot show that. With a thousand rows, no gains fit all of them exactly, so we
 # take the gains with the **smallest total error**.
 #
-# "Smallest" needs a rule. The usual rule: square each error, add them up, and make the sum as small
-# as possible. This is called **least squares**. (Fitting a model to data in this way is called a
-# *regression*.) We square the errors so that positive and negative errors do not cancel, and
-# because there is a formula for the answer.
+# "Smallest" needs a rule. The usual rule: square each error, add the squares, and make the sum as
+# small as possible. This is called **least squares**. (To fit a model to data in this way is called
+# a *regression*.) Squares are never negative, so two errors cannot cancel each other.
 #
 # **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the bottom is as
 # small as you can make it.
@@ -268,7 +266,7 @@ by_hand(intercept=0.8, slope=2.0)
 # %% [markdown]
 # Now compare with the formula. `np.linalg.lstsq` ("least squares") needs the equations as a table:
 # one row per sample, one **column per unknown**. The column contains the factor of this unknown.
-# For a line with intercept and slope, the columns are 1 and v.
+# For a line, the columns are 1 and v.
 
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
@@ -336,15 +334,15 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 
 # %% [markdown]
 # Noise on the **left** side of the equation averages out. Noise in a **column** does not: it makes
-# the slope of that column too small. More data does not help. ("Noise averages out" is only true on
-# the left.)
+# the slope of that column too small. More data does not help.
 #
 # Our noisiest signal is the acceleration, because differences make noise larger. In the five lines
 # above it was a column. So move it to the left side. Solve the model for a:
 #
 # > a = −(kV/kA)·v + (1/kA)·V − (kS/kA)·sgn(v)
 #
-# Call the three numbers α, β and γ. Then kA = 1/β, kV = −α/β and kS = −γ/β.
+# Call the three numbers α, β and γ: a = α·v + β·V + γ·sgn(v). Then kA = 1/β, kV = −α/β and
+# kS = −γ/β.
 #
 # <details><summary>Want to know more? With gravity</summary>
 #
@@ -354,14 +352,55 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 # [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # </details>
 
+# **Now you write it.** Replace the dots in the next cell, four places in three gaps. Run it, then
+# run the cell below it: it checks each gap.
+
+
+# %%
+def my_left(volts, v, a):
+    """Gap 1: the signal on the left side."""
+    return ...
+
+
+def my_columns(volts, v, a):
+    """Gap 2: one column each for α, β and γ; the third one is missing."""
+    return [v, volts, ...]
+
+
+def my_gains(alpha, beta, gamma):
+    """Gap 3: the gains; kV and kA are missing."""
+    return {"kS": -gamma / beta, "kV": ..., "kA": ...}
+
+
+# %%
+mine = fill_gaps(left=my_left, columns=my_columns, gains=my_gains)
+print(mine.report)
+
+# %% [markdown]
+# <details><summary>Solution</summary>
+#
+# ```python
+# def my_left(volts, v, a):
+#     return a
+#
+# def my_columns(volts, v, a):
+#     return [v, volts, np.sign(v)]
+#
+# def my_gains(alpha, beta, gamma):
+#     return {"kS": -gamma / beta, "kV": -alpha / beta, "kA": 1 / beta}
+# ```
+# </details>
+#
+# The next cell fits with your lines. For a gap that is not right yet, it uses ours.
+
 
 # %%
 def acceleration_left(log: sim.Log) -> dict[str, float]:
     """The model solved for the acceleration, as SysId does it."""
     volts, v, a = signals(log)
-    columns = np.column_stack([v, volts, np.sign(v)])
-    (alpha, beta, gamma), *_ = np.linalg.lstsq(columns, a, rcond=None)
-    return {"kS": float(-gamma / beta), "kV": float(-alpha / beta), "kA": float(1 / beta)}
+    columns = np.column_stack(mine.columns(volts, v, a))
+    (alpha, beta, gamma), *_ = np.linalg.lstsq(columns, mine.left(volts, v, a), rcond=None)
+    return {name: float(gain) for name, gain in mine.gains(alpha, beta, gamma).items()}
 
 
 second_try = acceleration_left(log)
@@ -396,16 +435,21 @@ plot_curves(
 )
 
 # %% [markdown]
-# Acceleration on the left is the better choice. SysId uses it for this reason: its source says that
-# least squares "performs best with the noisiest variable as the dependent variable". (The dependent
-# variable is the one on the left.) But it is not perfect: the velocity is still a column, and it is
-# noisy too. So α and β shrink, and kA, which is 1/β, grows.
+# Acceleration on the left is the better choice, and SysId uses it for this reason. But it is not
+# perfect: the velocity is still a column, and it is noisy too. So α and β shrink, and kA, which is
+# 1/β, grows.
+#
+# <details><summary>Want to know more? What SysId's source says</summary>
+#
+# SysId's source says that least squares "performs best with the noisiest variable as the dependent
+# variable". The dependent variable is the one on the left.
+# </details>
 
 # %% [markdown]
 # ## 5 What SysId does before it fits
 #
-# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps. (The
-# names in italics are boxes in SysId's window.)
+# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps. Names
+# in italics are boxes in SysId's window.
 #
 # 1. **Threshold** (*Velocity Threshold*). SysId drops quasistatic rows slower than a threshold: at
 #    standstill, friction simply equals the voltage, so these rows contain nothing about kS.
@@ -416,8 +460,6 @@ plot_curves(
 #    acceleration to 90 % of the top speed, unless you set the box.
 #
 # ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
-#
-# Here they are in code. Each is a line or two, and you can switch each of them.
 
 
 # %%
@@ -473,9 +515,8 @@ Table(
 )
 
 # %% [markdown]
-# Your gains and SysId's are close. The difference comes from details: SysId finds its threshold
-# from the noise, and drops a row here and there. If your five lines use exactly the rows that SysId
-# keeps, the difference is zero:
+# Your gains and SysId's are close. SysId finds its threshold from the noise, and drops a few rows
+# more. If your five lines use exactly the rows that SysId keeps, the difference is zero:
 
 # %%
 kept = list(prepare_rows(log).rows.values())
@@ -495,9 +536,6 @@ print(
 # Look at the last line. SysId uses only a handful of rows of the whole dynamic test, because this
 # robot reaches its speed so fast. kA depends mostly on them.
 #
-# SysId trims a long dynamic test by itself. But a home-made fit that does not trim gets a wrong kA:
-# try `trim=False` in the next section. The danger of a long test is to the hardware.
-#
 # <details><summary>For mentors: does a long test hide kA?</summary>
 #
 # > **Lesson says:** run the dynamic test too long, and "kA becomes unobservable".
@@ -513,7 +551,7 @@ print(
 # %% [markdown]
 # ## 6 Same data, five choices, five kA's
 #
-# A real robot program misses a loop now and then. So in our log, too, one row in twenty is missing.
+# A real robot program sometimes misses a loop. So in our log, too, one row in twenty is missing.
 # We fit the **same data** and change five choices, one at a time: the left side, the threshold, the
 # filter, the time step, the trim.
 #
@@ -564,9 +602,7 @@ plot_choices(
 
 # %% [markdown]
 # The dots are the mean of eight logs, the bars show how much the logs differ. None of these choices
-# is a calculation error. They are decisions, and somebody made them for you.
-#
-# Try combinations yourself:
+# is a calculation error. They are decisions, and somebody made them for you. Try others:
 
 
 # %%
@@ -750,8 +786,7 @@ Table(("log", "acceleration R²", "simulated velocity R²", "kV ÷ true", "kA ÷
 #   last digit: it is a perfect log of another robot. And the commanded voltage gives the highest
 #   acceleration R² in the table, with a kA that is far too large.
 #
-# To find such errors, check the signs, compare kV and kA with motors and mass (lesson 1), compare
-# forward with reverse, and look at the plots (lesson 6).
+# To find such errors, make the checks of lesson 6.
 
 # %% [markdown]
 # ## 8 How can kS be negative?
@@ -773,13 +808,12 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # %% [markdown]
 # The last column hardly changes while the noise is moderate. You know it from section 2: it is the
 # voltage where the straight line meets velocity 0. The ramp has many rows, and they determine this
-# **sum** well. But they do not show how much of it is kS and how much is kA; only the few rows of
-# the step do. So when noise makes kA too large, kS becomes too small, even negative.
+# **sum** well. But they do not show how much of it is kS and how much is kA. Only the few rows of
+# the step show that. So when noise makes kA too large, kS becomes too small, even negative.
 #
 # So a negative kS is rarely about friction. First ask: **why is kA too large?** Possible causes are
 # noise, a log of the commanded voltage, a slipping wheel, a lurch. (For an arm or an elevator,
-# check the analysis type first: gravity fitted as *Simple* gives nonsense of either sign, lesson
-# 2.)
+# check the analysis type first: lesson 2.)
 
 # %% [markdown]
 # ## 9 A filter is not free
@@ -816,12 +850,16 @@ plot_curves(
 
 # %% [markdown]
 # After a step the velocity rises with the time constant kA/kV. A window that is longer than that
-# flattens the rise itself: the filter removes what you want to measure. WPILib's docs warn about
-# this for mechanisms that are light for their motors: the filter may "eat" the acceleration data,
-# and kA tends toward zero. ([Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# flattens the rise itself: the filter removes what you want to measure.
 #
 # A window of 3 to 5 helps on a *slow* mechanism. On a fast one, log faster, or repair the encoder.
+#
+# <details><summary>Want to know more? What WPILib's docs say</summary>
+#
+# They warn about this for mechanisms that are light for their motors: the filter may "eat" the
+# acceleration data, and kA tends toward zero. ([Viewing
+# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# </details>
 
 # %% [markdown]
 # ## 10 From gains to a first kP
@@ -836,13 +874,13 @@ plot_curves(
 #
 # <details><summary>Want to know more? Gain presets</summary>
 #
-# (A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit
-# of its output. Here we keep WPILib's own loop: 20 ms, and volts.)
+# A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit
+# of its output. Here we keep WPILib's own loop: 20 ms, and volts.
 # </details>
 #
 # A method called LQR (*linear-quadratic regulator*) finds the kP that balances q and r. A small q
 # and a large r give a large kP. A delay makes kP smaller, because late corrections make the
-# mechanism shake. WPILib's docs call such gains "educated guesses" and a "starting point".
+# mechanism shake.
 #
 # Somebody got kP = 0.62 for kS 0.14, kV 2.68, kA 0.34. Which q did they use?
 #
@@ -916,14 +954,17 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
 # %% [markdown]
 # The gains and the method are the same, but the values of kP are very different. Start with one of
-# them, and tune on the robot. ([SysId's source:
+# them, and tune on the robot. And if kA is wrong by a factor of two, kP is wrong too, without any
+# warning.
+#
+# <details><summary>Want to know more? Where these numbers come from</summary>
+#
+# [SysId's source:
 # Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp)
 # for the quarter,
 # [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h)
-# for the delays)
-#
-# And remember that kP depends on kA: if kA is wrong by a factor of two, kP is wrong too, without
-# any warning.
+# for the delays.
+# </details>
 
 # %% [markdown]
 # ## 11 Your own log
@@ -932,10 +973,10 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 # `grade exercise9`. If it exists, the next cell reads it.
 
 # %%
-mine = sorted(Path("..", "exercises", "exercise9", "data").glob("*/log.wpilog"))
-if mine:
-    own = sim.read(mine[0])
-    print(f"Read {mine[0]}: a log of {own.mechanism or 'a mechanism'}, in {own.units}.")
+own_logs = sorted(Path("..", "exercises", "exercise9", "data").glob("*/log.wpilog"))
+if own_logs:
+    own = sim.read(own_logs[0])
+    print(f"Read {own_logs[0]}: a log of {own.mechanism or 'a mechanism'}, in {own.units}.")
 else:
     own = simulate(
         MECHANISMS["shooter"].draw(np.random.default_rng(9)),
@@ -1056,15 +1097,16 @@ quick
 # %% [markdown]
 # ## 14 Practice
 #
-# **Exercise 9** (`exercises/exercise9/README.md`). Write your gains and both R² into
-# `exercises/exercise9/answers.toml`, then
+# **Exercise 9** ([exercises/exercise9/README.md](../exercises/exercise9/README.md)). Write your
+# gains and both R² into `exercises/exercise9/answers.toml`, then
 #
 # ```
 # grade exercise9
 # ```
 #
-# If a number is wrong by a well-known factor (2π, a sign) or if you swapped two numbers, the
-# feedback says so. Hints cost nothing: `grade exercise9 --hint`.
+# If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
+# feedback says so. Hints cost nothing: `grade exercise9 --hint`. For your function in `fit.py`,
+# start `grade watch exercise9` in a terminal: it grades each time you save.
 #
 # <details><summary>More, if you like</summary>
 #

@@ -28,7 +28,7 @@
 # ## 1 Why: no error message
 #
 # The analyzer shows three or four numbers, and you put them into your code. It is a small step, but
-# much can go wrong: the gain is per rotation and the code uses radians, kG is in the place of kV,
+# much can go wrong: the gain is per rotation and the code uses radians, kG and kV are swapped,
 # somebody uses the suggested kP without a test. **Nothing crashes.** The robot just moves wrong.
 #
 # A *feedforward* is the part of a controller that computes the voltage from what you **want**: "for
@@ -82,12 +82,11 @@ Table(
 # %% [markdown]
 # ## 2 Constants that explain themselves
 #
-# Put the numbers into `Constants.java`, in a class of their own, each with its unit in a comment,
-# and above them a note *when to measure again*. Keep all three habits.
+# Put the numbers into `Constants.java`, in a class of their own. Write the unit of each number in a
+# comment. Above them, write *when to measure again*.
 #
-# Somebody else's constants are examples to read, not to copy. Take a drivetrain with TalonFX
-# motors, ratio 8.46, 4 inch wheels and `kV = 2.68`. A real kV must be *above* the kV on paper
-# (lesson 1). Is it?
+# Do not copy somebody else's constants. Take a drivetrain with TalonFX motors, ratio 8.46, 4 inch
+# wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is it?
 #
 # <details><summary>For mentors: the source lesson's constants</summary>
 #
@@ -99,7 +98,8 @@ Table(
 # > (within a percent or two: data sheets are rounded).
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
-# > **Try it:** the next cell computes that promise for three motors, and holds 2.68 against it.
+# > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
+# > it.
 # </details>
 
 # %%
@@ -112,8 +112,8 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
 Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
 
 # %% [markdown]
-# If kV is more than a few percent below paper, a number is wrong: the ratio, the wheel, or the
-# unit.
+# If kV is more than a few percent below the theoretical kV, a number is wrong: the ratio, the
+# wheel, or the unit.
 #
 # `sysid fit` can write the constants for you, with their errors as comments. In a terminal:
 #
@@ -164,7 +164,7 @@ print(guess_season.reveal("the package and a method's name"))
 #   then divide that kP by 12.
 
 # %% [markdown]
-# ## 3 The class, and its slots
+# ## 3 The class, and its arguments
 #
 # | analysis type in SysId | class | arguments, in this order |
 # |---|---|---|
@@ -273,10 +273,10 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 #
 # ### Gains inside the motor controller
 #
-# A motor controller can add the feedforward itself, a thousand times a second. It counts in units
-# of its own, and it does not say so when yours differ:
+# A motor controller can add the feedforward itself, a thousand times a second. It uses units of its
+# own, and it does not warn you if yours differ:
 #
-# | where | kV is volts per | set beside it |
+# | where | kV is volts per | set also |
 # |---|---|---|
 # | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
 # | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
@@ -296,8 +296,9 @@ print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:
 
 # %% [markdown]
 # So the gains are volts per rotation of the *mechanism*, if the ratio is set. And use **FOC as in
-# the tests.** `setVoltage` and `VoltageOut` turn it on if you do not say otherwise and have a
-# Phoenix Pro license. Gains that were measured with it are wrong without it.
+# the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With the license,
+# `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were measured with
+# it are wrong without it.
 # ([CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
 # [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 
@@ -424,7 +425,7 @@ Table(
 #   12 V, so the wheel runs as fast as it can. On a drivetrain or an arm this is dangerous.
 # - **Swapped:** far too much voltage where the wheel speeds up, far too little where it holds its
 #   speed.
-# - **kA left out:** good where the target is steady, late on the slopes. For many mechanisms that
+# - **Without kA:** good where the target is steady, late on the slopes. For many mechanisms that
 #   is enough: WPILib's docs say that you may leave out kA, and AdvantageKit's swerve template calls
 #   the drive's kA "unnecessary in most cases". ([WPILib docs: Feedforward Control in
 #   WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
@@ -562,8 +563,9 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # %% [markdown]
 # ## 6 An arm that droops
 #
-# The same happens with gravity. Somebody characterized an arm **empty**. Now it holds a game piece
-# at its end, level. A *position* loop with kP holds the arm: kP volts for each radian of error.
+# The same happens with gravity. Somebody characterized an arm **empty**. Now the arm is level and
+# holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for each radian
+# of error.
 #
 # **Predict:**
 
@@ -633,7 +635,7 @@ Table(
 # > and drum; mass is not in it.
 # > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
-# > **Try it:** the next cell loads the bench's elevator.
+# > **Try it:** the next cell loads our simulated elevator.
 # </details>
 
 # %%
@@ -809,9 +811,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > measure, one to measure again.
 # </details>
 #
-# Gains also drift within a match. Copper that is 50 °C warmer has 20 % more resistance, so the same
-# push takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes no
-# gain of a loop in volts, but it ends sooner: 10 V is all there is. kP makes up for small drifts.
+# Gains also change during a match. Copper that is 50 °C warmer has 20 % more resistance, so the
+# same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes
+# no gain of a loop in volts, but it can give only 10 V. kP corrects small changes.
 
 # %% [markdown]
 # ## 9 Your own robot
@@ -926,15 +928,18 @@ quick
 # %% [markdown]
 # ## 12 Practice
 #
-# **Exercise 10: from the analyzer to the robot** (`exercises/exercise10/README.md`). You get the
-# gains of your own mechanism, and a code file to fill in. Sections 2 to 4 help.
+# **Exercise 10: from the analyzer to the robot**
+# ([exercises/exercise10/README.md](../exercises/exercise10/README.md)). You get the gains of your
+# own mechanism, and a code file to fill in. Sections 2 to 4 help. `grade watch exercise10` grades
+# each time you save the file.
 #
 # ```
 # grade exercise10
 # ```
 #
-# **Exercise 11: knowledge checks and the mechanism table** (`exercises/exercise11/README.md`).
-# Sections 5, 6 and 8 help, and lesson 6 for the first check.
+# **Exercise 11: knowledge checks and the mechanism table**
+# ([exercises/exercise11/README.md](../exercises/exercise11/README.md)). Sections 5, 6 and 8 help,
+# and lesson 6 for the first check.
 #
 # ```
 # grade exercise11

@@ -98,7 +98,7 @@ validation = simulate(robot, sim.Routine(1.0, 2.0, timeout=3.0, kinds=FOUR), rng
 held_out = simulate(
     robot, sim.Routine(step=3.5, timeout=4.0, kinds=("triangle", "multistep")), rng=rng
 )
-print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFFECTS)}.", 90))
+print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
 # Today's robot contains two of them. Its team does not know which. They have four Kraken X60, 60
@@ -112,9 +112,9 @@ print(fill(f"{len(EFFECTS)} effects are in the bench's catalogue: {', '.join(EFF
 # | `validation` | the four tests, 2 V step | it decides which effects we **keep** |
 # | `held_out` | other motions | we look at it **once**, at the end |
 #
-# Why three? If you judge models on the data you fitted, something always wins: more parameters
-# always fit better. Only new data can show whether you learned something about the robot or only
-# about the log. Section 4 shows this.
+# Why three? On the data that you fitted, a model with more parameters always looks better. Only new
+# data can show whether you learned something about the robot or only about the log. Section 4 shows
+# this.
 
 # %% [markdown]
 # ## 2 Measure the gap
@@ -169,9 +169,8 @@ def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
 base = fitted((), Model("simple", truth), log)
 
 # %% [markdown]
-# (`fitted` is the longest function of this course. Half of it keeps the parameters in order. One
-# line does the work, `least_squares`: it changes all parameters a little, finds the direction in
-# which the sum of squared errors falls, goes there, and repeats.)
+# (`fitted` is long, but one line does the work, `least_squares`: it changes all parameters a
+# little, finds the direction in which the sum of squared errors falls, goes there, and repeats.)
 #
 # We know the true kA of the team's robot; the team does not. **Predict:**
 
@@ -214,10 +213,14 @@ plot_time_series(log, beside=model_log, names=("log", "simulation"), dynamic_sec
 #
 # ### How large is that?
 #
-# A gap in meters per second is hard to judge. So we divide it by the **noise** of the sensor. To
-# find the noise, take the change from sample to sample, then the change of these changes, and once
-# more. For a smooth motion almost nothing remains after three rounds, so what remains is noise.
-# Then a gap of 1 means: only noise is left, and the model is complete.
+# A gap in meters per second is hard to judge. So we divide it by the **noise** of the sensor. Then
+# a gap of 1 means: only noise is left, and the model is complete.
+#
+# <details><summary>Want to know how we measure the noise?</summary>
+#
+# Take the change from sample to sample, then the change of these changes, and once more. For a
+# smooth motion almost nothing remains after three times, so the rest is noise.
+# </details>
 
 
 # %%
@@ -249,12 +252,12 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # %% [markdown]
 # ## 3 The residual microscope
 #
-# If you subtract the simulation from the log, you get the **residual**. Its size shows *that*
-# something is missing. What it depends on shows *what* is missing.
+# If you subtract the simulation from the log, you get the **residual**. A large residual shows
+# *that* something is missing. To see *what* is missing, look where the residual is large.
 #
 # We convert the residual into **missing volts**: how many volts would you have to add to the
 # simulation, at this moment, so that it moves like the robot? If the number is negative, the robot
-# got less than the model believes. We plot the missing volts in four ways:
+# got less than the model says. We plot the missing volts in four ways:
 #
 # | plotted over | an effect that you see there |
 # |---|---|
@@ -368,16 +371,16 @@ Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that e
 # %% [markdown]
 # ## 4 Doing it: name, add, fit again
 #
-# Now look at the team's robot. Its gains were **fitted**, so they are wrong in a way that hides a
-# part of the effects. On a real robot it is the same: the pattern is less clear.
+# Now look at the team's robot. Its gains were **fitted**. The fit changed them until they hid a
+# part of the effects, so the pattern is less clear. A real robot has the same problem.
 
 # %%
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
 # The time since the jump explains most. And look at the shape: first volts are missing, then there
-# are too many. A late sensor lags and then catches up; a weak battery never does. At very low speed
-# a little is missing, too.
+# are too many. A late sensor looks like that; a weak battery does not. At very low speed a little
+# is missing, too.
 #
 # **Predict** the first effect to add:
 
@@ -464,7 +467,7 @@ models["+ velocity-filter, stribeck"] = second
 plot_voltage_residual(log, simulated(second, log), second.gains)
 
 # %% [markdown]
-# No plot shows anything more, and the gap is about 1 on both logs. **Stop here.** A third effect
+# Now no plot shows a pattern, and the gap is about 1 on both logs. **Stop here.** A third effect
 # could only fit the noise.
 #
 # ### What the sensor did to the inertia
@@ -509,8 +512,8 @@ Table(
 # %% [markdown]
 # ## 5 The held-out log, once
 #
-# Until now nobody looked at `held_out`. It contains other motions: a triangle, and jumps of many
-# sizes. **Predict:**
+# Until now you have not looked at `held_out`. It contains other motions: a triangle, and jumps of
+# many sizes. **Predict:**
 
 # %%
 guess_held = Prediction(
@@ -534,9 +537,9 @@ plot_gap_bars(
 )
 
 # %% [markdown]
-# The gap shrinks with each effect, on motions that were never fitted. That is how you know that you
-# understood the robot. The model with a current limit looked good on the log, but here it is worse
-# than no effect at all. It learned the log, not the robot.
+# The gap shrinks with each effect, on motions that you never fitted. So these effects are in the
+# robot. The model with a current limit looked good on the log, but here it is worse than no effect
+# at all. It learned the log, not the robot.
 #
 # (Why is the last bar a little above 1? The parameters have small errors, and a log with many jumps
 # shows each of them many times.)
@@ -544,10 +547,9 @@ plot_gap_bars(
 # %% [markdown]
 # ## 6 When your data cannot decide
 #
-# Another team has another drivetrain, and this one *does* have a current limit: its motors cannot
-# push harder than a certain limit. (The model counts the limit in volts: those that remain to drive
-# the current after the back-EMF.) They record a gentle log, with a 2.5 V step. Later they drive a 6
-# V step.
+# Another team has a drivetrain that *does* have a current limit: its motors cannot push harder than
+# a certain force. (The model gives this limit in volts: the voltage minus the back-EMF.) They
+# record a gentle log, with a 2.5 V step. Later they drive a 6 V step.
 #
 # We give the model limits from very low to very high, and plot the gap of both logs.
 #
@@ -651,10 +653,10 @@ rows += [
 Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 
 # %% [markdown]
-# Both ways give nearly the same numbers. One difference: its base model starts with a *larger* gap
-# than yours. It has to follow the position as well, and the position is not averaged and not late.
-# A large kA would make the velocity fit better and the position fit worse. That is how it notices a
-# slow sensor.
+# Both ways give nearly the same numbers. There is one difference: the base model of reconcile
+# starts with a *larger* gap than yours. Reconcile also fits the position, and the position is not
+# averaged and not late. A large kA would make the velocity fit better and the position fit worse.
+# So reconcile notices a slow sensor.
 #
 # **How to read its verdict**
 #
@@ -665,9 +667,9 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
 # | unexplained | a gap remains that no effect in the catalogue explains | look at the robot |
 #
-# It can be wrong. *Minor* findings are small, and on a clean log it sometimes names an effect that
-# is not there. Ask the question of section 4: does the gap of other data shrink? And then: can you
-# find the cause on the robot, with a wrench in your hand?
+# Reconcile can be wrong. *Minor* findings are small, and on a clean log reconcile sometimes names
+# an effect that is not there. So ask: does the gap of other data shrink (section 4)? And can you
+# find the cause on the robot?
 
 # %% [markdown]
 # ## 8 Your own robot
@@ -780,9 +782,10 @@ quick
 # %% [markdown]
 # ## 11 Practice
 #
-# **Exercise 12: reality gap** (`exercises/exercise12/README.md`). You get your own mechanism with
-# one to three hidden effects, and three logs. Look at the gap with gains alone, then try the names
-# of effects:
+# **Exercise 12: reality gap**
+# ([exercises/exercise12/README.md](../exercises/exercise12/README.md)). You get your own mechanism
+# with one to three hidden effects, and three logs. Look at the gap with gains alone, then try the
+# names of effects:
 #
 # ```
 # python exercises/exercise12/try_it.py
@@ -798,10 +801,14 @@ quick
 # submit("exercise12", effects=["delay"], delay={"lag": 0.03}, gap_before=6.5, gap_after=1.2)
 # ```
 #
-# **Practice: characterize one mechanism** (`exercises/practice/README.md`, `grade practice`). Do
-# everything once, from the first line of code to the final gains. Best use your own robot and your
-# own `.wpilog`. Without a robot, use the log of exercise 9; you get the same points. Then reconcile
-# it.
+# With an editor, use `grade watch exercise12`: it grades each time you save. And `grade mystery`
+# draws a fresh log with a hidden trouble whenever you like.
+#
+# **Practice: characterize one mechanism**
+# ([exercises/practice/README.md](../exercises/practice/README.md), `grade practice`). Do everything
+# once, from the first line of code to the final gains. Best use your own robot and your own
+# `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
+# reconcile it.
 #
 # <details><summary>More, if you like</summary>
 #

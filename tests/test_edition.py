@@ -8,7 +8,7 @@ from page_flaws import page_flaws
 
 from grader.cli import run_command
 from grader.edition import build_pages
-from grader.edition.notebook_html import highlight_python
+from grader.edition.notebook_html import highlight_python, split_notebook
 from sim.core.errors import BadRequest
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
@@ -101,14 +101,22 @@ def test_no_lessons_are_refused(tmp_path):
         build_pages([], tmp_path)
 
 
+def test_a_link_leads_to_another_page_or_nowhere_out_of_the_edition():
+    text = (
+        "# Lesson\n\n[next](02_more.ipynb), [task](../exercises/exercise1/README.md), "
+        "[docs](https://docs.wpilib.org)"
+    )
+    html = split_notebook(nbformat.v4.new_notebook(cells=[MARKDOWN(text)]))[0].html
+
+    assert '<a href="02_more.html">next</a>, task, <a href="https://docs.wpilib.org">' in html
+
+
 def test_code_is_escaped():
     assert "&lt;b&gt;" in highlight_python("x = '<b>'")
 
 
 def test_the_code_of_a_quick_check_and_a_repeated_picture_are_left_out():
     from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output  # noqa: PLC0415 - only here
-
-    from grader.edition.notebook_html import split_notebook  # noqa: PLC0415 - only here
 
     shown = [new_output("stream", text="seen")]
     asks, again = {"jupyter": {"source_hidden": True}}, {"jupyter": {"outputs_hidden": True}}

@@ -112,6 +112,18 @@ def test_one_of_three_alone_is_part_of_the_way(tmp_path):
     assert "you are close. Is an effect missing" in results["held-out"].hint
 
 
+def test_a_gap_of_another_fit_is_right_and_the_note_says_which_one_was_used(tmp_path):
+    exact = graded(truth("ann"), "ann", tmp_path)["held-out"]
+    base = float(re.search(r"gap_before = (.*)", truth("ann"))[1])
+    doubled = re.sub(r"gap_before = .*", f"gap_before = {2 * base:.3g}", truth("ann"))
+    other = graded(doubled, "ann", tmp_path)["held-out"]
+
+    assert (exact.status, other.status) == ("passed", "passed")
+    assert "gap_before" not in exact.hint
+    assert f"used gap_before = {base:.3g}; your {2 * base:.3g} counts, too" in other.hint
+    assert "The grader fits kS, kV and kA to your log itself" in other.hint
+
+
 def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
     text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ann"))
 
@@ -196,7 +208,7 @@ def test_nothing_a_learner_reads_without_trying_names_what_is_hidden():
 def test_what_a_log_does_not_determine_is_drawn_again(student):
     """These two of 300 had a log whose right effects predict other runs badly."""
     drawn = sys.modules[OWN.module.draw.__module__]
-    first = drawn._one(drawn.make_student_rng(student, "exercise12"))
+    first = drawn._one(drawn.make_student_rng(student, "exercise12"), drawn.HIDDEN)
 
     assert not drawn._determined(first)
     assert drawn._determined(OWN.module.draw(student))

@@ -1,10 +1,12 @@
 """Exercise 7: twelve logs of one's own, judged by eye."""
 
+import importlib.util
 import re
 import shutil
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
@@ -14,6 +16,9 @@ import pytest
 from grader.check import WrongAnswer
 from grader.exercise import Exercise
 from grader.variant import use_class_secret
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import LogInterval
@@ -240,7 +245,33 @@ def test_a_log_is_drawn_whole_and_close_up(tmp_path):
     whole = (folder / "data" / "ann" / "log04.svg").read_bytes()
     part = look("4", "dynamic-forward", "0.1", "0.6")
     assert "dynamic-forward" in part.stdout
-    assert (folder / "data" / "ann" / "log04.svg").read_bytes() != whole
+    close = folder / "data" / "ann" / "log04-dynamic-forward-0.1-0.6.svg"
+    assert str(close) in part.stdout
+    assert close.read_bytes() != whole
+    assert (folder / "data" / "ann" / "log04.svg").read_bytes() == whole
     assert look("13").returncode == 1
     assert look(str(folder / "data" / "ann" / "log07.csv")).returncode == 0
     assert (folder / "data" / "ann" / "log07.svg").is_file()
+
+
+def test_a_little_jitter_and_noise_look_little_in_a_picture():
+    spec = importlib.util.spec_from_file_location("_look", OWN.folder / "look.py")
+    look = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(look)
+    rng = np.random.default_rng(3)
+    clean = simulate(MECHANISMS["drivetrain"], Routine(1.0, 1.8, 5.0), rng=rng, period=0.02)
+    runs = tuple(
+        replace(run, time=run.time + rng.uniform(-0.001, 0.001, len(run))) for run in clean.runs
+    )
+    log = replace(clean, runs=runs)
+    whole = look.drawn(log, log.runs).figure.axes
+    close = look.drawn(log, log.runs[:1], begin=0.0, end=0.1).figure.axes
+    tests = len(log.runs)
+
+    for row in range(4):
+        assert len({axes.get_ylim() for axes in whole[row * tests : (row + 1) * tests]}) == 1
+    for axes in (whole[-1], close[-1]):
+        assert axes.get_ylim()[0] == 0.0
+        assert axes.get_ylim()[1] >= 2.4 * 20.0  # ±1 ms is a twentieth of it
+    top = max(np.abs(run.velocity).max() for run in log.runs)
+    assert np.diff(close[1].get_ylim()) >= 0.1 * top

@@ -10,7 +10,8 @@ import pytest
 from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run_command
-from grader.report import format_points
+from grader.course import Standing
+from grader.report import find_next_step, format_points
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -217,10 +218,50 @@ def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys)
 
     assert "0 of 1 exercises done" in before
     assert "not tried yet" in before
-    assert "Next: read exercises/exercise1/README.md, then: grade exercise1" in before
+    assert before.endswith("Next: do exercises/exercise1/README.md\n")
     assert "1 of 1 exercises done" in after
     assert "exercise1  Measure" in after
-    assert "Everything here is done." in after
+    assert after.endswith("Everything here is done.\n")
+
+
+@pytest.mark.parametrize(
+    ("standings", "step"),
+    [
+        ({}, ("lessons/00_guess_or_measure.ipynb", "")),
+        ({"exercise11": "tried"}, ("lessons/01_motor_model.ipynb", "")),
+        ({"exercise11": "tried", "exercise1": "tried"}, ("", "exercise1")),
+        ({"exercise11": "tried", "exercise1": "done"}, ("", "exercise2")),
+        (
+            {"exercise11": "tried", "exercise1": "done", "exercise2": "done"},
+            ("lessons/02_gravity.ipynb", ""),
+        ),
+        (
+            dict.fromkeys(("exercise1", "exercise2", "exercise3", "exercise4", "exercise5"), "done")
+            | dict.fromkeys(("exercise11", "exercise6"), "tried"),
+            ("lessons/05_preflight_and_run.ipynb", ""),
+        ),
+        (
+            {f"exercise{number}": "done" for number in range(1, 11)} | {"exercise11": "tried"},
+            ("", "exercise11"),
+        ),
+    ],
+    ids=["new", "lesson 0", "half", "the second", "lesson 2", "part (b)", "the rest of 11"],
+)
+def test_the_next_step_is_one_lesson_or_one_exercise(root, standings, step):
+    score = {"done": 2.0, "tried": 1.0}
+    names = [f"exercise{number}" for number in range(1, 13)]
+    found = {name: Standing() for name in names} | {
+        name: Standing(score[how], 2.0) for name, how in standings.items()
+    }
+
+    assert find_next_step(root, found) == step
+
+
+def test_a_right_answer_ends_with_the_next_step(course, capsys):
+    answer(course, RIGHT)
+
+    assert run_command(["exercise1"]) == 0
+    assert capsys.readouterr().out.endswith("\nEverything here is done.\n")
 
 
 def grade(*arguments, cwd, **environment):

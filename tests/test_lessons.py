@@ -17,6 +17,8 @@ from nbclient import NotebookClient
 
 import sim
 from sim.bench.simulate import simulate
+from sim.plot import Picture, plot_r2_vs_gain_error
+from sim.teaching.r2_cases import GOOD, make_cases
 
 ROOT = Path(__file__).resolve().parents[1]
 TEXTS = sorted((ROOT / "lessons").glob("*.py"))
@@ -204,6 +206,35 @@ def test_a_lesson_links_to_the_next_one_and_names_the_folder_of_each_exercise(te
         assert f"]({later[0]})" in source.partition("**Next:**")[2]
     for number in re.findall(r"^grade exercise(\d+)$", source.replace("# ", ""), re.MULTILINE):
         assert f"exercises/exercise{number}/" in source
+
+
+@each_lesson
+def test_the_practice_of_a_lesson_links_to_its_exercises_and_names_grade_watch(text):
+    practice = text.read_text(encoding="utf-8").rpartition("Practice\n#\n")[2]
+    named = set(re.findall(r"grade (exercise\d+|practice)\b", practice)) - {"practice"}
+    linked = set(re.findall(r"\]\(\.\./exercises/(\w+)/README\.md\)", practice))
+
+    assert linked - {"practice"} == named
+    for name in linked:
+        assert (ROOT / "exercises" / name / "README.md").is_file()
+    assert "`grade watch exercise" in practice
+
+
+def test_lesson_6_does_not_name_the_damage_of_a_log_before_one_decided():
+    source = (ROOT / "lessons" / "06_read_the_data.py").read_text(encoding="utf-8")
+    cell = source.partition("# **Decide first:**")[2].partition("# %%\n")[2].partition("# %%")[0]
+    cases = make_cases(rng=np.random.default_rng(0))
+    space = {"np": np, "all_cases": cases, "plot_r2_vs_gain_error": plot_r2_vs_gain_error}
+    space |= {"GOOD": GOOD, "Picture": Picture}
+    exec(cell.partition("show_interactive(")[0], space)  # noqa: S102 - the lesson's own cell
+    for sort in space["KEYS"]:
+        hidden = space["grid"](sort, "hide")
+        assert "log A" in hidden.table.html
+        assert "log V" in hidden.table.html
+        assert not [case.name for case in cases if case.name in hidden.table.html + hidden.alt]
+    assert all(case.name in space["grid"]("letter", "reveal").table.html for case in cases)
+    by_letter = [space["LETTERS"][case.name] for case in cases]
+    assert by_letter != sorted(by_letter)  # the order in which they are made would tell
 
 
 def test_lesson_6_names_the_faults_as_exercise_7_and_inspect_do():

@@ -396,7 +396,7 @@ def test_a_search_for_what_is_missing_tells_how_far_it_is_and_ends_in_a_story(pa
     page.locator("#story progress").wait_for()
     page.locator("#story .finding h3", has_text="drag").wait_for()
 
-    assert page.locator("#story .headline").inner_text().startswith("Missing in the model is drag")
+    assert page.locator("#story .headline").inner_text().startswith("The model is missing drag")
     assert page.locator("#story .gaps > div").count() == 2
     assert page.complaints == []
 

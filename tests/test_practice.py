@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from grader import robotcode
 from grader.exercise import Exercise, find_exercise
 from grader.mistake import put_value, scale_numbers
 from grader.variant import make_folder_name
@@ -19,7 +20,7 @@ from sim.io import read, write
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("practice", ROOT / "exercises" / "practice")
 POINTS = {"routine": 15, "buttons": 10, "gains": 4, "r2": 1, "hypothesis": 1, "constants": 11,
-          "theory": 7}  # fmt: skip
+          "one": 2, "theory": 7}  # fmt: skip
 
 
 def solver():
@@ -34,7 +35,7 @@ def solver():
 def solved(tmp_path_factory):
     """The solution of a learner without a robot: file name -> text."""
     room = tmp_path_factory.mktemp("data")
-    variant = OWN.module.NINTH.draw("ann")
+    variant = OWN.module.draw("ann")
     built = variant.mechanism
     diameter = f"wheel_diameter = {2 * built.radius}\n" if built.radius != 1.0 else ""
     write(variant.log, room / "log.wpilog")
@@ -85,7 +86,7 @@ def robot(folder, *, noise=0.0):
 def constants(found):
     """The code with these gains, as the solution writes it."""
     gains = {**found.gains, "kP": found.feedback()["velocity"].kp}
-    return solver()._constants(gains, "m")
+    return solver().fill_in_code(OWN.folder, gains, "m")
 
 
 def lacking(results):
@@ -173,7 +174,7 @@ def test_files_may_have_names_of_their_own(tmp_path, solved):
 
 def test_constants_are_held_against_what_was_measured(tmp_path, solved):
     texts = dict(solved)
-    texts["ExampleMechanism.java"] = texts["ExampleMechanism.java"].replace("kV = ", "kV = 3 * ")
+    texts["ExampleSubsystem.java"] = texts["ExampleSubsystem.java"].replace("kV = ", "kV = 3 * ")
     results = graded(tmp_path, texts)
 
     assert results["constants-kv"].status == "failed"
@@ -203,18 +204,36 @@ def test_the_learner_gets_a_log_and_its_parts(tmp_path):
     }
 
 
-@pytest.mark.parametrize(
-    ("name", "file"),
-    [
-        ("exercise4", "ExampleSubsystem.java"),
-        ("exercise4", "example_subsystem.py"),
-        ("exercise5", "RobotContainer.java"),
-        ("exercise5", "robotcontainer.py"),
-        ("exercise10", "ExampleMechanism.java"),
-        ("exercise10", "example_mechanism.py"),
-    ],
-)
-def test_the_same_task_begins_with_the_same_file(name, file):
-    there = ROOT / "exercises"
+def test_the_files_to_fill_in_and_the_log_are_one_mechanism(tmp_path, solved):
+    drawn = OWN.module.draw("zoë")
+    names = {"motor_count": 2, "units": "meters"}
+    for name, file in (("java", "ExampleSubsystem.java"), ("python", "example_subsystem.py")):
+        (tmp_path / file).write_text(solved[file], encoding="utf-8")
+        facts = robotcode.read(tmp_path / file)
+        container = next(one for one in OWN.module.LANGUAGES[name] if "ontainer" in one)
+        text = (OWN.folder / container).read_text(encoding="utf-8")
 
-    assert (there / "practice" / file).read_bytes() == (there / name / file).read_bytes()
+        assert len(facts.motors) == names["motor_count"]
+        assert f"new {facts.class_name}(" in text or f"{facts.class_name}()" in text
+        assert "class ExampleSubsystem" not in text
+    assert {name: getattr(drawn.mechanism, name) for name in names} == names
+    constant = OWN.module.METERS_PER_ROTATION
+    assert 2 * np.pi * drawn.mechanism.radius / drawn.mechanism.ratio == pytest.approx(constant)
+
+
+def test_two_mechanisms_in_one_answer_do_not_earn_everything(tmp_path, solved):
+    """The container of exercise 5 brings a subsystem of its own, and a shooter has no meters."""
+    shooter = replace(MECHANISMS["shooter"], drag=0.05)
+    log = simulate(shooter, Routine(0.5, 3.5, 8.0), rng=np.random.default_rng(5))
+    write(log, tmp_path / "mine.wpilog")
+    fifth = (ROOT / "solutions" / "exercise5" / "RobotContainer.java").read_text(encoding="utf-8")
+    texts = {**solved, "RobotContainer.java": fifth}
+    twice = graded(tmp_path, texts)["one-mechanism"]
+    turning = graded(tmp_path, solved, log='"mine.wpilog"')["one-mechanism"]
+
+    assert (twice.points, turning.points) == (0, 1)
+    assert (
+        twice.seen
+        == "ExampleSubsystem.java has a SysIdRoutine, and RobotContainer.java has another one"
+    )
+    assert turning.seen == "your code records meters, and your log has turns"

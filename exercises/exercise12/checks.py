@@ -1,6 +1,7 @@
 """Exercise 12: what is missing in a model, named, sized, and shown on runs nobody fitted."""
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,16 +10,19 @@ from typing import TYPE_CHECKING
 
 from grader.answer import AskedNumber, Band, read_answer_number
 from grader.check import NotReachedError, WrongAnswer, check
+from grader.mystery import Mystery
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 from grader.variant import make_folder_name
 
-from .drawn import FLOOR, Variant, draw
+from .drawn import FLOOR, HIDDEN, Variant, draw, draw_determined
 from .gap import compared, gap, noise, with_effects, with_gains
 from .patch import names_of, on_a_bound, parts_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import numpy as np
 
     from sim.core.log import Log
     from sim.physics.model import Model, Part
@@ -44,6 +48,10 @@ NARROWER = 0.985  # [of the gap without] what a refit by chance does not do
 SAME = (0.6, 1.6)  # [of the gap graded] what another honest way to compute it may give
 BASE = (0.3, 3.0)  # [of the same] of a base that another method fitted
 REPORTED = 0.5  # points for the two gaps
+OTHER_FIT = (
+    "The grader fits kS, kV and kA to your log itself, as try_it.py does. Another program, such as "
+    "sysid reconcile, fits them in another way and gets another gap"
+)
 
 
 @dataclass(frozen=True)
@@ -91,6 +99,35 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
         for suffix in (".wpilog", ".csv")
     }
     write_student_files(made, exercise=HERE, student=student, what="logs", say=say)
+
+
+def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
+    """One to three hidden effects, more at higher levels; the answer is their names.
+
+    Args:
+        rng: the source of chance.
+        level: from 1.
+    """
+    count = min((level + 1) // 2, max(len(effects) for _, effects in HIDDEN))
+    variant = draw_determined(rng, [one for one in HIDDEN if len(one[1]) == count])
+    return Mystery(
+        logs={"log": variant.log, "validation": variant.validation},
+        task=(
+            f"The model kS, kV, kA lacks {count} effect{'s' if count > 1 else ''}. Which? Write "
+            f"{'the most important one first' if count > 1 else 'its name'}; sysid effects lists "
+            "the names. Put the names that you try after try_it.py"
+        ),
+        tool="python exercises/exercise12/try_it.py --logs {folder}",
+        example=", ".join(("delay", "backlash", "cogging")[:count]),
+        solution=", ".join(variant.hidden),
+        checks=(first_effect, all_effects),
+        read=lambda text: Answers({"effects": _split_names(text)}, variant),
+    )
+
+
+def _split_names(text: str) -> list[str]:
+    """The names in one line, between commas or spaces."""
+    return [one for one in re.split(r"[,\s]+", text) if one]
 
 
 def read(path: Path, *, student: str) -> Answers:
@@ -178,18 +215,26 @@ def held_out(answers: Answers) -> str | None:
 
 
 def _reported(answers: Answers, *, before: float, after: float, seen: str) -> str:
-    """Whether the gaps that the learner wrote down are those of this model."""
+    """Whether the gaps that the learner wrote down are those of this model.
+
+    Returns:
+        What the grader measured; and for a gap that is right but another number, why.
+    """
+    others = []
     for name, expected, bounds in (("gap_before", before, BASE), ("gap_after", after, SAME)):
         asked = AskedNumber(name, expected, "", Band(0.0, 0.0))
         try:
-            _near(read_answer_number(answers.given.get(name), asked), expected, bounds)
+            value = read_answer_number(answers.given.get(name), asked)
+            _check_near(value, expected, bounds)
         except WrongAnswer as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise
-    return seen
+        if f"{value:.2g}" != f"{expected:.2g}":
+            others.append(f"The grader used {name} = {expected:.3g}; your {value:g} counts, too")
+    return ". ".join([seen, *others, *([OTHER_FIT] if others else [])])
 
 
-def _near(value: float, expected: float, bounds: tuple[float, float]) -> None:
+def _check_near(value: float, expected: float, bounds: tuple[float, float]) -> None:
     if not bounds[0] * expected <= value <= bounds[1] * expected:
         hint = "this is not the gap of your model on the held-out log, in times the noise"
         raise WrongAnswer(f"{value:g}", hint=hint)

@@ -1,5 +1,6 @@
 """A learner's own mechanism and what is hidden in it: three logs, and the truth about them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,8 +15,10 @@ if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
     from sim.core.log import Log
 
+Recipe = tuple[str, tuple[tuple[str, float], ...]]  # a mechanism; its effects with their sizes
+
 FOUR = ("quasistatic", "dynamic")
-HIDDEN = (
+HIDDEN: tuple[Recipe, ...] = (
     ("drivetrain", (("velocity-filter", 1.5),)),
     ("drivetrain", (("cogging", 1.2),)),
     ("drivetrain", (("velocity-filter", 1.5), ("stribeck", 0.8))),
@@ -74,12 +77,21 @@ class Variant:
 @cache_draw_on_disk
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
-    rng = make_student_rng(student, "exercise12")
+    return draw_determined(make_student_rng(student, "exercise12"), HIDDEN)
+
+
+def draw_determined(rng: "np.random.Generator", among: Sequence[Recipe]) -> Variant:
+    """A mechanism whose hidden effects its logs determine.
+
+    Args:
+        rng: the source of chance.
+        among: what may be hidden, as in ``HIDDEN``.
+    """
     for _ in range(MOST_DRAWS):
-        variant = _one(rng)
+        variant = _one(rng, among)
         if _determined(variant):
             return variant
-    raise RuntimeError(f"no mechanism that can be determined for {student!r}")
+    raise RuntimeError("no mechanism that can be determined")
 
 
 def _determined(variant: Variant) -> bool:
@@ -96,13 +108,13 @@ def _determined(variant: Variant) -> bool:
     return True
 
 
-def _one(rng: "np.random.Generator") -> Variant:
+def _one(rng: "np.random.Generator", among: Sequence[Recipe]) -> Variant:
     """Any mechanism, and its logs."""
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
 
-    kind, effects = HIDDEN[int(rng.integers(len(HIDDEN)))]
+    kind, effects = among[int(rng.integers(len(among)))]
     mechanism = MECHANISMS[kind].draw(rng)
     for effect, size in effects:
         mechanism = mechanism.hide(effect, size * float(rng.uniform(*SIZES)))

@@ -1,6 +1,7 @@
 """Try effects on your own logs.
 
     python exercises/exercise12/try_it.py delay backlash
+    python exercises/exercise12/try_it.py delay --logs mystery/me
 
 Their parameters are fitted to your log. What counts is the gap of the validation.
 """
@@ -13,7 +14,7 @@ import numpy as np
 
 from grader.check import WrongAnswer
 from grader.course import find_course, load_progress
-from grader.exercise import find_exercise
+from grader.exercise import Exercise, find_exercise
 from sim import read
 from sim.core.errors import Refusal
 from sim.core.units import find_unit, gains_per
@@ -33,14 +34,14 @@ def main() -> int:
         action="store_true",
         help=("also show the gap of the held-out log: only at the end"),
     )
+    parser.add_argument("--logs", type=Path, help="folder with other logs, those of a mystery, say")
     asked = parser.parse_args()
     course = find_course(Path(__file__).resolve().parent)
     exercise = find_exercise("12", course)
-    student = asked.student or load_progress(course)[0].student
-    exercise.prepare(student, say=_say)
     room = exercise.module
-    data = room.HERE / "data" / room.make_folder_name(student)
-    logs = {name: read(data / f"{name}.wpilog") for name in ("log", "validation", "held-out")}
+    data = asked.logs or _prepare_own(exercise, asked.student or load_progress(course)[0].student)
+    kinds = ("log", "validation", *(("held-out",) if asked.held_out else ()))
+    logs = {name: read(data / f"{name}.wpilog") for name in kinds}
     names = room.names_of(asked.effects) if asked.effects else ()
     model = room.with_effects(logs["log"], names)
     per = find_unit(logs["log"].units)
@@ -50,9 +51,8 @@ def main() -> int:
         for name, one in part.to_json(per).items():
             _say(f"{part.effect}.{name} = {one['value']:.5g}  # [{one['unit']}]")
     for name, log in logs.items():
-        if name != "held-out" or asked.held_out:
-            wide = room.gap(model, log) / room.noise(log)
-            _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
+        wide = room.gap(model, log) / room.noise(log)
+        _say(f"gap of the {name}: {wide:.3g} times the noise of the velocity")
     _say("Where simulation and validation differ most:")
     shown = logs["validation"]
     tracks = [np.column_stack((one.position, one.seen)) for one in replay_log(model, shown)]
@@ -63,6 +63,13 @@ def main() -> int:
     if not places:
         _say("  nowhere beyond doubt")
     return 0
+
+
+def _prepare_own(exercise: Exercise, student: str) -> Path:
+    """Make a learner's own logs, and say where they are."""
+    exercise.prepare(student, say=_say)
+    folder: Path = exercise.folder / "data" / exercise.module.make_folder_name(student)
+    return folder
 
 
 def _say(line: str) -> None:

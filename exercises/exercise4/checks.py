@@ -19,7 +19,7 @@ from grader.logged_numbers import (
 from grader.robotcode import bench
 from grader.robotcode.bench import RunFacts, RunOutcome, findings
 from grader.robotcode.bench.findings import RunFault, find_stop
-from grader.robotcode.facts import RoutineFacts
+from grader.robotcode.facts import Output, RoutineFacts
 from grader.robotcode.vocabulary import CONFIG_DEFAULTS, SEASON
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
@@ -31,6 +31,7 @@ from grader.sysid_routine_checks import (
     check_motor_recorded,
     check_only_test_drives,
     check_open_loop,
+    check_spelling,
     check_units,
     explain_doubt,
     give_no_advice,
@@ -101,6 +102,7 @@ def _mistaken(code: Code) -> bool:
 def routine(code: Code) -> str | None:
     """Your subsystem makes a SysIdRoutine."""
     if not code.facts.routine_line:
+        _spelled(code.facts)
         raise WrongAnswer(
             f"no SysIdRoutine in {code.facts.class_name or 'this file'}",
             hint="Make one where the motors are made, and keep it in a field.",
@@ -206,6 +208,7 @@ def _drive(facts: RoutineFacts) -> str | None:
             wrong.append(why)
     if wrong:
         wrong[0].earned = round(3 * (1 - len(wrong) / len(motors)), 1)
+        _spelled(facts, lines=_unclear(facts), earned=wrong[0].earned)
         raise wrong[0]
     check_only_test_drives(facts)
     check_numbers(facts)
@@ -215,6 +218,16 @@ def _drive(facts: RoutineFacts) -> str | None:
     if any(call.method in {"setControl", "set_control"} for call in facts.drive):
         return "setVoltage() sends a VoltageOut, too. Keep one request object and reuse it."
     return None
+
+
+def _unclear(facts: RoutineFacts) -> set[int]:
+    """The lines of the drive callback whose command is of no known kind."""
+    return {call.line for call in facts.drive if call.output is Output.UNKNOWN}
+
+
+def _spelled(facts: RoutineFacts, *, lines: set[int] | None = None, earned: float = 0.0) -> None:
+    """Name a misspelled name before what it leads to."""
+    check_spelling(facts.compile_errors, lines=lines, language=facts.language, earned=earned)
 
 
 def _followed(facts: RoutineFacts, *, whole: bool) -> None:
@@ -235,12 +248,23 @@ def log(code: Code) -> str | None:
     """The log callback records the motor's name, position, velocity and applied voltage."""
     demanded = SIDES if code.facts.class_name == TASK else 0
     running = _either("log", partial(findings.check_logged_motors, demanded=demanded))
-    return settle(code, partial(_log, code.facts, demanded), running, points=3, answered=_held)
+    reading = partial(_log_spelled, code.facts, demanded)
+    return settle(code, reading, running, points=3, answered=_held)
 
 
 def _held(ran: RunFacts) -> bool:
     """Whether every motor in the log could be held against a motor of the bench."""
     return bool(ran.recorded) and all(one.voltage and one.lowered for one in ran.recorded)
+
+
+def _log_spelled(facts: RoutineFacts, demanded: int) -> None:
+    """What is recorded; a misspelled name outside the drive callback is told first."""
+    try:
+        _log(facts, demanded)
+    except WrongAnswer as wrong:
+        elsewhere = {one.line for one in facts.compile_errors} - _unclear(facts)
+        _spelled(facts, lines=elsewhere, earned=wrong.earned)
+        raise
 
 
 def _log(facts: RoutineFacts, demanded: int) -> None:
@@ -357,5 +381,6 @@ def _as_a_share(ran: RunFacts) -> RunFault | None:
 def _open_loop(facts: RoutineFacts) -> None:
     if not facts.drive:
         raise NotReachedError("checked after the drive callback moves a motor")
+    _spelled(facts, lines=_unclear(facts))
     for call in facts.drive:
         check_open_loop(call)

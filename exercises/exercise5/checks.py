@@ -10,7 +10,7 @@ from grader.robotcode.binding_facts import BindingFacts
 from grader.robotcode.bindings import bindings_of
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
-from grader.sysid_routine_checks import check_compiles
+from grader.sysid_routine_checks import check_compiles, check_spelling
 from sim.core.errors import UnreadableFile
 
 from .explained import check_comment
@@ -60,6 +60,7 @@ def factories(facts: BindingFacts) -> None:
     if public >= TESTS:
         return
     earned = 2 * len(public) / len(TESTS)
+    check_spelling(facts.compile_errors, language=facts.language, earned=earned)
     hidden = [one for one in facts.factories if not one.public and all_of([one.test]) - public]
     if hidden:
         raise WrongAnswer(
@@ -106,6 +107,7 @@ def held(facts: BindingFacts) -> str | None:
         if facts.language == "java" or not bench.installed():
             return READ_ONLY[facts.language]
         return agreed(facts, _stops, points=3)
+    check_spelling(facts.compile_errors, language=facts.language, earned=earned)
     _readable(facts, earned=earned)
     hint = "Four tests, four buttons: two kinds, each forward and reverse."
     raise WrongAnswer(f"no button runs {named(missing(facts))}", hint=hint, earned=earned)
@@ -188,6 +190,7 @@ def bound(facts: BindingFacts) -> None:
     """
     if facts.bindings:
         return
+    check_spelling(facts.compile_errors, language=facts.language)
     if facts.elsewhere:
         text, line = facts.elsewhere[0]
         raise WrongAnswer(

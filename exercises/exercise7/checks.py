@@ -6,14 +6,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.check import Check, WrongAnswer, check
+from grader.mystery import Mystery
 from grader.student_files import format_log, write_student_files
 from grader.submission import read_answers
 
-from .drawn import LOGS, Case, draw
-from .line import CLEAN, read_claims
+from .drawn import LEVELS, LOGS, Case, draw, draw_case
+from .line import CLEAN, describe_case, read_claims
 from .scored import scored
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from grader.student_files import Made
 
 FILES = ("answers.toml",)
@@ -37,6 +40,30 @@ def prepare(student: str, *, say: Callable[[str], None]) -> None:
         for number, case in enumerate(draw(student), start=1)
     }
     write_student_files(made, exercise=HERE, student=student, what="logs", say=say)
+
+
+def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
+    """A log that is damaged, or none; weaker and rarer faults at higher levels.
+
+    Args:
+        rng: the source of chance.
+        level: from 1.
+    """
+    faults, severity = LEVELS[min(level, len(LEVELS)) - 1]
+    case = draw_case(faults[int(rng.integers(len(faults)))], rng, severity=severity)
+    sound = any(not one for one in faults)
+    return Mystery(
+        logs={"log": case.log},
+        task=(
+            f"{'This log may be damaged' if sound else 'This log is damaged'}. What is wrong, "
+            "where, and what should you do? Exercise 7 explains the words."
+        ),
+        tool="python exercises/exercise7/look.py {folder}/log.wpilog",
+        example="hard-stop, dynamic-forward, 1.20 to 1.66, trim",
+        solution=describe_case(case),
+        checks=(_of(1),),
+        read=lambda text: Answers({"log01": text}, (case,)),
+    )
 
 
 def read(path: Path, *, student: str) -> Answers:

@@ -31,6 +31,18 @@ OTHERS = (
     "stuck-sensor",
 )
 TWICE = ("encoder-slip", "brownout", "stuck-sensor")  # one of these, and gaps in another test
+PLAIN, ORDINARY, WEAK = (1.0, 2.0), SEVERITY, (0.6, 1.0)  # severities of mysteries
+SINGLE = tuple((name,) for name in (*LESSON, *ALWAYS, *OTHERS))
+PAIRS = tuple((name, "loop-overrun") for name in TWICE)
+LEVELS: tuple[tuple[tuple[tuple[str, ...], ...], tuple[float, float]], ...] = (
+    (tuple((name,) for name in LESSON), PLAIN),
+    (SINGLE, PLAIN),
+    ((*SINGLE, (), ()), ORDINARY),
+    ((*SINGLE, (), (), *PAIRS), ORDINARY),
+    ((*SINGLE, (), (), *PAIRS), WEAK),
+)
+"""What a mystery of each level may have wrong with it, and how badly."""
+
 NEAR = 0.5  # [shared over covered time] what the bench's own detective must reach
 MOST_DRAWS = 200  # so many in a row that cannot be solved would be our fault
 
@@ -68,7 +80,7 @@ class Case:
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
     rng = make_student_rng(student, "exercise7")
-    return tuple(_case(faults, rng) for faults in _plan(rng))
+    return tuple(draw_case(faults, rng) for faults in _plan(rng))
 
 
 def _plan(rng: "np.random.Generator") -> list[tuple[str, ...]]:
@@ -83,16 +95,29 @@ def _plan(rng: "np.random.Generator") -> list[tuple[str, ...]]:
     return [(first,), *(rest[int(index)] for index in rng.permutation(len(rest)))]
 
 
-def _case(faults: tuple[str, ...], rng: "np.random.Generator") -> Case:
-    """A log with these faults, drawn until the bench's own detective finds them and no others."""
+def draw_case(
+    faults: tuple[str, ...],
+    rng: "np.random.Generator",
+    *,
+    severity: tuple[float, float] = SEVERITY,
+) -> Case:
+    """A log with these faults, drawn until the bench's own detective finds them and no others.
+
+    Args:
+        faults: none, one or two names.
+        rng: the source of chance.
+        severity: least and largest; 1 is an ordinary bad day.
+    """
     for _ in range(MOST_DRAWS):
-        case = _one(faults, rng)
+        case = _one(faults, rng, severity)
         if case is not None and _solvable(case):
             return case
     raise RuntimeError(f"no log that shows {' and '.join(faults) or 'nothing'}")
 
 
-def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
+def _one(
+    faults: tuple[str, ...], rng: "np.random.Generator", bounds: tuple[float, float]
+) -> Case | None:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
@@ -107,7 +132,7 @@ def _one(faults: tuple[str, ...], rng: "np.random.Generator") -> Case | None:
     log = simulate(mechanism, routine, rng=rng, period=PERIOD)
     damage: list[Damaged] = []
     for name in faults:
-        low, high = SEVERITY
+        low, high = bounds
         severity = float(low * (high / low) ** rng.random())
         try:
             spoilt = contaminate(log, name, severity=severity, rng=rng)

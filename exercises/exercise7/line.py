@@ -12,8 +12,12 @@ from typing import TYPE_CHECKING
 
 from grader.check import WrongAnswer, shorten
 
+from .told import ACCEPTED
+
 if TYPE_CHECKING:
     from sim.core.log import Log
+
+    from .drawn import Case
 
 CLEAN = "clean"
 ACTIONS = ("rerun", "trim", "filter", "fix-config")
@@ -97,6 +101,18 @@ class Claim:
             part = [one for one in (named if whole else cut) if one[0] in kept]
             ways.append(part)
         return ways
+
+
+def describe_case(case: "Case") -> str:
+    """The line that earns everything for a log."""
+    said = []
+    for one in case.damage:
+        tests = ", ".join(dict.fromkeys(part.test for part in one.where))
+        first = one.where[0]
+        begin = case.log.runs[first.run or 0].time[0]
+        times = [] if one.whole else [f"{first.start - begin:.2f} to {first.end - begin:.2f}"]
+        said.append(", ".join([one.fault, tests, *times, ACCEPTED[one.fault][0]]))
+    return " + ".join(said) or CLEAN
 
 
 def read_claims(raw: object) -> tuple[Claim, ...]:

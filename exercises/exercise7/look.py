@@ -5,8 +5,8 @@
     python exercises/exercise7/look.py any/other/log.wpilog
 
 The first draws log 4, all of it. The second draws a part of one test, with a dot for each sample;
-its times count from the beginning of the test. The third draws any log. Each saves a picture beside
-the log.
+its times count from the beginning of the test. The third draws any log. Each saves a picture next
+to the log, and no picture replaces another one: log04.svg, log04-dynamic-forward-1-1.6.svg.
 """
 
 import re
@@ -25,18 +25,22 @@ from sim.plot.picture import COLORS, INK, Picture, make_panels
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from sim.core.log import Log, Run
+    from sim.core.log import Array, Log, Run
 
 DATA = Path(__file__).resolve().parent / "data"
 TESTS = ("quasistatic-forward", "quasistatic-reverse", "dynamic-forward", "dynamic-reverse")
 DOTS = 150  # samples in a picture up to which each gets a dot
+MARGIN = 0.05  # [share] of an axis above and below what is drawn
+CLOSEST = 0.1  # [share of the whole log's range] an axis shows at least: noise stays small
+ALL = 1e9  # [s] later than any log ends
+STEPS = 2.5  # [median time steps] which the axis of the time steps reaches at least
 
 
 @click.command(help=re.sub(r"(?m)^    ", "\b\n    ", __doc__))
 @click.argument("log")
 @click.argument("test", default="", type=click.Choice(("", *TESTS)))
 @click.argument("begin", default=0.0)
-@click.argument("end", default=1e9)
+@click.argument("end", default=ALL)
 @click.option("--student", default="me", help="The name your logs are under.")
 def main(log: str, test: str, begin: float, end: float, student: str) -> None:
     """Draw one log, or a part of it."""
@@ -46,14 +50,22 @@ def main(log: str, test: str, begin: float, end: float, student: str) -> None:
         found = read(place)
         runs = [run for run in found.runs if test in ("", run.test)]
         picture = drawn(found, runs, begin=begin, end=end)
-        target = place.with_suffix(".svg")
+        target = place.with_name(f"{place.stem}{_suffix(test, begin, end)}.svg")
         picture.save(target)
     except Refusal as refusal:
         raise click.ClickException(str(refusal)) from None
     click.echo(f"{picture.alt} Open {target} in a browser.")
 
 
-def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float = 1e9) -> Picture:
+def _suffix(test: str, begin: float, end: float) -> str:
+    """What the picture of a part is called after its log: the test, and the times if it has any."""
+    times = (
+        "" if (begin, end) == (0.0, ALL) else f"-{begin:g}-{end:g}" if end < ALL else f"-{begin:g}"
+    )
+    return f"-{test}{times}" if test else times
+
+
+def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float = ALL) -> Picture:
     """Four signals of some tests, one below the other, one test beside the next.
 
     Args:
@@ -61,15 +73,23 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
         runs: the tests.
         begin: [s] since each test began, what to draw first.
         end: [s] the same, what to draw last.
+
+    All tests have the same axes, so that they can be compared. The time steps begin at zero.
     """
     per = find_unit(log.units)
-    names = ("voltage [V]", f"velocity [{per.symbol}/s]", f"position [{per.symbol}]", "step [ms]")
+    names = (
+        "voltage [V]",
+        f"velocity [{per.symbol}/s]",
+        f"position [{per.symbol}]",
+        "time step [ms]",
+    )
     figure, grid = make_panels(len(names), len(runs), width=3.4 * len(runs) + 1.0, height=8.4)
+    shown: list[list[Array]] = []
     for column, run in enumerate(runs):
         since = run.time - run.time[0]
         kept = (since >= begin) & (since <= end)
-        step = np.diff(run.time, prepend=np.nan) * 1e3  # the first sample has none before it
-        signals = (run.voltage, run.velocity / per.si, run.position / per.si, step)
+        signals = _signals(run, per.si)
+        shown.append([signal[kept] for signal in signals])
         style = "o-" if kept.sum() <= DOTS else "-"
         for row, signal in enumerate(signals):
             axes = grid[row][column]
@@ -78,8 +98,38 @@ def drawn(log: "Log", runs: "Sequence[Run]", *, begin: float = 0.0, end: float =
                 axes.set_ylabel(names[row], color=INK)
         grid[0][column].set_title(run.test, fontsize=10, color=INK)
         grid[-1][column].set_xlabel("time since the test began [s]", color=INK)
+    whole = [_signals(run, per.si) for run in log.runs]
+    for row, axes_of_row in enumerate(grid):
+        limits = _limits([one[row] for one in shown], [one[row] for one in whole])
+        if row == len(grid) - 1:
+            typical = np.nanmedian(np.concatenate([one[row] for one in whole]))
+            limits = (0.0, max(limits[1], STEPS * float(typical)))
+        for axes in axes_of_row:
+            axes.set_ylim(*limits)
     said = ", ".join(f"{run.test} ({len(run)} samples)" for run in runs)
     return Picture(figure, f"Voltage, velocity, position and time steps of {said}.")
+
+
+def _signals(run: "Run", si: float) -> "tuple[Array, Array, Array, Array]":
+    """(n,) voltage [V], velocity and position in the log's own unit, time steps [ms]."""
+    step = np.diff(run.time, prepend=np.nan) * 1e3  # the first sample has none before it
+    return run.voltage, run.velocity / si, run.position / si, step
+
+
+def _limits(shown: "list[Array]", whole: "list[Array]") -> tuple[float, float]:
+    """The ends of an axis for what is shown of a signal, and no closer than its noise deserves."""
+    low, high = _range(shown)
+    least, most = _range(whole)
+    middle, width = (low + high) / 2, max(high - low, CLOSEST * (most - least)) or 1.0
+    half = (0.5 + MARGIN) * width
+    return middle - half, middle + half
+
+
+def _range(several: "list[Array]") -> tuple[float, float]:
+    """The least and the largest number of all that are numbers; zero twice if none is."""
+    every = np.concatenate(several)
+    every = every[np.isfinite(every)]
+    return (float(every.min()), float(every.max())) if every.size else (0.0, 0.0)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ from .scene import columns, scene
 from .unseen import NAME, RAMP, STEPS, TIMEOUT, USUAL_STEP, judge_function
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from sim.bench.mechanism import Mechanism
     from sim.core.log import Log
     from sim.fit import Fit
@@ -66,17 +68,40 @@ def draw(student: str) -> Variant:
 
 @lru_cache(maxsize=REMEMBERED)
 def _drawn(student: str, _seed: int) -> Variant:
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - the same
+    return draw_solvable(student, "exercise9", _draw_mechanism)
+
+
+def _draw_mechanism(rng: "np.random.Generator") -> "Mechanism":
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+
+    return MECHANISMS[KINDS[int(rng.integers(len(KINDS)))]].draw(rng)
+
+
+def draw_solvable(
+    student: str,
+    exercise: str,
+    draw_mechanism: "Callable[[np.random.Generator], Mechanism]",
+    *,
+    step: float | None = None,
+) -> Variant:
+    """Draw mechanisms until SysId's own recipe finds the gains of one.
+
+    Args:
+        student: for whom.
+        exercise: for what: ``exercise9``.
+        draw_mechanism: draws one.
+        step: [V] of the dynamic tests; None takes what is usual for the mechanism.
+    """
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
     from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
-        rng = make_student_rng(student, "exercise9", draw=attempt)
-        kind = KINDS[int(rng.integers(len(KINDS)))]
-        mechanism = MECHANISMS[kind].draw(rng)
-        routine = Routine(ramp=RAMP, step=STEPS.get(kind, USUAL_STEP), timeout=TIMEOUT)
+        rng = make_student_rng(student, exercise, draw=attempt)
+        mechanism = draw_mechanism(rng)
+        volts = step or STEPS.get(mechanism.name, USUAL_STEP)
+        routine = Routine(ramp=RAMP, step=volts, timeout=TIMEOUT)
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
         per = find_unit(mechanism.units)

@@ -1,34 +1,45 @@
 """Practice: the five steps of the lesson on one mechanism, by the checks of their exercises."""
 
 import math
+import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from grader.answer import AskedNumber, Band, judge_number, read_answer_number
 from grader.check import Check, NotReachedError, WrongAnswer, check
 from grader.choice_answer import read_choice
 from grader.course import find_course
 from grader.exercise import Exercise
+from grader.robotcode import read as read_routine
 from grader.student_files import format_log, write_student_files
-from grader.submission import read_answers
+from grader.submission import read_answers, read_text
+from grader.variant import derive_student_seed
 from sim.core.errors import Refusal
 
 from .measured import ANALYSES, Measured, noted, of_bench, of_robot, team_of
 
+if TYPE_CHECKING:
+    import numpy as np
+
+    from grader.robotcode.facts import RoutineFacts
+    from sim.bench.mechanism import Mechanism
+
 HERE = Path(__file__).resolve().parent
 FILES = ("answers.toml",)
 BESIDE = (
-    "ExampleSubsystem.java", "RobotContainer.java", "ExampleMechanism.java",
-    "example_subsystem.py", "robotcontainer.py", "example_mechanism.py",
+    "ExampleSubsystem.java", "RobotContainer.java", "example_subsystem.py", "robotcontainer.py",
 )  # fmt: skip
 LOG_ENDINGS = (".wpilog", ".csv", ".json")  # of the learner's own robot, named in the answers
-LANGUAGES = {"java": BESIDE[:3], "python": BESIDE[3:]}
-PLACES = ("subsystem", "container", "constants")
+LANGUAGES = {"java": BESIDE[:2], "python": BESIDE[2:]}
+PLACES = {"subsystem": 0, "container": 1, "constants": 0}  # which of its language's files is usual
+STEP, SIDES = 3.5, 2  # [V] of the dynamic tests, and motors, as the files to fill in have them
+METERS_PER_ROTATION = 0.0472  # of the motor, the same
+REMEMBERED = 32  # learners whose logs are kept while this runs
 GOOD = 0.9  # simulated velocity R² below which something is wrong with the data
 LITTLE = 12  # [characters] shorter than which nothing is said
 NEAR_BOUND = 1.5  # [%] that a verdict's bound is known to
@@ -55,18 +66,18 @@ class Answers:
     student: str
     run: bool = True
 
-    def _file(self, place: str) -> Path:
+    def find_file(self, place: str) -> Path:
         """A file of the learner's language, or one that they named."""
         tongue = read_choice(self.given.get("language"), tuple(LANGUAGES))
         named = self.given.get(place)
-        usual = LANGUAGES[tongue][PLACES.index(place)]
+        usual = LANGUAGES[tongue][PLACES[place]]
         name = Path(named.replace("\\", "/")).name if isinstance(named, str) and named else usual
         return self.folder / name
 
     def _read(self, place: str, room: ModuleType) -> object:
         asked = {"run": self.run} if room in {FOURTH, FIFTH} else {}
         try:
-            return room.read(self._file(place), student=self.student, **asked)
+            return room.read(self.find_file(place), student=self.student, **asked)
         except Refusal as refusal:
             raise NotReachedError(str(refusal)) from None
         except WrongAnswer as wrong:
@@ -84,11 +95,11 @@ class Answers:
 
     @cached_property
     def measured(self) -> Measured:
-        """The mechanism: with a robot, that of its log; without, that of exercise 9."""
+        """The mechanism: with a robot, that of its log; without, the bench's drivetrain."""
         log = self.given.get("log")
         if isinstance(log, str) and log.strip():
             return of_robot(self.folder / Path(log.replace("\\", "/")).name, self.given)
-        return of_bench(NINTH.draw(self.student))
+        return of_bench(draw(self.student))
 
     @cached_property
     def constants(self) -> Any:  # noqa: ANN401 - of a module that is loaded by path
@@ -106,16 +117,35 @@ class Answers:
         return SECOND.Answers(self.given, team_of(self.measured, self.given, TEAM))
 
 
+def draw(student: str) -> Any:  # noqa: ANN401 - of a module that is loaded by path
+    """A learner's drivetrain, always the same one: its code is the file to fill in."""
+    return _drawn(student, derive_student_seed(student, "practice"))
+
+
+@lru_cache(maxsize=REMEMBERED)
+def _drawn(student: str, _seed: int) -> Any:  # noqa: ANN401 - the same
+    return NINTH.draw_solvable(student, "practice", _draw_drivetrain, step=STEP)
+
+
+def _draw_drivetrain(rng: "np.random.Generator") -> "Mechanism":
+    """A drivetrain with one motor on each side, and the gears and wheels of the file to fill in."""
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+
+    drawn = MECHANISMS["drivetrain"].draw(rng)
+    ratio = 2.0 * math.pi * drawn.radius / METERS_PER_ROTATION
+    return replace(drawn, motor_count=SIDES, ratio=ratio)
+
+
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
-    """Make the log of exercise 9, and write down the parts of its mechanism."""
-    variant = NINTH.draw(student)
+    """Make the log of a drivetrain, and write down its parts."""
+    variant = draw(student)
     parts = of_bench(variant).parts
     if parts is None:
         raise RuntimeError("the bench's own mechanism has parts")
     rpm = parts.motor.free_speed * 30.0 / math.pi
     wheel = f"wheel_diameter = {parts.diameter:g}  # [m]\n" if parts.diameter else ""
     told = f"""\
-# The mechanism of log.wpilog, for whoever has no robot at hand. It is that of exercise 9.
+# The drivetrain of log.wpilog, if you have no robot at hand. ExampleSubsystem is its code.
 mechanism = "{variant.mechanism.name}"
 motor = "{parts.motor.name}"
 free_speed = {rpm:.0f}  # [rpm] of the motor at 12 V, by its data sheet
@@ -206,6 +236,59 @@ def hypothesis(answers: Answers) -> str | None:
 
 
 _borrowed(TENTH, "constants", step="constants")
+
+
+@check(points=2)
+def one_mechanism(answers: Answers) -> None:
+    """Your files and your log are about one mechanism."""
+    facts = answers.routine.facts  # type: ignore[attr-defined]  # loaded by path
+    if not facts.routine_line:
+        raise NotReachedError("checked after your subsystem makes a SysIdRoutine")
+    _check_one_routine(answers, facts)
+    _check_same_motion(answers.measured, facts)
+
+
+def _check_one_routine(answers: Answers, facts: "RoutineFacts") -> None:
+    """Whether the buttons start the routine of the subsystem's own file."""
+    subsystem, container = (answers.find_file(place) for place in ("subsystem", "container"))
+    try:
+        text, other = read_text(container), read_routine(container)
+    except Refusal as refusal:
+        raise NotReachedError(str(refusal)) from None
+    if subsystem == container:
+        return
+    if other.routine_line:
+        raise WrongAnswer(
+            f"{subsystem.name} has a SysIdRoutine, and {container.name} has another one",
+            hint=f"The buttons start the routine in {container.name}, so nobody runs the one in "
+            f"{subsystem.name}. Delete the class with the second routine, and use {_named(facts)}.",
+        )
+    if not re.search(rf"\b{re.escape(facts.class_name)}\b", text):
+        raise WrongAnswer(
+            f"{container.name} does not use {_named(facts)}",
+            hint="The buttons must start the tests of the subsystem that has your SysIdRoutine.",
+        )
+
+
+def _named(facts: "RoutineFacts") -> str:
+    return f"the class {facts.class_name}"
+
+
+def _check_same_motion(measured: Measured, facts: "RoutineFacts") -> None:
+    """Whether the code records what the log holds: meters, or turns of something."""
+    families = {one.family for one in facts.logged if one.family}
+    expected = "linear" if measured.units == "Meters" else "angular"
+    if families and expected not in families:
+        found, held = ("turns", "meters") if expected == "linear" else ("meters", "turns")
+        raise WrongAnswer(
+            f"your code records {found}, and your log has {held}",
+            hint="They are two mechanisms. Use the code of the mechanism that recorded the log: "
+            "then its unit is also the unit of your gains and of your feedforward.",
+            misconception="M-UNITS",
+            earned=1.0,
+        )
+
+
 _borrowed(SECOND, "theory", step="theory", leave=("verdict", "inspection", "ks-flag"))
 
 

@@ -1,12 +1,21 @@
-"""A drivetrain with one motor on each side, ready to be characterized."""
+"""A drivetrain with one motor on each side: its tests, its gains and its feedforward."""
 
-from commands2 import Subsystem
+from collections.abc import Callable
 
-# TODO: 1. Import SysIdRoutine; it lives in commands2.sysid.
+from commands2 import Command, Subsystem
+
+# TODO: 1. Import SysIdRoutine from commands2.sysid, and your feedforward from wpimath.controller.
 from wpilib import Encoder, PWMSparkMax
 from wpilib.sysid import SysIdRoutineLog
 
 METERS_PER_PULSE = 0.000156  # wheel circumference over the encoder's pulses per turn
+
+
+class CharacterizationConstants:
+    """What SysId found out. Measured with a fresh battery; again when the drivetrain changes."""
+
+    # TODO: 6. One constant for each gain that your fit shows, kP too. Next to each, a
+    #       comment with its unit. Next to kP, also write how far you trust this number.
 
 
 class ExampleSubsystem(Subsystem):
@@ -23,6 +32,7 @@ class ExampleSubsystem(Subsystem):
         self.right_encoder.setDistancePerPulse(METERS_PER_PULSE)
         # TODO: 2. Make self.routine, a SysIdRoutine. Its Config says 0.5 V/s, 3.5 V and
         #       10 s; its Mechanism knows the two methods below, drive and record, and self.
+        # TODO: 7. self.feedforward, made from your constants. It takes velocities in m/s.
 
     def drive(self, voltage: float) -> None:
         """Called in every loop of a test with the voltage the test wants [V]."""
@@ -32,3 +42,15 @@ class ExampleSubsystem(Subsystem):
         """Called right after drive: write down what the motors did."""
         # TODO: 4. For each motor: its name, the voltage it got, its position [m] and its
         #       velocity [m/s]. The motor knows getVoltage(), the encoder getDistance(), getRate().
+
+    # TODO: 5. Give other classes the four tests as commands: a method that makes the
+    #       quasistatic test of a direction, and one that makes the dynamic test.
+
+    def drive_straight(self, output: Callable[[], float]) -> Command:
+        """Make the command that drives straight as a stick says."""
+
+        def send() -> None:
+            self.left.set(output())
+            self.right.set(output())
+
+        return self.run(send)

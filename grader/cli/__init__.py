@@ -30,6 +30,7 @@ MODULES = {
     "doctor": "doctor",
     "edition": "edition",
     "export": "export",
+    "mystery": "mystery",
     "release": "release",
     "serve": "serve",
     "watch": "watch",
@@ -61,7 +62,8 @@ class ExerciseOrCommand(click.Group):
         formatter.write_usage("grade", "[EXERCISE [FILE]] [--student NAME] [--json] [--hint]")
         formatter.write_usage("grade", "start [FOLDER] [--no-lab] [--student NAME]")
         formatter.write_usage(
-            "grade", "watch | doctor | class FOLDER | release | export | serve FOLDER  [--help]"
+            "grade",
+            "watch | mystery | doctor | class FOLDER | release | export | serve FOLDER  [--help]",
         )
         self.format_help_text(ctx, formatter)
         self.commands["exercise"].format_options(ctx, formatter)
@@ -149,9 +151,12 @@ def exercise(
         one = find_exercise(exercise, folder)
         if hint:
             return _show_hint(one, folder, progress, who)
-        return grade_file(
+        code = grade_file(
             one, file, folder, progress, who, as_json=as_json, plain=plain, picture=picture
         )
+        if code == DONE and not as_json:
+            _show_next_step(folder, who)
+        return code
     if as_json or hint or picture:
         option = "json" if as_json else "hint" if hint else f"picture {picture}"
         advice = f"Say which: grade exercise4 --{option}"
@@ -159,7 +164,19 @@ def exercise(
     from grader.report import format_overview  # noqa: PLC0415 - the same
 
     print_lines(format_overview(folder, list_exercises(folder), progress, student=who, plain=plain))
+    _show_next_step(folder, who)
     return 0
+
+
+def _show_next_step(folder: Path, who: str) -> None:
+    """End with the one thing to do next."""
+    from grader.course import load_progress  # noqa: PLC0415 - --help has to start at once
+    from grader.exercise import list_exercises  # noqa: PLC0415 - the same
+    from grader.report import format_next_step  # noqa: PLC0415 - the same
+
+    progress, _ = load_progress(folder)
+    step = format_next_step(folder, list_exercises(folder), progress, student=who)
+    print_lines([(), *step])
 
 
 @grade.command()

@@ -75,7 +75,10 @@ def _render_markdown(text: str) -> str:
     )
 
     html: str = markdown2html_mistune(text).replace(" disabled/>", " disabled>")  # as HTML has it
-    return re.sub(r'<a class="anchor-link"[^>]*>.*?</a>', "", html)
+    html = re.sub(r'<a class="anchor-link"[^>]*>.*?</a>', "", html)
+    html = re.sub(r'href="(\w+)\.ipynb"', r'href="\1.html"', html)  # another page of the edition
+    # An edition has no exercises: what leads out of its folder is text, no link.
+    return re.sub(r'<a href="\.\./[^"]*">(.*?)</a>', r"\1", html)
 
 
 def _render_code(cell: Any, widgets: Mapping[str, Any]) -> str:  # noqa: ANN401 - nbformat has no types

@@ -128,10 +128,12 @@ class ParseProblem:
     Args:
         message: one sentence a student understands: ``a ')' is missing``.
         line: line in the source, from 1.
+        meant: the name that was most likely meant, where one is misspelled; else empty.
     """
 
     message: str
     line: int
+    meant: str = ""
 
 
 @dataclass(frozen=True)

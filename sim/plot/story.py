@@ -29,7 +29,7 @@ def make_findings_table(story: Story) -> Table:
         rows.append(
             (
                 f"{one.effect}{rivals}",
-                "damage to the record" if one.kind == "fault" else one.size,
+                "damage to the log" if one.kind == "fault" else one.size,
                 parameters or "-",
                 "-" if one.kind == "fault" else gap,
             )

@@ -20,28 +20,30 @@ FAULT, MAJOR, MINOR = "fault", "major", "minor"
 
 
 def write_headline(story: Story) -> str:
-    """The verdict in one plain sentence."""
+    """The verdict in a few plain sentences: what is missing, and how much that explains."""
     faults = [one.effect for one in story.findings if one.kind == FAULT]
-    majors = list_effect_names(story, MAJOR)
-    also = f"; the record is damaged too ({_listed(faults)})" if faults else ""
+    majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
+    damaged = f"The log is {'also ' if majors else ''}damaged: {_listed(faults)}."
     if story.verdict == UNEXPLAINED:
-        known = f"beside {_listed(majors)}, " if majors else ""
-        none = "no effect of the catalogue explains"
-        return f"Something is missing that {none}: {known}{_gap(story)}{also}."
-    if story.verdict == NOTHING_MISSING or not (majors or faults):
-        return _nothing(story)
-    if not majors:
-        rest = (
-            "something remains that nothing explains"
-            if story.remainder
-            else "nothing big is missing"
+        known = (
+            f"{_listed([one.effect for one in majors])}, and something" if majors else "something"
         )
-        return f"The record is damaged ({_listed(faults)}), and beside that {rest}."
-    verb = "are" if len(majors) > 1 else "is"
-    missing = _listed([_either(one) for one in story.findings if one.effect in majors])
-    doubt = ", and these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
-    more = "; and something remains that nothing explains" if story.remainder else ""
-    return f"Missing in the model {verb} {missing}{doubt}: {_gap(story)}{also}{more}."
+        said = [f"The model is missing {known} that no known effect explains.", _gap(story)]
+    elif majors:
+        missing = _listed([_either(one) for one in majors])
+        doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
+        said = [f"The model is missing {missing}{doubt}.", _gap(story)]
+    elif story.verdict == NOTHING_MISSING or not faults:
+        return _nothing(story)
+    else:
+        rest = "something is missing that no known effect explains"
+        rest = rest if story.remainder else "nothing big is missing"
+        return f"{damaged} Apart from that, {rest}."
+    if faults:
+        said.append(damaged)
+    if majors and story.remainder and story.verdict != UNEXPLAINED:
+        said.append("Something else remains that no known effect explains.")
+    return " ".join(said)
 
 
 def list_effect_names(story: Story, size: str) -> list[str]:
@@ -116,40 +118,38 @@ def list_remarks(story: Story) -> tuple[str, ...]:
     said = [story.remains] if story.remains else []
     if list_effect_names(story, MAJOR) and not is_gap_narrower(story.gap_before, story.gap_after):
         said.append(
-            "With what was found the gap on the shown log does not shrink: do not trust the "
-            "finding before another log confirms it."
+            "The finding does not make the simulation error of the shown log smaller. Do not trust "
+            "the finding before another log confirms it."
         )
     return (*said, *story.notes)
 
 
 def _nothing(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
-    little = f"; a little of {_listed(minor)} shows" if minor else ""
+    little = f", only a little {_listed(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
     if last > CLOSE:
-        start = "No effect of the catalogue would narrow the gap by much"
-        return f"{start}{little}, though {_off(story)}."
-    big = " big" if minor else ""
-    return f"Nothing{big} is missing{little}: {_off(story)}."
+        small = f" (a little: {_listed(minor)})" if minor else ""
+        return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
+    return f"Nothing{' big' if minor else ''} is missing{little}. {_error(story)}"
 
 
-def _off(story: Story) -> str:
-    floors = format_gap(story.gap_after, story)
-    return f"the simulation is off by {floors} times the noise of the velocity"
+def _error(story: Story) -> str:
+    return f"The simulation error is {format_gap(story.gap_after, story)} times the sensor noise."
 
 
 def _gap(story: Story) -> str:
     before, after = (format_gap(gap, story) for gap in (story.gap_before, story.gap_after))
-    several = len([*list_effect_names(story, MAJOR), *list_effect_names(story, MINOR)]) > 1
-    with_ = "with all that was found" if several else "with it"
-    if len(story.chapters) == 1:
-        return _off(story)
+    added = [*list_effect_names(story, MAJOR), *list_effect_names(story, MINOR)]
+    if len(story.chapters) == 1 or not added:
+        return _error(story)
+    all_ = {1: added[0], 2: "both"}.get(len(added), "all of them")
+    with_ = f"With {all_} added, the simulation error"
+    if len(added) > 1 and list_effect_names(story, MINOR):
+        with_ = "With everything that was found, the simulation error"
     if is_gap_narrower(story.gap_before, story.gap_after):
-        return f"{with_} the gap shrinks from {before} to {after} times the noise of the velocity"
-    return (
-        f"{with_} the gap does not shrink, {before} before and {after} times the noise of the "
-        "velocity after"
-    )
+        return f"{with_} drops from {before} to {after} times the sensor noise."
+    return f"{with_} does not drop: {before} times the sensor noise before, {after} times after."
 
 
 def _either(one: Finding) -> str:

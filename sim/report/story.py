@@ -42,7 +42,7 @@ class FindingText:
     Args:
         name: with its look-alikes.
         summary: what it is, in a few words.
-        size: ``major``, ``minor`` or ``damage to the record``.
+        size: ``major``, ``minor`` or ``damage to the log``.
         sentence: what it does.
         parameters: name, value, error, unit, what it means.
         gap: from where to where it brings the gap; empty for damage.
@@ -134,7 +134,7 @@ def _told(one: Finding, story: Story) -> FindingText:
     return FindingText(
         " or ".join([one.effect, *one.ambiguous_with]),
         describe_effect(one.effect),
-        "damage to the record" if fault else one.size,
+        "damage to the log" if fault else one.size,
         one.sentence,
         tuple(
             (

@@ -64,7 +64,7 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     for place in story.where[:PLACES]:
         say(place.sentence, indent=2)
     say("")
-    say(f"{story.how} The noise is that of the velocity, measured without a model.")
+    say(f"{story.how} The noise is that of the velocity; it is measured without a model.")
     for test in list_next_tests(story):
         say(f"Test to run next: {test}", style="bold")
     for message in list_remarks(story):
@@ -94,7 +94,7 @@ def _console() -> Console:
 
 
 def _finding(say: _Sayer, one: Finding, story: Story) -> None:
-    size = "damage to the record" if one.kind == FAULT else one.size
+    size = "damage to the log" if one.kind == FAULT else one.size
     say("")
     say(f"{' or '.join([one.effect, *one.ambiguous_with])} ({size})", style="bold")
     say(one.sentence, indent=2)
@@ -102,14 +102,14 @@ def _finding(say: _Sayer, one: Finding, story: Story) -> None:
         say(format_parameter(name, estimate), indent=2)
     if one.kind != FAULT:
         before, after = (format_gap(gap, story) for gap in (one.gap_before, one.gap_after))
-        say(f"The gap goes from {before} to {after} times the noise.", indent=2)
+        say(f"The simulation error goes from {before} to {after} times the noise.", indent=2)
     for head, text in list_inspections(one):
         say(f"{head}: {text}", indent=2)
 
 
 def _gaps(say: _Sayer, story: Story) -> None:
     """The shrinking gap as bars of characters that every terminal has."""
-    say("The gap, in times the noise (1: nothing but noise):")
+    say("The gap: simulation error in times the sensor noise (1: nothing but noise):")
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     wide = max(map(len, names))
     most = max(story.gap_before, *(one.gap for one in story.chapters), story.noise_floor)

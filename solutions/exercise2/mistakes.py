@@ -143,7 +143,7 @@ MISTAKES = (
         "noise goes to both sides; it does",
     ),
     Mistake(
-        "wires before paper",
+        "wires before numbers",
         ANSWERS,
         wires_first,
         "inspection",

@@ -292,4 +292,25 @@ MISTAKES = (
         "assembled",
         "not a subsystem",
     ),
+    Mistake(
+        "a misspelled method in Java",
+        JAVA,
+        replace_text(("m_left.setVoltage", "m_left.setVolatge")),
+        "drive",
+        "unknown method setVolatge. Did you mean setVoltage?",
+    ),
+    Mistake(
+        "a misspelled method in Python",
+        PYTHON,
+        replace_text(("self.left.setVoltage", "self.left.setVolatge")),
+        "open-loop",
+        "unknown method setVolatge. Did you mean setVoltage?",
+    ),
+    Mistake(
+        "a misspelled signal",
+        JAVA,
+        replace_text(("linearVelocity(", "linearVelocty(")),
+        "log",
+        "unknown method linearVelocty. Did you mean linearVelocity?",
+    ),
 )

@@ -241,4 +241,25 @@ MISTAKES = (
         "guard",
         "checks for another mode than test mode",
     ),
+    Mistake(
+        "a misspelled binding",
+        JAVA,
+        replace_text(("whileTrue", "whileTreu")),
+        "held",
+        "unknown method whileTreu. Did you mean whileTrue?",
+    ),
+    Mistake(
+        "a misspelled method of the routine",
+        PYTHON,
+        replace_text(("self.routine.dynamic", "self.routine.dynamc")),
+        "factories",
+        "unknown method dynamc. Did you mean dynamic?",
+    ),
+    Mistake(
+        "a method that the subsystem spells otherwise",
+        JAVA,
+        replace_text(("m_subsystem.sysIdDynamic", "m_subsystem.sysIdDynamik")),
+        "held",
+        "unknown method sysIdDynamik. Did you mean sysIdDynamic?",
+    ),
 )

@@ -4,6 +4,21 @@ from grader.mistake import Mistake, change_number, put_value, replace_text, scal
 
 ANSWERS = "answers.toml"
 
+SECOND = """
+/** One motor, and a routine to characterize it with. */
+class ExampleSubsystem extends SubsystemBase {
+  private final TalonFX m_motor = new TalonFX(1);
+  private final SysIdRoutine m_routine =
+      new SysIdRoutine(
+          new SysIdRoutine.Config(Volts.of(0.5).per(Second), Volts.of(3.5), Seconds.of(10)),
+          new SysIdRoutine.Mechanism(this::drive, this::record, this));
+
+  private void drive(Voltage voltage) {
+    m_motor.setVoltage(voltage.in(Volts));
+  }
+}
+"""
+
 MISTAKES = (
     Mistake("kV for rpm", ANSWERS, scale_numbers(1 / 60, "kV"), "gains-kv", "rpm", "M-UNITS"),
     Mistake("no kP noted", ANSWERS, put_value("kP", '""'), "gains-kp", "nothing yet"),
@@ -54,7 +69,7 @@ MISTAKES = (
     ),
     Mistake(
         "kV and kA in each other's place",
-        "ExampleMechanism.java",
+        "ExampleSubsystem.java",
         replace_text(
             (
                 "CharacterizationConstants.kV, CharacterizationConstants.kA",
@@ -64,5 +79,40 @@ MISTAKES = (
         "constants-order",
         "kA is where SimpleMotorFeedforward expects kV",
         "M-ARGORDER",
+    ),
+    Mistake(
+        "turns for the log's meters",
+        "ExampleSubsystem.java",
+        replace_text(
+            (
+                "Meters.of(getMeters(m_left))",
+                "Rotations.of(m_left.getPosition().getValueAsDouble())",
+            ),
+            (
+                "Meters.of(getMeters(m_right))",
+                "Rotations.of(m_right.getPosition().getValueAsDouble())",
+            ),
+            ("MetersPerSecond.of(getMetersPerSecond(m_left))", "RotationsPerSecond.of(1)"),
+            ("MetersPerSecond.of(getMetersPerSecond(m_right))", "RotationsPerSecond.of(1)"),
+            ("linearPosition", "angularPosition"),
+            ("linearVelocity", "angularVelocity"),
+        ),
+        "one-mechanism",
+        "They are two mechanisms",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a second routine beside the buttons",
+        "RobotContainer.java",
+        lambda text: text + SECOND,
+        "one-mechanism",
+        "nobody runs the one in ExampleSubsystem.java",
+    ),
+    Mistake(
+        "buttons of another subsystem",
+        "RobotContainer.java",
+        replace_text(("ExampleSubsystem", "Shooter")),
+        "one-mechanism",
+        "does not use the class ExampleSubsystem",
     ),
 )

@@ -1,18 +1,18 @@
-"""Practice, answered without a robot: the files of exercises 4, 5 and 10, and the log's numbers."""
+"""Practice, answered without a robot: the code of exercises 4 and 5, and the log's numbers."""
 
 import math
+import re
 import tomllib
 from pathlib import Path
 
 from grader.course import find_course
+from grader.starter import ANSWER
 from sim.fit import fit
 from sim.io import read
 
 HERE = find_course(Path(__file__).resolve().parent)
-FILES = {
-    "exercise4": ("ExampleSubsystem.java", "example_subsystem.py"),
-    "exercise5": ("RobotContainer.java", "robotcontainer.py"),
-}
+LINES = (("exercise4", "ExampleSubsystem.java"), ("exercise5", "RobotContainer.java"),
+         ("exercise4", "example_subsystem.py"), ("exercise5", "robotcontainer.py"))  # fmt: skip
 OK, WATCH = 8.0, 20.0  # [%] above theory
 
 
@@ -45,16 +45,21 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
         text = text.replace(f'\n{name} = ""', f"\n{name} = {value:.5g}")
     for name, word in (("language", "java"), ("verdict", verdict)):
         text = text.replace(f'{name} = ""', f'{name} = "{word}"')
-    solved = {
-        name: (HERE / "solutions" / folder / name).read_text(encoding="utf-8")
-        for folder, names in FILES.items()
-        for name in names
-    }
-    return {"answers.toml": text, **solved, **_constants(gains, "m" if diameter else "rot")}
+    return {"answers.toml": text, **fill_in_code(exercise, gains, "m" if diameter else "rot")}
 
 
-def _constants(gains: dict[str, float], symbol: str) -> dict[str, str]:
-    """Constants and feedforward, in both languages."""
+def fill_in_code(exercise: Path, gains: dict[str, float], symbol: str) -> dict[str, str]:
+    """The files with robot code, in both languages.
+
+    Args:
+        exercise: the exercise's folder, with the files to fill in.
+        gains: kS, kV, kA and kP.
+        symbol: ``m`` or ``rot``, of the unit that the gains are in.
+
+    Returns:
+        File name -> its text.
+    """
+    routine, buttons, routine_python, buttons_python = (_answers(*one) for one in LINES)
     units = {
         "kS": "V",
         "kV": f"V·s/{symbol}",
@@ -68,32 +73,43 @@ def _constants(gains: dict[str, float], symbol: str) -> dict[str, str]:
     python = "".join(f"    {name} = {gains[name]:.5g}  # {said}\n" for name, said in units.items())
     arguments = ", ".join(f"CharacterizationConstants.{name}" for name in ("kS", "kV", "kA"))
     kind = "SimpleMotorFeedforward" + ("Meters" if symbol == "m" else "Radians")
-    return {
-        "ExampleMechanism.java": f"""\
-package frc.robot.subsystems;
-
-import edu.wpi.first.math.controller.SimpleMotorFeedforward;
-import edu.wpi.first.wpilibj2.command.SubsystemBase;
-
-public class ExampleMechanism extends SubsystemBase {{
-  public static final class CharacterizationConstants {{
-{java}  }}
-
-  private final SimpleMotorFeedforward m_feedforward =
-      new SimpleMotorFeedforward({arguments});
-}}
-""",
-        "example_mechanism.py": f"""\
-from commands2 import Subsystem
-from wpimath.controller import {kind}
-
-
-class CharacterizationConstants:
-{python}
-
-class ExampleMechanism(Subsystem):
-    def __init__(self) -> None:
-        super().__init__()
-        self.feedforward = {kind}({arguments})
-""",
+    made = "SimpleMotorFeedforward"
+    field = f"  private final {made} m_feedforward =\n      new {made}({arguments});\n"
+    bought = f"from wpimath.controller import {kind}\n"
+    parts = {
+        "ExampleSubsystem.java": (*routine, buttons[1], java, field),
+        "RobotContainer.java": (buttons[0], buttons[2]),
+        "example_subsystem.py": (
+            routine_python[0] + bought,
+            *routine_python[1:],
+            buttons_python[0],
+            python,
+            f"        self.feedforward = {kind}({arguments})\n",
+        ),
+        "robotcontainer.py": (buttons_python[1],),
     }
+    return {name: _filled(exercise / name, several) for name, several in parts.items()}
+
+
+def _answers(folder: str, name: str) -> list[str]:
+    """The lines between the fences of an authored answer, in the order of their numbers."""
+    text = (HERE / "solutions" / folder / name).read_text(encoding="utf-8")
+    found = {one["task"][0]: "".join(_bare(one[0])) for one in ANSWER.finditer(text)}
+    return [found[number] for number in sorted(found)]
+
+
+def _bare(block: str) -> list[str]:
+    return [line for line in block.splitlines(keepends=True) if " ---" not in line]
+
+
+def _filled(path: Path, parts: tuple[str, ...]) -> str:
+    """Put each part where the TODO of its number stands."""
+    text = path.read_text(encoding="utf-8")
+    for number, part in enumerate(parts, start=1):
+        todo = re.compile(
+            rf"^[ ]*(?:#|//) TODO: {number}\. .*\n(?:[ ]*(?:#|//)       .*\n)*", re.MULTILINE
+        )
+        text, count = todo.subn(lambda _, part=part: part, text)
+        if count != 1:
+            raise ValueError(f"{path.name} has {count} places for its part {number}")
+    return text

@@ -14,6 +14,7 @@ from grader.robotcode.compiling.season import (
     PLAIN,
     SEASON,
     import_season,
+    name_misspelled,
     suggest_name,
 )
 from grader.robotcode.facts import ParseProblem
@@ -99,7 +100,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             yield ParseProblem(f"nothing declares {target.name}", line)
         for name in _types(node):
             if not open_ and not _is_type(name, declared, scope, names):
-                yield ParseProblem(_undeclared(name), line)
+                yield _undeclared(name, line)
         method = node in targets and not getattr(node, "name", "")[:1].isupper()
         if isinstance(node, Name) and name_is_value(node) and not method:
             yield from _variable(node, declared, scope, names, open_=open_)
@@ -116,8 +117,8 @@ def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Itera
         of_motor = node.name in MOTORS_OF_2027 and is_motor(type_of(node.owner, scope, names))
         if of_mode or of_motor:
             old = (MODES_OF_2027 | MOTORS_OF_2027)[node.name]
-            said = f"{node.name}() is a name of WPILib 2027, and the imports are older: "
-            yield ParseProblem(f"{said}{old}() is meant?", node.place.line)
+            said = f"{node.name} is a name of WPILib 2027, and your imports are older"
+            yield ParseProblem(f"{said}. Did you mean {old}?", node.place.line, old)
 
 
 def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
@@ -167,14 +168,15 @@ def _imports(names: SymbolTable) -> Iterator[ParseProblem]:
         line = next((at for at, text in enumerate(source, 1) if _imports_it(text, one)), 1)
         owner, _, name = one.path.rpartition(".")
         if owner.rpartition(".")[2] == "Units" and name[:1].isupper() and "units" in owner:
-            if name not in UNITS and suggest_name(name, frozenset(UNITS)):
-                yield ParseProblem(f"there is no unit {name}", line)
+            meant = suggest_name(name, frozenset(UNITS))
+            if name not in UNITS and meant:
+                yield name_misspelled("unit", name, meant=meant, line=line)
             continue
         if one.name == "*" or not one.path.startswith(SEASON):
             continue
         meant = suggest_name(name, HOME)
         if meant:
-            yield ParseProblem(f"there is no class {name}: {meant} is meant?", line)
+            yield name_misspelled("class", name, meant=meant, line=line)
         elif name in HOME and not HOME[name].startswith(owner):
             yield ParseProblem(f"{name} is not in {owner}: it is in {HOME[name]}", line)
 
@@ -229,11 +231,13 @@ def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) ->
     return names.named(name, scope) is not None
 
 
-def _undeclared(name: str) -> str:
+def _undeclared(name: str, line: int) -> ParseProblem:
     if name in HOME:
-        return f"{name} is not imported: import {HOME[name]}.{name};"
+        return ParseProblem(f"{name} is not imported: import {HOME[name]}.{name};", line)
     meant = suggest_name(name, HOME)
-    return f"there is no class {name}: {meant} is meant?" if meant else f"{name} is not imported"
+    if meant:
+        return name_misspelled("class", name, meant=meant, line=line)
+    return ParseProblem(f"{name} is not imported", line)
 
 
 def _variable(
@@ -251,7 +255,7 @@ def _variable(
             yield ParseProblem(f"the unit {name} is not imported", node.place.line)
     elif name[:1].isupper() and not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
         if not open_ and not _is_type(name, declared, scope, names):
-            yield ParseProblem(_undeclared(name), node.place.line)
+            yield _undeclared(name, node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
         yield ParseProblem(f"nothing declares {name}", node.place.line)
 
@@ -303,14 +307,13 @@ def _method(
             there = methods(target.name, home, names) or target.name in INHERITED
             record = home.classes[-1].place.text.split("{")[0]
             if not there and "enum" not in record and "record" not in record:
-                where = home.classes[-1].name
-                yield ParseProblem(f"{where} has no method {target.name}()", line)
+                yield _missing_method(target, home, names)
             return
         if target.name in defined:
             return
         meant = suggest_name(target.name, METHODS)
         if meant and target.name[:1].islower():
-            yield ParseProblem(f"there is no method {target.name}(): {meant}() is meant?", line)
+            yield name_misspelled("method", target.name, meant=meant, line=line)
     elif isinstance(target, Name) and target.name[:1].islower():
         static = any(
             one.name == target.name or (one.name == "*" and _static(one))
@@ -324,3 +327,22 @@ def _method(
             return
         if not static and _closed(scope, names) and scope.classes:
             yield ParseProblem(f"nothing declares the method {target.name}()", line)
+
+
+def _missing_method(target: Member, home: Scope, names: SymbolTable) -> ParseProblem:
+    """A method that a class in sight does not have."""
+    line = target.place.line
+    meant = suggest_name(target.name, _own_methods(home, names) | METHODS)
+    if meant:
+        return name_misspelled("method", target.name, meant=meant, line=line)
+    return ParseProblem(f"{home.classes[-1].name} has no method {target.name}()", line)
+
+
+def _own_methods(home: Scope, names: SymbolTable) -> frozenset[str]:
+    """The names of the methods that a class defines or inherits from classes in sight."""
+    return frozenset(
+        node.name
+        for place in names.lineage(home)
+        for node in place.classes[-1].body
+        if isinstance(node, Function)
+    )

@@ -11,6 +11,7 @@ from grader.robotcode.compiling.season import (
     MODULE_OF,
     PLAIN,
     ROBOTPY,
+    name_misspelled,
     suggest_name,
 )
 from grader.robotcode.facts import ParseProblem
@@ -76,7 +77,7 @@ def _imported(name: str, module: str, line: int) -> Iterator[ParseProblem]:
     meant = suggest_name(name, CLASSES) if name[:1].isupper() else ""
     home = MODULE_OF.get(name, "")
     if meant and name not in CLASSES:
-        yield ParseProblem(f"there is no {name} in {module}: {meant} is meant?", line)
+        yield name_misspelled("class", name, meant=meant, line=line)
     elif home and module in {*MODULE_OF.values()} and home != module:
         yield ParseProblem(f"{name} is not in {module}: it is in {home}", line)
 
@@ -121,8 +122,7 @@ def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
             meant = suggest_name(node.func.attr, METHODS)
             line = node.func.end_lineno or node.lineno
             if meant and node.func.attr not in own and java_spelling(node.func.attr) not in METHODS:
-                said = f"there is no method {node.func.attr}(): {meant}() is meant?"
-                yield ParseProblem(said, line)
+                yield name_misspelled("method", node.func.attr, meant=meant, line=line)
 
 
 def _is_set(node: ast.Attribute) -> bool:

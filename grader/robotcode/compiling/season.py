@@ -6,6 +6,7 @@ No list is whole: a name that is not here is only called wrong where it is nearl
 import difflib
 from collections.abc import Iterable
 
+from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import Import
 from grader.robotcode.vocabulary import COMMANDS, PYTHON_WORDS, SIGNALS
 
@@ -131,6 +132,18 @@ def import_season(imports: Iterable[Import]) -> int:
             if one.path.startswith(package):
                 return season
     return 0
+
+
+def name_misspelled(kind: str, name: str, *, meant: str, line: int) -> ParseProblem:
+    """The problem with a misspelled name.
+
+    Args:
+        kind: what it names: ``method``, ``class``, ``unit``.
+        name: as the learner wrote it.
+        meant: the name that was most likely meant.
+        line: line in the source, from 1.
+    """
+    return ParseProblem(f"unknown {kind} {name}. Did you mean {meant}?", line, meant)
 
 
 def suggest_name(name: str, known: frozenset[str] | dict[str, str]) -> str:

@@ -1,0 +1,89 @@
+"""``grade mystery``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from grader.terminal import Line, print_lines, style_line, wrap_text
+from sim.core.errors import BadRequest
+from sim.support.command_line import DONE, NOT_RIGHT
+
+if TYPE_CHECKING:
+    from grader.mystery import Mystery, MysteryState
+
+
+@click.command()
+@click.argument("answer", nargs=-1)
+@click.option("--give-up", is_flag=True, help="Show the answer; the next one is easier.")
+@click.option("--student", metavar="NAME", help="Who you are; each learner has a level.")
+@click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
+def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plain: bool) -> int:
+    """Draw a fresh log with a hidden trouble, or grade your ANSWER to it.
+
+    Each mystery that you solve makes the next one harder.
+
+    For example: grade mystery "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
+    """
+    from grader.cli import locate_course  # noqa: PLC0415 - which imports this module
+    from grader.mystery import (  # noqa: PLC0415 - --help has to start at once
+        draw_mystery,
+        find_folder,
+        grade_mystery,
+        load_state,
+        open_mystery,
+        save_state,
+    )
+    from grader.report import format_checks  # noqa: PLC0415 - the same
+
+    course, _, who = locate_course(student)
+    folder = find_folder(course, who)
+    state = load_state(folder)
+    place = folder.relative_to(course)
+    if state.seed is None:
+        if answer or give_up:
+            raise BadRequest("you have no mystery yet", advice="Draw one: grade mystery")
+        print_lines(_format_task(*open_mystery(course, folder, state), place))
+        return DONE
+    one = draw_mystery(course, state)
+    if give_up:
+        save_state(folder, state.close(solved=False))
+        print_lines(
+            [
+                *wrap_text(one.solution, lead="The answer was: ", style="bold"),
+                style_line("Next: grade mystery", "cyan"),
+            ]
+        )
+        return DONE
+    if not answer:
+        print_lines(_format_task(state, one, place))
+        return DONE
+    result = grade_mystery(one, " ".join(answer), student=who)
+    print_lines(format_checks(result, plain=plain))
+    if result.status != "passed":
+        print_lines(
+            [(), style_line("Next: look again, or give up: grade mystery --give-up", "cyan")]
+        )
+        return NOT_RIGHT
+    save_state(folder, state.close(solved=True))
+    print_lines([(), style_line("Next: grade mystery", "cyan")])
+    return DONE
+
+
+def _format_task(state: "MysteryState", one: "Mystery", place: Path) -> list[Line]:
+    """The task, where its logs are, how to look at them, and how to answer."""
+    from grader.mystery import HIGHEST  # noqa: PLC0415 - --help has to start at once
+
+    names = ", ".join(f"{name}.wpilog" for name in one.logs)
+    head = (
+        f"Mystery {state.number}, level {state.level} of {HIGHEST}: {names} in {place.as_posix()}"
+    )
+    return [
+        style_line(head, "bold"),
+        *wrap_text(one.task, lead="  "),
+        style_line(f"  To look at it: {one.tool.format(folder=place.as_posix())}"),
+        style_line(f'Next: grade mystery "{one.example}"  (with your own answer)', "cyan"),
+    ]
+
+
+COMMAND = mystery

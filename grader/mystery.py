@@ -1,0 +1,174 @@
+"""A mystery: a fresh log with a hidden trouble, harder after each one that is solved.
+
+An exercise takes part if its checks.py offers ``draw_mystery(rng, *, level) -> Mystery``, which
+draws a trouble as the exercise does; its own checks grade the answer. No secret of a class is used,
+so that everybody can grade it.
+"""
+
+import secrets
+import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from grader.check import Check, run_checks
+from grader.exercise import Exercise, Grade, list_exercises
+from grader.variant import make_folder_name
+from sim.core.errors import BadRequest
+from sim.support.atomic_file import write_atomically
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from sim.core.log import Log
+
+FOLDER = "mystery"  # in the course folder
+STATE = "mystery.toml"
+HIGHEST = 5  # level
+SEEDS = 2**32  # so many mysteries of each level
+
+
+@dataclass(frozen=True, eq=False)
+class Mystery:
+    """A hidden trouble, and how an answer to it is graded.
+
+    Args:
+        logs: name of a file without its ending -> the log in it.
+        task: what is to be found, for the learner.
+        tool: the command that helps to look at it; ``{folder}`` stands for the folder of the logs.
+        example: an answer, which is right for another mystery.
+        solution: the answer to this one.
+        checks: of the exercise.
+        read: the learner's answer -> what the checks look at.
+    """
+
+    logs: "Mapping[str, Log]"
+    task: str
+    tool: str
+    example: str
+    solution: str
+    checks: tuple[Check[Any], ...]
+    read: Callable[[str], object]
+
+
+@dataclass(frozen=True)
+class MysteryState:
+    """How far a learner is with mysteries.
+
+    Args:
+        number: of the mystery at hand, from 1.
+        level: of it, from 1 to ``HIGHEST``.
+        seed: it is drawn from; None while none is at hand.
+    """
+
+    number: int = 1
+    level: int = 1
+    seed: int | None = None
+
+    def close(self, *, solved: bool) -> "MysteryState":
+        """The state after a mystery: one level up if it was solved, one down if not."""
+        level = min(max(self.level + (1 if solved else -1), 1), HIGHEST)
+        return MysteryState(self.number + 1, level)
+
+
+def find_folder(course: Path, student: str) -> Path:
+    """Where a learner's mystery is."""
+    return course / FOLDER / make_folder_name(student)
+
+
+def load_state(folder: Path) -> MysteryState:
+    """How far a learner is; a file that is damaged begins anew."""
+    try:
+        found = tomllib.loads((folder / STATE).read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return MysteryState()
+    number, level, seed = (found.get(name) for name in ("number", "level", "seed"))
+    if not (isinstance(number, int) and isinstance(level, int) and 0 < level <= HIGHEST):
+        return MysteryState()
+    return MysteryState(number, level, seed if isinstance(seed, int) and seed >= 0 else None)
+
+
+def save_state(folder: Path, state: MysteryState) -> None:
+    """Keep how far a learner is.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
+    seed = "" if state.seed is None else f"seed = {state.seed}\n"
+    with _explain_unwritable(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        text = f"number = {state.number}\nlevel = {state.level}\n{seed}"
+        write_atomically(folder / STATE, text)
+
+
+def draw_mystery(course: Path, state: MysteryState) -> Mystery:
+    """The mystery at hand, always the same one for a state; the exercises take turns.
+
+    Raises:
+        BadRequest: no exercise of this course has mysteries.
+    """
+    import numpy as np  # noqa: PLC0415 - --help has to start at once
+
+    able = _list_able(course)
+    if not able:
+        raise BadRequest(
+            "no exercise of this course can draw a mystery",
+            advice="Get the whole course: grade start FOLDER",
+        )
+    draw = able[(state.number - 1) % len(able)].module.draw_mystery
+    found: Mystery = draw(np.random.default_rng(state.seed), level=state.level)
+    return found
+
+
+def _list_able(course: Path) -> list[Exercise]:
+    """The exercises that can draw a mystery; others are not even loaded."""
+    return [
+        one
+        for one in list_exercises(course)
+        if "def draw_mystery(" in (one.folder / "checks.py").read_text(encoding="utf-8")
+    ]
+
+
+def open_mystery(course: Path, folder: Path, state: MysteryState) -> tuple[MysteryState, Mystery]:
+    """Draw a fresh mystery and write its logs.
+
+    Raises:
+        BadRequest: there is none to draw, or it cannot be written.
+    """
+    from sim.io import write  # noqa: PLC0415 - numpy only where it is needed
+
+    state = replace(state, seed=secrets.randbelow(SEEDS))
+    mystery = draw_mystery(course, state)
+    with _explain_unwritable(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        for old in (*folder.glob("*.wpilog"), *folder.glob("*.csv"), *folder.glob("*.svg")):
+            old.unlink()
+    for name, log in mystery.logs.items():
+        for suffix in (".wpilog", ".csv"):
+            write(log, folder / f"{name}{suffix}")
+    save_state(folder, state)
+    return state, mystery
+
+
+def grade_mystery(mystery: Mystery, answer: str, *, student: str) -> Grade:
+    """Grade an answer by the checks of the exercise that the mystery is from."""
+    results = run_checks(mystery.checks, mystery.read(answer))
+    score = sum(one.points for one in results)
+    most = sum(one.max_points for one in results)
+    status = "passed" if score == most else "failed"
+    return Grade(FOLDER, student, score, most, status, results)
+
+
+@contextmanager
+def _explain_unwritable(folder: Path) -> Iterator[None]:
+    """Turn an error of the disk into one line."""
+    try:
+        yield
+    except OSError as error:
+        raise BadRequest(
+            f"the mystery cannot be written: {error.strerror or error}",
+            where=str(folder),
+            advice="Make room there, or allow writing.",
+        ) from error

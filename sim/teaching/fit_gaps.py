@@ -1,0 +1,101 @@
+"""The three gaps of a fit by least squares that a learner fills in, each checked at once.
+
+a = α·v + β·V + γ·sgn(v)        kS = −γ/β, kV = −α/β, kA = 1/β
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.core.log import Array
+
+SAMPLES = 12  # rows on which a learner's line is compared with ours
+CLOSE = 1e-9  # [share] what rounding may change
+
+Signals = Callable[[Array, Array, Array], object]
+Solved = Callable[[float, float, float], object]
+
+
+@dataclass(frozen=True)
+class FilledGaps:
+    """The lines of a fit: the learner's where they are right, ours where they are not.
+
+    Args:
+        left: voltage, velocity, acceleration, each (n,) -> (n,) what stands on the left side.
+        columns: the same -> the columns of α, β and γ, each (n,).
+        gains: α, β, γ -> kS [V], kV and kA.
+        report: what was found, one line for each gap.
+    """
+
+    left: Callable[[Array, Array, Array], Array]
+    columns: Callable[[Array, Array, Array], Sequence[Array]]
+    gains: Callable[[float, float, float], Mapping[str, float]]
+    report: str
+
+
+def put_acceleration_left(_volts: Array, _velocity: Array, acceleration: Array) -> Array:
+    """The acceleration (n,), the noisiest signal."""
+    return acceleration
+
+
+def make_columns(volts: Array, velocity: Array, _acceleration: Array) -> list[Array]:
+    """The columns of α, β and γ, each (n,)."""
+    return [velocity, volts, np.sign(velocity)]
+
+
+def compute_gains(alpha: float, beta: float, gamma: float) -> dict[str, float]:
+    """The gains kS [V], kV and kA from the three numbers of the fit."""
+    return {"kS": -gamma / beta, "kV": -alpha / beta, "kA": 1.0 / beta}
+
+
+def fill_gaps(*, left: Signals, columns: Signals, gains: Solved) -> FilledGaps:
+    """Check what a learner wrote into the three gaps, on a few made-up rows.
+
+    Args:
+        left: gap 1, as ``FilledGaps.left``; ``...`` is an empty gap, as in the other two.
+        columns: gap 2.
+        gains: gap 3.
+    """
+    rng = np.random.default_rng(7)
+    rows = tuple(rng.standard_normal(SAMPLES) for _ in range(3))
+    solved = (-8.0, 3.0, -0.5)
+    first = _judge(lambda: left(*rows), put_acceleration_left(*rows), "Which signal is noisiest?")
+    second = _judge(
+        lambda: columns(*rows),
+        make_columns(*rows),
+        "What is γ multiplied by in the equation for a? NumPy calls it np.sign(v).",
+    )
+    third = _judge(
+        lambda: _in_order(gains(*solved)),
+        list(compute_gains(*solved).values()),
+        "Use kV = −α/β and kA = 1/β.",
+    )
+    said = (first, second, third)
+    right = [one == RIGHT for one in said]
+    return FilledGaps(
+        left if right[0] else put_acceleration_left,  # type: ignore[arg-type]  # judged to return such an array
+        columns if right[1] else make_columns,  # type: ignore[arg-type]  # the same
+        gains if right[2] else compute_gains,  # type: ignore[arg-type]  # the same
+        "\n".join(f"Gap {number}: {one}" for number, one in enumerate(said, start=1)),
+    )
+
+
+RIGHT, EMPTY = "right.", "still empty. Put your answer in place of the three dots."
+
+
+def _in_order(gains: object) -> object:
+    """The gains as a list, where they are a dict with these names."""
+    return [gains[name] for name in ("kS", "kV", "kA")] if isinstance(gains, dict) else gains
+
+
+def _judge(answer: Callable[[], object], expected: object, hint: str) -> str:
+    """What is said to one gap."""
+    try:
+        found = answer()
+        if found is ... or (isinstance(found, list | tuple) and any(one is ... for one in found)):
+            return EMPTY
+        same = np.allclose(np.asarray(found, dtype=float), np.asarray(expected), rtol=CLOSE)
+    except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
+        return f"it stops with an error: {error}."
+    return RIGHT if same else f"not yet. {hint}"

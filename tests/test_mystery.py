@@ -1,0 +1,151 @@
+"""``grade mystery``: fresh logs with a hidden trouble, graded as exercises 7 and 12 do."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from grader.cli import run_command
+from grader.mystery import (
+    HIGHEST,
+    MysteryState,
+    draw_mystery,
+    find_folder,
+    grade_mystery,
+    load_state,
+)
+from grader.variant import use_class_secret
+from sim.io import read
+
+ROOT = Path(__file__).resolve().parents[1]
+SEEDS = range(20)
+FAULTS, EFFECTS = 1, 2  # the numbers of mysteries whose turn it is
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A copy of the course's exercises, in whose folder the command runs."""
+    ignored = shutil.ignore_patterns("data", "__pycache__")
+    shutil.copytree(ROOT / "exercises", tmp_path / "exercises", ignore=ignored)
+    (tmp_path / "lessons").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def drawn(number, seed, level=1):
+    return draw_mystery(ROOT, MysteryState(number, level, seed))
+
+
+def graded(mystery, answer):
+    return grade_mystery(mystery, answer, student="ann")
+
+
+@pytest.mark.parametrize("number", [FAULTS, EFFECTS])
+def test_the_right_answer_to_twenty_mysteries_earns_everything_and_a_wrong_one_never(number):
+    for seed in SEEDS:
+        mystery = drawn(number, seed, level=1 + seed % HIGHEST)
+        wrong = "sign-flip, whole, rerun" if number == FAULTS else "hysteresis"
+
+        assert graded(mystery, mystery.solution).status == "passed", (seed, mystery.solution)
+        assert graded(mystery, wrong).status == "failed", seed
+        assert graded(mystery, "").score == 0.0
+        assert graded(mystery, "no idea at all").score == 0.0
+
+
+def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
+    free = drawn(FAULTS, 3)
+    with use_class_secret(b"a class"):
+        bound = drawn(FAULTS, 3)
+
+    assert free.solution == bound.solution
+    for one, other in zip(free.logs["log"].runs, bound.logs["log"].runs, strict=True):
+        assert np.array_equal(one.velocity, other.velocity)
+
+
+def test_levels_get_harder():
+    single = [drawn(EFFECTS, seed, level=1).solution.split(", ") for seed in SEEDS]
+    several = [drawn(EFFECTS, seed, level=HIGHEST).solution.split(", ") for seed in SEEDS]
+    easy = {drawn(FAULTS, seed, level=1).solution.split(",")[0] for seed in SEEDS}
+    hard = {drawn(FAULTS, seed, level=HIGHEST).solution.split(",")[0] for seed in SEEDS}
+
+    assert {len(one) for one in single} == {1}
+    assert {len(one) for one in several} == {3}
+    assert easy <= {"encoder-slip", "brownout", "hard-stop", "loop-overrun"}
+    assert len(hard) > len(easy)
+    assert "clean" in hard
+    assert "clean" not in easy
+
+
+def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
+    mystery = next(one for one in (drawn(FAULTS, seed) for seed in SEEDS) if " to " in one.solution)
+    fault, test, _, action = mystery.solution.split(", ")
+    result = graded(mystery, f"{fault}, {test}, 0 to 0.02, {action}")
+
+    assert 0.0 < result.score < result.max_score
+    assert "not the place" in result.checks[0].hint
+
+
+def test_two_effects_in_the_wrong_order_keep_the_points_for_the_names():
+    mystery = drawn(EFFECTS, 1, level=3)
+    first, second = mystery.solution.split(", ")
+    result = graded(mystery, f"{second} {first}")
+
+    assert [one.status for one in result.checks] == ["failed", "passed"]
+
+
+def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
+    folder = find_folder(course, "ann")
+    assert run_command(["mystery", "--student", "ann"]) == 0
+    task = capsys.readouterr().out
+    state = load_state(folder)
+    mystery = draw_mystery(course, state)
+    assert "Mystery 1, level 1 of 5: log.wpilog in mystery/ann" in task
+    assert task.splitlines()[-1].startswith("Next: grade mystery ")
+    assert read(folder / "log.wpilog").runs
+
+    assert run_command(["mystery", "--student", "ann", "clean"]) == 1
+    assert "give up" in capsys.readouterr().out.splitlines()[-1]
+    assert load_state(folder) == state
+    assert run_command(["mystery", "--student", "ann", *mystery.solution.split()]) == 0
+    assert capsys.readouterr().out.endswith("Next: grade mystery\n")
+    assert load_state(folder) == MysteryState(2, 2)
+
+    assert run_command(["mystery", "--student", "ann"]) == 0
+    assert "Mystery 2, level 2 of 5: log.wpilog, validation.wpilog" in capsys.readouterr().out
+    assert {one.name for one in folder.glob("*.wpilog")} == {"log.wpilog", "validation.wpilog"}
+
+
+def test_giving_up_shows_the_answer_and_the_next_one_is_easier(course, capsys):
+    folder = find_folder(course, "me")
+    run_command(["mystery"])
+    (folder / "mystery.toml").write_text("number = 7\nlevel = 3\nseed = 5\n", "utf-8")
+    mystery = draw_mystery(course, load_state(folder))
+    capsys.readouterr()
+
+    assert run_command(["mystery", "--give-up"]) == 0
+    assert " ".join(capsys.readouterr().out.split()).startswith(
+        f"The answer was: {mystery.solution}"
+    )
+    assert load_state(folder) == MysteryState(8, 2)
+
+
+@pytest.mark.parametrize("text", ["", "number = [", "number = 1\nlevel = 9\n", "level = 'x'\n"])
+def test_a_damaged_file_begins_anew(tmp_path, text):
+    (tmp_path / "mystery.toml").write_text(text, "utf-8")
+
+    assert load_state(tmp_path) == MysteryState()
+
+
+def test_an_answer_without_a_mystery_is_one_line(course, capsys):
+    assert course.is_dir()
+    assert run_command(["mystery", "clean"]) == 2
+    assert "Draw one: grade mystery" in capsys.readouterr().err
+
+
+def test_a_course_without_the_exercises_says_so(course, capsys):
+    shutil.rmtree(course / "exercises" / "exercise7")
+    shutil.rmtree(course / "exercises" / "exercise12")
+
+    assert run_command(["mystery"]) == 2
+    assert "grade start FOLDER" in capsys.readouterr().err
