@@ -3,9 +3,9 @@
     python exercises/exercise6/robot.py logs
     python exercises/exercise6/robot.py logs --pace 4 --step 3.5 --only dynamic-forward
 
-It is a drivetrain as in lesson 4. The bench moves it: motors, battery, carpet and encoders are those
-of `sysid simulate drivetrain`. The robot writes its log into the folder ``logs``, and sends the same
-signals over NetworkTables. It needs RobotPy: pip install "sysid-course[robot]"
+It is a drivetrain as in lesson 4. The bench moves it: motors, battery, carpet and encoders are
+those of `sysid simulate drivetrain`. The robot writes its log into the folder ``logs``, and sends
+the same signals over NetworkTables. It needs RobotPy: pip install "sysid-course[robot]"
 """
 
 import time

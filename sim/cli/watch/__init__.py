@@ -5,8 +5,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,16 +14,16 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.fit.against import check_against_physics, compare_directions_alone
+from sim.cli.open import open_browser, page_options
 from sim.cli.options import FILE, as_json, read_file_parts, reading_options, velocity_options
 from sim.core.vocabulary import FOUR_TESTS
 from sim.feedback import PRESETS
 from sim.support.command_line import DONE
 
 if TYPE_CHECKING:
+    from sim.cli.open.session import Session
     from sim.cli.watch.live_fit import LiveFit, WatchUpdate
     from sim.cli.watch.recordings import Source
-
-Show = Callable[["WatchUpdate"], None]
 
 PAUSE = 0.2  # [s] between looks; a program of WPILib writes its log out four times a second
 
@@ -39,6 +38,8 @@ PAUSE = 0.2  # [s] between looks; a program of WPILib writes its log out four ti
 @click.option(
     "--save", type=FILE, metavar="FOLDER", help="Keep what NetworkTables sent, as .wpilog files."
 )
+@click.option("--page", is_flag=True, help="Show the same live on the page of `sysid open`.")
+@page_options
 @reading_options
 @velocity_options
 @as_json
@@ -47,6 +48,9 @@ def watch(
     *,
     nt: str | None,
     save: Path | None,
+    page: bool,
+    port: int,
+    no_browser: bool,
     type_: str | None,
     units: str | None,
     motor: str | None,
@@ -76,16 +80,16 @@ def watch(
     with ExitStack() as ends:
         source = _open_source(place, nt=nt, save=save, state=entries["state"], ends=ends)
         live = LiveFit(source, read, type=type_ or "")
-        show = _show_json if as_json else _show
+        session = _open_page(port, ends=ends, no_browser=no_browser) if page else None
         if not as_json:
             click.echo(f"Run {', '.join(FOUR_TESTS)}, in any order.\nCtrl-C here ends it.")
             sys.stdout.flush()
-        threading.Thread(target=_warm_up, daemon=True).start()
-        try:
-            _follow(live, show=show, quiet=as_json)
-        except KeyboardInterrupt:
-            pass
-        return DONE if as_json else _end(live)
+        with suppress(KeyboardInterrupt):
+            _load_fit()
+            _follow(live, session, as_json=as_json)
+        if not as_json:
+            _show_end(live)
+    return DONE
 
 
 def _open_source(
@@ -102,31 +106,80 @@ def _open_source(
         return FileSource(place, state=state)
     from sim.cli.watch.network_tables import NetworkTablesSource  # noqa: PLC0415 - only with --nt
 
-    if save is None:
-        temporary = tempfile.TemporaryDirectory(prefix="sysid-watch-", ignore_cleanup_errors=True)
-        save = Path(ends.enter_context(temporary))
-    source = NetworkTablesSource(nt or "", folder=save, state=state)
+    folder = save or _make_temporary_folder("sysid-watch-", ends)
+    source = NetworkTablesSource(nt or "", folder=folder, state=state)
     ends.callback(source.close)
     return source
 
 
-def _follow(live: "LiveFit", *, show: Show, quiet: bool) -> None:
+def _open_page(port: int, *, ends: ExitStack, no_browser: bool) -> "Session":
+    """Serve the page of `sysid open` until the stack is closed.
+
+    Raises:
+        BadRequest: the port is taken.
+    """
+    from sim.cli.open.server import PageServer  # noqa: PLC0415 - only with --page
+    from sim.cli.open.session import LiveView, Session  # noqa: PLC0415 - the same
+
+    session = Session(_make_temporary_folder("sysid-open-", ends))
+    session.live = LiveView("starting", dict.fromkeys(FOUR_TESTS, 0))
+    server = ends.enter_context(PageServer(session, port=port))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    ends.callback(server.shutdown)
+    click.echo(f"The page is at {server.address}", err=True)
+    session.import_everything()
+    if not no_browser:
+        open_browser(server.address)
+    return session
+
+
+def _make_temporary_folder(prefix: str, ends: ExitStack) -> Path:
+    temporary = tempfile.TemporaryDirectory(prefix=prefix, ignore_cleanup_errors=True)
+    return Path(ends.enter_context(temporary))
+
+
+def _load_fit() -> None:
+    """Load what the first fit needs, the compiled engine meanwhile."""
+    import sim.fit.output_error  # noqa: PLC0415 - that is the point of it
+    import sim.inspect.detect_faults  # noqa: PLC0415 - the same
+    import sim.report.next_test  # noqa: F401, PLC0415 - the same
+    from sim.physics.engine import load_engine  # noqa: PLC0415 - the same
+
+    threading.Thread(target=load_engine, daemon=True).start()
+
+
+def _follow(live: "LiveFit", session: "Session | None", *, as_json: bool) -> None:
     """Look again and again; only an exception ends it."""
-    told = ""
+    status = ""
     while True:
         update = live.look()
         if update is not None:
+            show = _show_json if as_json else _show_update
             show(update)
-        status = live.source.status
-        if status != told and not quiet:
-            click.echo(status)
-            told = status
+        if session is not None:
+            _renew_page(session, live)
+        if live.source.status != status:
+            status = live.source.status
+            if not as_json:
+                click.echo(status)
         sys.stdout.flush()
         if update is None:
             time.sleep(PAUSE)
 
 
-def _show(update: "WatchUpdate") -> None:
+def _renew_page(session: "Session", live: "LiveFit") -> None:
+    """Show on the page what has ended since, and what to do next."""
+    from sim.cli.open.session import LiveView  # noqa: PLC0415 - only with --page
+
+    for one in live.take_renewed():
+        session.renew(one, one.path, one.logs)
+    update = live.last
+    log = None if update is None else update.log
+    counts = {test: len(log.runs_of_test(test)) if log else 0 for test in FOUR_TESTS}
+    session.live = LiveView(live.source.status, counts, "" if update is None else update.advice)
+
+
+def _show_update(update: "WatchUpdate") -> None:
     """Print a block: which tests have ended, the gains so far, and what to do next."""
     from sim.report.fit_terminal import format_gains  # noqa: PLC0415 - --help must not wait for it
     from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - the same
@@ -147,35 +200,22 @@ def _show_json(update: "WatchUpdate") -> None:
     click.echo(json.dumps(update.to_json(), allow_nan=False))
 
 
-def _end(live: "LiveFit") -> int:
-    """Print the last gains as ``sysid fit`` does; its exit code."""
+def _show_end(live: "LiveFit") -> None:
+    """Print the last gains as ``sysid fit`` does."""
     update = live.last
     click.echo("")
     if update is None or update.log is None or update.pooled is None:
-        why = "no test has ended" if update is None else str(update.refusal)
-        click.echo(f"There are no gains: {why}")
-        return DONE
+        click.echo(f"There are no gains: {update.refusal if update else 'no test has ended.'}")
+        return
     from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415 - only now
     from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - the same
 
     preset = PRESETS["default"]
     found = check_against_physics(update.pooled.found, update.log, parts=None)
     found, notes = compare_directions_alone(found, update.log, patient=False)
-    found = found.in_log_units()
-    tried = try_feedback_gains(found, preset, own=None)
+    tried = try_feedback_gains(found := found.in_log_units(), preset, own=None)
     found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
     show_fit(
         found, preset=preset, title=", ".join(map(str, update.paths)), log=update.log,
         tried=tried, notes=(*notes, *update.pooled.notes),
     )  # fmt: skip
-    return DONE
-
-
-def _warm_up() -> None:
-    """Load what the first fit needs while nothing happens yet."""
-    import sim.fit.output_error  # noqa: PLC0415 - that is the point of it
-    import sim.inspect.detect_faults  # noqa: PLC0415 - the same
-    import sim.report.next_test  # noqa: F401, PLC0415 - the same
-    from sim.physics.engine import load_engine  # noqa: PLC0415 - the same
-
-    load_engine()

@@ -77,6 +77,13 @@ class LiveFit:
         self.source = source
         self.last: WatchUpdate | None = None
         self._read, self._type = read, type
+        self._renewed: dict[Recording, None] = {}
+
+    def take_renewed(self) -> tuple[Recording, ...]:
+        """The recordings whose logs were read anew since this was last asked."""
+        renewed = tuple(self._renewed)
+        self._renewed.clear()
+        return renewed
 
     def look(self) -> WatchUpdate | None:
         """What is new since the last look; None if no test has ended.
@@ -95,7 +102,7 @@ class LiveFit:
     def _follow(self, one: Recording, refusals: list[Refusal]) -> list[str]:
         """Read a recording anew if tests in it have ended; their names."""
         try:
-            tests = one.list_tests()
+            tests = one.growing.list_tests()
         except FileNotFoundError:  # it is being renamed, or was removed
             return []
         finished, running = split_finished(tests)
@@ -104,6 +111,7 @@ class LiveFit:
             one.finished = finished
             try:
                 one.logs = _drop_running(self._read(one.path), since=running)
+                self._renewed[one] = None
             except Refusal as refusal:
                 refusals.append(refusal)
         return new

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
@@ -15,37 +14,23 @@ SUFFIX = ".wpilog"
 SECOND = 1e6  # [µs]
 
 
-@dataclass(eq=False)
 class Recording:
     """One file, from the start of a robot program or of a connection to its end.
 
     Args:
-        path: of the file; it changes where the file is renamed.
+        path: of the file.
         state: the entry that names the tests; None looks for it.
-        logs: of its motors by name, as they were read after its last test; empty before.
-        finished: its tests that have ended.
     """
 
-    path: Path
-    state: str | None = None
-    logs: Mapping[str, Log] = field(default_factory=dict)
-    finished: tuple[RunInterval, ...] = ()
-    _growing: GrowingLog | None = None
-
-    def list_tests(self) -> tuple[RunInterval, ...]:
-        """All its tests so far; one that has not ended yet ends at ``FOREVER``.
-
-        Raises:
-            Refusal: as ``GrowingLog.list_tests``.
-        """
-        if self._growing is None or self._growing.path != self.path:
-            self._growing = GrowingLog(self.path, state=self.state)
-        return self._growing.list_tests()
+    def __init__(self, path: Path, *, state: str | None = None) -> None:
+        self.growing = GrowingLog(path, state=state)
+        self.finished: tuple[RunInterval, ...] = ()  # its tests that have ended ...
+        self.logs: Mapping[str, Log] = {}  # ... and what was read of them, motor by motor
 
     @property
-    def was_replaced(self) -> bool:
-        """Whether another file has taken the place of the one that was read."""
-        return self._growing is not None and self._growing.was_replaced
+    def path(self) -> Path:
+        """Where the file is."""
+        return self.growing.path
 
 
 class Source(Protocol):
@@ -104,12 +89,12 @@ class FileSource:
         """All recordings so far."""
         for path, key, size in self._list():
             if key in self._known:
-                self._known[key].path = path
+                self._known[key].growing.path = path
             elif self._sizes.get(key, -1) != size and self._counts(path):
                 self._begin(path, key)
         if self._recordings and self._recordings[-1].path.exists():
             last = self._recordings[-1]
-            if last.was_replaced:
+            if last.growing.was_replaced:
                 self._begin(last.path, _identify(last.path))
         return self._recordings
 
@@ -121,7 +106,7 @@ class FileSource:
         return self.place.is_dir() or path == self.place
 
     def _begin(self, path: Path, key: tuple[int, int]) -> None:
-        recording = Recording(path, self._state)
+        recording = Recording(path, state=self._state)
         self._recordings.append(recording)
         self._known[key] = recording
 
@@ -147,7 +132,7 @@ def _identify(path: Path) -> tuple[int, int]:
 def split_finished(
     tests: Sequence[RunInterval],
 ) -> tuple[tuple[RunInterval, ...], float]:
-    """The tests that have ended, and when the first that has not began [s]; infinite if all have."""
+    """The tests that have ended, and when the one that runs began [s]; infinite if none runs."""
     finished = tuple(one for one in tests if one.end != FOREVER)
     running = [one.begin for one in tests if one.end == FOREVER]
     return finished, min(running) / SECOND if running else math.inf

@@ -8,7 +8,6 @@ from sim.io.entries.entry import STRING
 from sim.io.entries.state import RunInterval, find_run_intervals, find_state_entries
 from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import read_contents
-from sim.io.formats.wpilog.control import Start
 from sim.io.formats.wpilog.records import PREFACE
 from sim.io.formats.wpilog.windows import GrowingFile
 
@@ -24,9 +23,17 @@ class GrowingLog:
     """
 
     def __init__(self, path: Path, *, state: str | None = None) -> None:
-        self.path = path
         self._asked = ReadOptions(entries={"state": state} if state else {})
         self._file = GrowingFile(path, lambda entry: entry.type == STRING)
+
+    @property
+    def path(self) -> Path:
+        """Where the file is; it may be renamed while it grows."""
+        return self._file.path
+
+    @path.setter
+    def path(self, path: Path) -> None:
+        self._file.path = path
 
     def list_tests(self) -> tuple[RunInterval, ...]:
         """The tests so far, by their beginning; one that has not ended yet ends at ``FOREVER``.
