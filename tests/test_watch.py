@@ -1,11 +1,9 @@
 """`sysid watch`: a log that grows is fitted after each test, as `sysid fit` would fit it."""
 
-import json
 import os
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import replace
 from functools import partial
 
@@ -20,7 +18,7 @@ from sim.bench.simulate import simulate
 from sim.cli.options import read_file_parts
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
-from sim.core.errors import BadRequest, UnreadableFile
+from sim.core.errors import UnreadableFile
 from sim.core.log import Run
 from sim.core.vocabulary import FOUR_TESTS
 from sim.fit import fit
@@ -210,15 +208,10 @@ def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_thro
 
 def test_a_step_without_a_limit_is_not_one():
     runs = [run for seed in range(5) for run in drive_log(seed).runs]
-    sagging = [
-        run
-        for run in simulate(
-            MECHANISMS["drivetrain"], Routine(step=3.5), rng=np.random.default_rng(3),
-            duty_cycle=True,
-        ).runs
-    ]  # fmt: skip
+    robot, rng = MECHANISMS["drivetrain"], np.random.default_rng(3)
+    sagging = simulate(robot, Routine(step=3.5), rng=rng, duty_cycle=True).runs
 
-    assert {find_voltage_limit(run) for run in runs + sagging} == {None}
+    assert {find_voltage_limit(run) for run in [*runs, *sagging]} == {None}
 
 
 def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():

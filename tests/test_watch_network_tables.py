@@ -75,7 +75,7 @@ def drive(tmp_path):
 
 
 @pytest.fixture
-def start(port, tmp_path, drive):
+def start(port, tmp_path, drive):  # noqa: ARG001 - the file of that log has to be there
     """Starts a robot; all are off in the end."""
     robots = []
 

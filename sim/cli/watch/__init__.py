@@ -33,7 +33,7 @@ PAUSE = 0.2  # [s] between looks; a program of WPILib writes its log out four ti
 @click.option(
     "--nt",
     metavar="ADDRESS",
-    help="Follow NetworkTables instead: localhost, 10.TE.AM.2, or a team number.",
+    help="Follow NetworkTables instead: of localhost, of 10.12.34.2, or of team 1234.",
 )
 @click.option(
     "--save", type=FILE, metavar="FOLDER", help="Keep what NetworkTables sent, as .wpilog files."

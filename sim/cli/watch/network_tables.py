@@ -1,7 +1,7 @@
 """NetworkTables of a robot or a simulation, written down as logs while they come in.
 
 What is followed is a file in the end, whoever writes it: every value that arrives is recorded with
-the robot's own time, counted from the beginning of the recording, so that `sysid fit` reads the same
+the robot's own time, counted from the beginning of the recording. So `sysid fit` reads the same
 numbers from the same file later.
 
 NetworkTables sends a value when it changes, so a constant voltage comes once. Logs that hold only
@@ -221,11 +221,11 @@ def _split_address(address: str) -> tuple[str, int]:
     if not re.fullmatch(r"[\w.-]+", host) or (port and not port.isdecimal()):
         raise BadRequest(
             f"{address!r} is no address",
-            advice="Give localhost, 10.TE.AM.2, or the number of your team.",
+            advice="Give localhost, an address like 10.12.34.2, or the number of your team.",
         )
     if host.isdecimal() and not 0 < int(host) <= LARGEST_TEAM:
         raise BadRequest(
-            f"there is no team {host}", advice="Give localhost, 10.TE.AM.2, or your team's number."
+            f"there is no team {host}", advice="Give localhost, or the number of your team."
         )
     return host, int(port or PORT)
 

@@ -1,14 +1,18 @@
 """Where tests come from while they are recorded: files that grow, one after another."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from sim.core.errors import UnreadableFile
-from sim.core.log import Log
 from sim.io.entries.state import FOREVER, RunInterval
 from sim.io.formats.wpilog.growing import GrowingLog
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from sim.core.log import Log
 
 SUFFIX = ".wpilog"
 SECOND = 1e6  # [µs]
