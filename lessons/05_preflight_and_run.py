@@ -748,7 +748,7 @@ Table(
 # The next cell shows what `sysid watch` would say after each test of our simulated robot.
 
 # %%
-from sim.core.errors import Refusal
+from sim.core import errors
 from sim.report.next_test import advise_next
 
 rows = []
@@ -757,7 +757,7 @@ for count in range(1, 5):
     last = so_far.runs[-1].test
     try:
         now = fit(so_far)
-    except Refusal:
+    except errors.Refusal:
         now = None
     rows.append((last, advise_next(so_far, found=now, inspection=inspect(so_far), last=[last])))
 Table(("after this test", "it says"), tuple(rows))
