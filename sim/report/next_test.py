@@ -19,6 +19,7 @@ from sim.inspect.launch import step_start
 from sim.report.gain_verdicts import list_gain_advice
 
 SETTLES = 3.0  # [timescales] in which a step has almost reached its speed, as the lessons plan it
+FEWEST = 2  # [samples] for which a limit holds a voltage down
 FINE = 0.1  # [V] to which a step is advised
 TOO_SHORT = ("little-motion", "short-rise")  # what inspect doubts in a run, by code
 ENOUGH = "Enough: every gain is usable."
@@ -71,8 +72,9 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
     if limited is not None:
         lasts, volts = limited
         return (
-            f"{run.test} started at a limit: for {lasts * 1000.0:.0f} ms the motor got less than "
-            f"later, {volts:.1f} V at first. Repeat it with {_below(volts):g} V."
+            f"{run.test} met a current limit or a weak battery: for {lasts * 1000.0:.0f} ms the "
+            f"motor got less than the step, {volts:.1f} V at first. Repeat it with "
+            f"{_below(volts):g} V."
         )
     for doubt in inspection.doubts:
         if doubt.code in TOO_SHORT and f"{run.test} " in doubt.message:
@@ -83,9 +85,9 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
 def find_voltage_limit(run: Run) -> tuple[float, float] | None:
     """How long a limit held the voltage of a step down after it came on, and to what at first.
 
-    The command of a step is constant. Where the voltage at the motor rises after the step by as
-    much as would make a step of the command (``LEAST_STEP``), the current was limited or the
-    battery gave way.
+    The command of a step is constant. Where the voltage at the motor is lower at first, by as much
+    as would make a step of the command (``LEAST_STEP``), the current was limited or the battery
+    gave way. One low reading alone may have been taken while the step came on.
 
     Returns:
         [s] and [V]; None where nothing held it down, or the run is no step.
@@ -94,14 +96,11 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
         return None
     first = step_start(run)
     size = np.abs(run.voltage[first:])
-    if not size.size:
+    free = size > (1.0 - LEAST_STEP) * np.percentile(size, 90)
+    count = int(np.argmax(free))
+    if count < FEWEST:
         return None
-    most = float(np.percentile(size, 90))
-    low = float(size[: max(1, int(np.argmax(size >= most)))].min())
-    if most - low <= LEAST_STEP * most:
-        return None
-    freed = first + int(np.argmax(size >= most))
-    return float(run.time[freed] - run.time[first]), low
+    return float(run.time[first + count] - run.time[first]), float(size[:count].min())
 
 
 def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
