@@ -721,6 +721,52 @@ Table(
 # </details>
 
 # %% [markdown]
+# ### Watch the tests live
+#
+# `sysid watch` reads the log while the robot writes it. After each test it fits the gains again and
+# says what to do next: which test is missing, which test to repeat, or that you have enough. So you
+# know it while the robot still stands on the carpet.
+#
+# Try it with a simulated robot. `exercises/exercise6/robot.py` is a robot program with a
+# `SysIdRoutine`, as in lesson 4. It runs its four tests in WPILib's simulation. It needs RobotPy:
+# `pip install "sysid-course[robot]"`. Open two terminals in the course folder. In the first type
+#
+# ```
+# sysid watch logs --page
+# ```
+#
+# and in the second
+#
+# ```
+# python exercises/exercise6/robot.py logs
+# ```
+#
+# (If there is no folder `logs` yet, make it first.) The option `--page` shows the same in your
+# browser. `Ctrl+C` ends it and prints the gains.
+#
+# With a real robot, your laptop does not see the log file while it grows. Follow *NetworkTables*
+# instead, the values that the robot sends to the dashboard: `sysid watch --nt 1234`, with your own
+# team number. Then the robot program has to send voltage, position, velocity and the name of the
+# test. The example program does it.
+#
+# The next cell shows what `sysid watch` would say after each test of our simulated robot.
+
+# %%
+from sim.core import errors
+from sim.report.next_test import advise_next
+
+rows = []
+for count in range(1, 5):
+    so_far = replace(sound, runs=sound.runs[:count])
+    last = so_far.runs[-1].test
+    try:
+        now = fit(so_far)
+    except errors.Refusal:
+        now = None
+    rows.append((last, advise_next(so_far, found=now, inspection=inspect(so_far), last=[last])))
+Table(("after this test", "it says"), tuple(rows))
+
+# %% [markdown]
 # ## 7 When: not at the first regional
 #
 # Some teams "spend their entire practice match window trying to characterize their drivetrain". But

@@ -4,6 +4,7 @@ import base64
 import re
 import shutil
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from open_page import BROKEN, drive_log, served, slipped_log, write_log, write_o
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
+from sim.cli.open.session import LiveView
 from sim.fit import fit
 from sim.fit.replay import replay_fit
 from sim.io import read
@@ -193,6 +195,35 @@ def test_each_format_is_shown_and_fitted_alike(page, tmp_path):
         assert page.locator(".chip").count() == 5
         page.locator("#faults .well").wait_for()
     assert page.locator(".tab").count() == 3
+    assert page.complaints == []
+
+
+def test_what_is_watched_is_shown_live(page, server, tmp_path):
+    log = drive_log()
+    path = write_log(log, tmp_path / "robot.wpilog")
+    assert not page.locator("#live").is_visible()
+    counts = dict.fromkeys([run.test for run in log.runs], 0)
+    server.session.live = LiveView("waiting for a log", counts)
+    page.reload()
+    page.locator("#live-status", has_text="waiting for a log").wait_for()
+    assert page.locator("#live-tests li.done").count() == 0
+    seen = []
+    for count in (3, 4):
+        server.session.renew("robot", path, {"": replace(log, runs=log.runs[:count])})
+        counts |= {run.test: 1 for run in log.runs[:count]}
+        server.session.live = LiveView("following robot.wpilog", counts, f"{4 - count} missing.")
+        page.locator("#live-next", has_text=f"{4 - count} missing.").wait_for()
+        wait_until(page, f"document.querySelectorAll('#runs .chip').length === {count + 1}")
+        wait_until(page, "[...sysid.logs.values()][0].fit !== null")
+        page.locator("#gain-kV").wait_for()
+        seen.append(page.evaluate("[...sysid.logs.values()][0].gains"))
+
+    assert page.locator("#live-tests li.done").count() == 4
+    assert page.locator(".tab").count() == 1
+    assert seen[0] != seen[1]
+    assert {re.sub(r"^(http://[^/]+).*", r"\1", url) for url in page.asked} == {
+        f"http://{server.hosts[0]}"
+    }
     assert page.complaints == []
 
 

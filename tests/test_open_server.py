@@ -4,12 +4,13 @@ import http.client
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from open_page import BROKEN, ask, ask_json, served, slipped_log, write_log
 
-from sim.cli.open.session import Session
+from sim.cli.open.session import LiveView, Session
 from sim.core.errors import BadRequest
 from sim.fit import fit
 from sim.io import read
@@ -117,6 +118,42 @@ def test_a_dropped_log_is_read_inspected_and_fitted(server, drive):
     assert len(found["starts"]) == len(log.runs)
     assert ask(server, of_log, method="DELETE")[0] == 200
     assert ask_json(server, f"{of_log}/summary")[1]["refusal"]["what"].startswith("this log is not")
+
+
+@pytest.mark.parametrize("headers", [{"Host": "evil.example"}, {"Origin": "http://evil.example"}])
+def test_what_is_watched_is_told_to_its_own_page_alone(tmp_path, headers):
+    with served(tmp_path) as server:
+        server.session.live = LiveView("following robot.wpilog", {}, "secret")
+        refused = ask(server, "live", headers=headers)
+        elsewhere = ask(server, "live", word="wrong")
+
+    assert (refused[0], elsewhere[0]) == (403, 404)
+    assert b"secret" not in refused[1] + elsewhere[1]
+
+
+def test_a_log_that_grows_is_fitted_anew_from_the_tests_that_have_ended(tmp_path, drive):
+    log = read(drive)
+    with served(tmp_path) as server:
+        none = ask_json(server, "live")[1]
+        server.session.live = LiveView("following drive", {"dynamic-forward": 0}, "next")
+        answers = []
+        for count in (3, 4):
+            finished = {"": replace(log, runs=log.runs[:count])}
+            server.session.renew("robot", drive, finished)
+            live = ask_json(server, "live")[1]
+            summary = ask_json(server, f"logs/{live['logs'][0]['id']}/summary")[1]
+            gains = ask_json(server, f"logs/{live['logs'][0]['id']}/fit")[1]["gains"]
+            answers.append((live["logs"], len(summary["runs"]), gains))
+        server.session.close(answers[0][0][0]["id"])
+        server.session.renew("robot", drive, finished)
+        closed = ask_json(server, "live")[1]["logs"]
+
+    assert none == {"follows": False}
+    assert [(logs[0]["revision"], runs) for logs, runs, _ in answers] == [(1, 3), (2, 4)]
+    expected = fit(log).in_log_units().gains
+    assert {one["name"]: one["value"] for one in answers[1][2]} == dict(expected)
+    assert answers[0][2] != answers[1][2]
+    assert closed == []
 
 
 def test_another_type_and_other_units_are_read_anew(tmp_path, drive):

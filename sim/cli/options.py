@@ -3,6 +3,7 @@
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -149,20 +150,49 @@ def read_parts(
         Refusal: a file cannot be read, or one measures a length and another an angle.
     """
     from sim.cli.fit.parts import parts_of_files  # noqa: PLC0415 - only for a fit
+
+    read = partial(
+        read_file_parts, units=units, type=type, motor=motor, entries=entries, velocity=velocity,
+        pick=pick,
+    )  # fmt: skip
+    return parts_of_files([(file, read(file)) for file in files])
+
+
+def read_file_parts(
+    file: Path,
+    *,
+    units: str | None,
+    type: str | None,  # noqa: A002 - the field's own word
+    motor: str | None,
+    entries: Mapping[str, str | None],
+    velocity: float | None,
+    pick: int | None,
+) -> "dict[str, Log]":
+    """Read one file of a robot as logs of alike parts, by name.
+
+    Args:
+        file: in any format.
+        units: of the positions in it; None believes the file.
+        type: of the mechanism; None believes the file.
+        motor: which one alone, where the file has several.
+        entries: signal -> name of its entry; None looks for it.
+        velocity: what the velocity is multiplied by; None takes the slope of the position.
+        pick: which of several mechanisms, counted from 1.
+
+    Raises:
+        Refusal: the file cannot be read.
+    """
     from sim.io import read_motors  # noqa: PLC0415 - --help must not wait for it
     from sim.io.velocity import check_velocity, scale_velocity  # noqa: PLC0415 - the same
 
     named = {signal: entry for signal, entry in entries.items() if entry}
-    found = []
-    for file in files:
-        logs = read_motors(
-            file, units=units, type=type, motor=motor, entries=named,
-            ignore_velocity=velocity is None, pick=pick,
-        )  # fmt: skip
-        if velocity is not None:
-            logs = {
-                name: check_velocity(log if velocity == 1.0 else scale_velocity(log, velocity))
-                for name, log in logs.items()
-            }
-        found.append((file, logs))
-    return parts_of_files(found)
+    logs = read_motors(
+        file, units=units, type=type, motor=motor, entries=named,
+        ignore_velocity=velocity is None, pick=pick,
+    )  # fmt: skip
+    if velocity is None:
+        return logs
+    return {
+        name: check_velocity(log if velocity == 1.0 else scale_velocity(log, velocity))
+        for name, log in logs.items()
+    }

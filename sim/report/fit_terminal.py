@@ -50,14 +50,8 @@ def show_fit(
     rows.add_column("value", justify="right")
     rows.add_column("± one standard error", justify="right")
     rows.add_column("unit")
-    for name, value in found.gains.items():
-        error = found.errors.get(name, math.nan)
-        rows.add_row(
-            "angle" if name == "offset_rad" else name,
-            _digits(value, error),
-            format_error(value, error),
-            gain_unit(name, per),
-        )
+    for row in format_gains(found):
+        rows.add_row(*row)
     console.print(rows)
     console.print(
         f"simulated velocity R² {found.simulated_velocity_r2:.3f}, "
@@ -73,6 +67,20 @@ def show_fit(
     for doubt in doubts:
         if not doubt.grave:
             console.print(f"look: {doubt.message}", style="bold")
+
+
+def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
+    """Name, value, standard error and unit of each gain, as text."""
+    per = find_unit(found.units)
+    return [
+        (
+            "angle" if name == "offset_rad" else name,
+            _digits(value, found.errors.get(name, math.nan)),
+            format_error(value, found.errors.get(name, math.nan)),
+            gain_unit(name, per),
+        )
+        for name, value in found.gains.items()
+    ]
 
 
 def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) -> None:

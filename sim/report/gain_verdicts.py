@@ -48,6 +48,21 @@ def gain_verdict(found: Fit, log: Log | None = None) -> str:
     return "; ".join([", ".join(usable), *groups] if usable else groups) + "."
 
 
+def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:
+    """What to record so that the gains that are not usable become so; empty if all are.
+
+    Args:
+        found: the fit.
+        log: what it was fitted to.
+    """
+    unusable = [
+        name
+        for name, value in found.gains.items()
+        if not _usable(name, value, found.errors.get(name, math.nan))
+    ]
+    return tuple(dict.fromkeys(_advice(name, log) for name in unusable))
+
+
 def _usable(name: str, value: float, error: float) -> bool:
     if not math.isfinite(error):
         return False

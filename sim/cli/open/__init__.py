@@ -5,7 +5,9 @@ import sys
 import tempfile
 import threading
 import webbrowser
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -13,15 +15,25 @@ from sim.cli.options import FILE
 from sim.support.command_line import DONE
 
 
+def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options of a command that serves the page."""
+    options = (
+        click.option(
+            "--port",
+            type=click.IntRange(0, 65535),
+            default=0,
+            help="Port of the page on this machine.  [default: a free one]",
+        ),
+        click.option("--no-browser", is_flag=True, help="Only print the address of the page."),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
 @click.command(name="open")
 @click.argument("files", nargs=-1, type=FILE)
-@click.option(
-    "--port",
-    type=click.IntRange(0, 65535),
-    default=0,
-    help="Port on this machine.  [default: a free one]",
-)
-@click.option("--no-browser", is_flag=True, help="Only print the address.")
+@page_options
 def open(files: tuple[Path, ...], *, port: int, no_browser: bool) -> int:  # noqa: A001 - the command's own name
     """Show logs on a page of this machine: faults, runs, gains to move over the measured curve.
 
@@ -39,12 +51,16 @@ def open(files: tuple[Path, ...], *, port: int, no_browser: bool) -> int:  # noq
             click.echo(f"The page is at {server.address}\nCtrl-C here ends it.")
             sys.stdout.flush()
             threading.Thread(target=session.warm_up, daemon=True).start()
-            if not no_browser and os.environ.get("BROWSER") != "none":
-                threading.Thread(
-                    target=webbrowser.open, args=(server.address,), daemon=True
-                ).start()
+            if not no_browser:
+                open_browser(server.address)
             try:
                 server.serve_forever()
             except KeyboardInterrupt:
                 click.echo("")
     return DONE
+
+
+def open_browser(address: str) -> None:
+    """Show an address in the person's browser, unless the environment says there is none."""
+    if os.environ.get("BROWSER") != "none":
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

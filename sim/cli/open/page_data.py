@@ -15,7 +15,7 @@ from sim.core.units import find_unit
 from sim.io.entries.entry import NUMBERS, STRING
 
 if TYPE_CHECKING:
-    from sim.cli.open.session import OpenLog, Reading
+    from sim.cli.open.session import OpenLog, Reading, Session
     from sim.core.log import Array, Log
     from sim.fit import Fit
     from sim.inspect.detect_faults import Inspection
@@ -61,6 +61,25 @@ def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
         "doubts": _doubts(log.doubts, one),
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
+    }
+
+
+def describe_live(session: "Session") -> dict[str, Any]:
+    """What is followed while it is recorded, and the logs that grow, each with its revision."""
+    live = session.live
+    if live is None:
+        return {"follows": False}
+    logs = [
+        {"id": one.number, "name": one.name, "revision": one.revision}
+        for one in session.logs
+        if one.revision
+    ]
+    return {
+        "follows": True,
+        "status": live.status,
+        "counts": dict(live.counts),
+        "next": live.advice,
+        "logs": logs,
     }
 
 

@@ -143,6 +143,8 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_file("index.html")
             case ["logs"]:
                 self._send_json([_name(one) for one in self.server.session.logs])
+            case ["live"]:
+                self._send_json(page_data.describe_live(self.server.session))
             case ["logs", number, what]:
                 self._send_of_log(self._log(number), what, query)
             case [name]:

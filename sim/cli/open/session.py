@@ -3,7 +3,7 @@
 import re
 import shutil
 import threading
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
@@ -45,6 +45,21 @@ class Reading:
         return "position" in chosen and "velocity" not in chosen
 
 
+@dataclass(frozen=True)
+class LiveView:
+    """What `sysid watch` shows on the page.
+
+    Args:
+        status: what it follows, or waits for.
+        counts: each of the four tests -> how many runs of it there are.
+        advice: what to do next; empty before the first test has ended.
+    """
+
+    status: str
+    counts: Mapping[str, int]
+    advice: str = ""
+
+
 @dataclass(eq=False)
 class OpenLog:
     """One file that is open on the page.
@@ -55,11 +70,15 @@ class OpenLog:
         number: from 1.
         name: of the file, as it is shown.
         path: where it lies.
+        revision: how many times tests have ended in it while it grew; 0 for a file at rest.
+        finished: the logs of the tests that have ended in it; None for a file at rest.
     """
 
     number: int
     name: str
     path: Path
+    revision: int = 0
+    finished: "Mapping[str, Log] | None" = None
     _kept: dict[Hashable, Any] = field(default_factory=dict)
     _locks: dict[Hashable, threading.Lock] = field(default_factory=dict)
 
@@ -71,6 +90,8 @@ class OpenLog:
         """
 
         def read() -> "dict[str, Log]":
+            if self.finished is not None and reading == Reading():
+                return dict(self.finished)
             from sim.cli.options import read_parts  # noqa: PLC0415 - reads formats
 
             return dict(
@@ -137,8 +158,14 @@ class OpenLog:
 
         return self._once(("reconcile", reading), lambda: ReconcileJob(self, reading))
 
-    def _once(self, key: Hashable, make: Callable[[], Result]) -> Result:
+    def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:
+        """Take the tests that have ended by now; what was computed of fewer is forgotten."""
+        self.finished, self.path, self.revision = finished, path, self.revision + 1
+        self._kept = {}
+
+    def _once(self, what: Hashable, make: Callable[[], Result]) -> Result:
         """What was made before under this key, or what is made now; a refusal is kept, too."""
+        key = (self.revision, what)
         with self._locks.setdefault(key, threading.Lock()):
             if key not in self._kept:
                 try:
@@ -166,6 +193,8 @@ class Session:
         self._logs: dict[int, OpenLog] = {}
         self._lock = threading.Lock()
         self._imports = threading.Lock()
+        self._growing: dict[Hashable, int] = {}
+        self.live: LiveView | None = None
         for file in files:
             self.add(file.name, file)
 
@@ -191,6 +220,24 @@ class Session:
             one = OpenLog(next(self._numbers), name, path)
             self._logs[one.number] = one
             return one
+
+    def renew(self, key: Hashable, path: Path, finished: "Mapping[str, Log]") -> None:
+        """Show what has been recorded of a log that grows; one that was closed stays closed.
+
+        Args:
+            key: what it is known by, whatever its name.
+            path: where it lies now.
+            finished: the logs of the tests that have ended in it.
+
+        Raises:
+            BadRequest: too many are open.
+        """
+        if key not in self._growing:
+            self._growing[key] = self.add(path.name, path).number
+        with self._lock:
+            one = self._logs.get(self._growing[key])
+            if one is not None:
+                one.renew(finished, path)
 
     def place_for(self, name: str) -> tuple[str, Path]:
         """A name that any system can write, and a new path for a dropped file of that name."""

@@ -242,10 +242,17 @@ def _samples_between(entry: Entry, tests: Sequence[RunInterval]) -> list[slice]:
 
 
 def _voltage_in(device: Device, tests: Sequence[RunInterval]) -> float:
-    """[V] root mean square of a device's voltage while tests run."""
+    """[V] root mean square of a device's voltage while tests run.
+
+    Where only changes were logged, a step has no sample of its own: what the voltage was before it
+    holds.
+    """
     entry = device.signals["voltage"]
     values = entry.numbers()
-    parts = [values[part] for part in _samples_between(entry, tests)]
+    parts = [
+        values[part] if part.start < part.stop else values[max(part.start - 1, 0) : part.start]
+        for part in _samples_between(entry, tests)
+    ]
     every = np.concatenate(parts) if parts else np.empty(0)
     return float(np.sqrt(np.mean(np.square(every)))) if every.size else 0.0
 

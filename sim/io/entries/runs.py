@@ -23,7 +23,7 @@ from sim.io.entries.clock import (
 from sim.io.entries.entry import NEEDED, OPTIONAL, Numbers
 from sim.io.entries.motors import MotorEntries
 from sim.io.entries.state import RunInterval
-from sim.io.entries.units import EntryScale, choose_scale
+from sim.io.entries.units import EntryScale, choose_scale, is_from_network_tables
 from sim.io.format import ReadOptions, make_run
 
 SECOND = 1e6  # [µs]
@@ -83,7 +83,8 @@ def cut_runs(
     signals = _signals(motors, scales)
     needed = [series for signal in NEEDED for series in signals[signal]]
     spans = [(stretch.begin, stretch.end) for stretch in stretches]
-    held = logs_only_changes(needed, spans)
+    entries = [motor.signals[signal] for motor in motors for signal in NEEDED]
+    held = logs_only_changes(needed, spans, suspected=all(map(is_from_network_tables, entries)))
     doubts = [doubt for scale in scales for doubt in scale.doubts]
     doubts += _doubt_sparse_signals(signals, spans, held=held, where=where)
     sampled = [

@@ -89,13 +89,28 @@ def find_unit_in_metadata(metadata: str) -> str:
     if not text.startswith("{"):
         stated = re.search(r"\bunits?:\s*(.+?)\.?\s*$", text, re.IGNORECASE)
         return stated[1] if stated else text
+    keyed = _parse_metadata(text)
+    properties = keyed.get("properties")  # of a topic of NetworkTables
+    keyed = {**properties, **keyed} if isinstance(properties, dict) else keyed
+    found = next((keyed[key] for key in ("unit", "units") if key in keyed), "")
+    return found.strip() if isinstance(found, str) else ""
+
+
+def is_from_network_tables(entry: Entry) -> bool:
+    """Whether an entry holds a topic of NetworkTables, as DataLogManager says in its metadata.
+
+    A publisher sends a value again only if it was told to keep duplicates.
+    """
+    return _parse_metadata(entry.metadata.strip()).get("source") == "NT"
+
+
+def _parse_metadata(text: str) -> dict[str, object]:
+    """What metadata in JSON says; empty if it is none."""
     try:
         content = json.loads(text)
     except (ValueError, RecursionError):
-        return ""
-    keyed = content if isinstance(content, dict) else {}
-    found = next((keyed[key] for key in ("unit", "units") if key in keyed), "")
-    return found.strip() if isinstance(found, str) else ""
+        return {}
+    return content if isinstance(content, dict) else {}
 
 
 def parse_signal_unit(text: str, signal: str) -> StatedUnit | None:

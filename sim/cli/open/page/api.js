@@ -26,6 +26,11 @@ export function listLogs() {
   return ask("logs");
 }
 
+/** What sysid watch follows, and the logs that grow. */
+export function askLive() {
+  return ask("live");
+}
+
 /** Close a log. */
 export function closeLog(id) {
   return ask(`logs/${id}`, { method: "DELETE" });
@@ -60,7 +65,7 @@ async function fetchOrRefuse(address, options) {
     throw new Refused({
       what: "the program that serves this page has ended",
       where: "",
-      advice: "Start it again: sysid open",
+      advice: "Start it again: sysid open, or sysid watch",
     });
   }
   if (!answer.ok) throw new Refused((await answer.json()).refusal);

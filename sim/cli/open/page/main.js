@@ -1,6 +1,6 @@
 // The page: which logs are open, which one is seen, and what is known of it.
 
-import { Refused, addressOf, askLog, askSamples, closeLog, listLogs, openExample, openFile } from "./api.js";
+import { Refused, addressOf, askLive, askLog, askSamples, closeLog, listLogs, openExample, openFile } from "./api.js";
 import { Chart } from "./chart.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
@@ -25,8 +25,8 @@ async function openAll(files) {
 }
 
 /** Take a log that the server opened: read it, show it, then ask for faults and gains. */
-async function begin({ id, name }) {
-  const log = { id, name, query: {}, others: false };
+async function begin({ id, name, revision = 0 }) {
+  const log = { id, name, revision, query: {}, others: false };
   logs.set(id, log);
   if (active === null) activate(id);
   showTabs();
@@ -118,6 +118,47 @@ function forget(id) {
   closeLog(id).catch(() => {});
   if (active === id) activate([...logs.keys()].at(-1) ?? null);
   showTabs();
+}
+
+// ---- logs that grow
+
+const LOOK = 500; // [ms] between two questions what has been recorded
+
+/** Follow what sysid watch follows: read a log anew whenever a test in it has ended. */
+async function followLive() {
+  for (;;) {
+    const live = await askLive();
+    if (!live.follows) return;
+    showLive(live);
+    for (const { id, name, revision } of live.logs) {
+      const log = logs.get(id);
+      if (log?.revision === revision) continue;
+      if (log) {
+        log.revision = revision;
+        await guarded(name, () => load(log));
+      } else {
+        await guarded(name, () => begin({ id, name, revision }));
+        activate(id);
+        showTabs();
+      }
+    }
+    await new Promise((done) => setTimeout(done, LOOK));
+  }
+}
+
+function showLive({ status, counts, next }) {
+  at("live").hidden = false;
+  at("empty").querySelector(".or").hidden = true;
+  at("live-status").textContent = status;
+  const words = Object.entries(counts).map(([test, count]) => {
+    const one = item(count ? "done" : "", `${test}${count > 1 ? ` (${count})` : ""}`);
+    one.setAttribute("aria-label", `${test}: ${count ? `${count} recorded` : "missing"}`);
+    return one;
+  });
+  at("live-tests").replaceChildren(...words);
+  const said = at("live-next");
+  if (said.dataset.said !== next) said.replaceChildren(...prose(next)); // said once, not at every look
+  said.dataset.said = next;
 }
 
 // ---- signals that are not found by name
@@ -741,4 +782,8 @@ setTheme(kept);
 guarded("logs", async () => {
   const named = await listLogs();
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));
+});
+followLive().catch((problem) => {
+  at("live-status").textContent = sentence(problem);
+  if (!(problem instanceof Refused)) console.error(problem);
 });

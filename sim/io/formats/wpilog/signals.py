@@ -1,7 +1,7 @@
-"""Writing any signals as a WPILOG file, to be looked at side by side in another tool.
+"""Writing any signals as a WPILOG file: all at once, or value by value as they come.
 
-Every signal is an entry of doubles; a text, such as the name of a test, is an entry of strings that
-is written when it changes.
+Written at once, to be looked at side by side in another tool, every signal is an entry of doubles.
+A text, such as the name of a test, is an entry of strings that is written when it changes.
 """
 
 import struct
@@ -17,6 +17,8 @@ from sim.support.atomic_file import write_atomically
 
 SECOND = 1e6  # [µs]
 MOST = 255  # [entries] whose number takes one byte
+PREFACE = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
+PACKING = {"double": "<d", "float": "<f", "int64": "<q", "boolean": "<?"}  # type of an entry
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +72,8 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
         (record for group in groups for record in _list_records(group, ids)),
         key=lambda record: record[0],
     )
-    head = MAGIC + struct.pack("<HI", MAJOR << 8, 0)
     try:
-        write_atomically(path, head + b"".join(_pack(*one) for one in (*starts, *records)))
+        write_atomically(path, PREFACE + b"".join(_pack(*one) for one in (*starts, *records)))
     except OSError as error:
         raise BadRequest(
             f"cannot be written ({error.strerror or error})",
@@ -95,3 +96,62 @@ def _list_records(group: SignalGroup, ids: Mapping[str, int]) -> Iterator[tuple[
 def _pack(time: int, number: int, payload: bytes) -> bytes:
     """One record: four bytes for its size, eight for its time, one for the entry's number."""
     return struct.pack("<BBIQ", 0b01111100, number, len(payload), time) + payload
+
+
+class SignalRecorder:
+    """A WPILOG file to which values are added as they come.
+
+    Args:
+        path: the file, which must not exist.
+
+    Raises:
+        BadRequest: it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._numbers: dict[tuple[str, str], int] = {}
+        try:
+            self._stream = path.open("xb")
+        except OSError as error:
+            raise BadRequest(
+                f"cannot be written ({error.strerror or error})",
+                where=str(path),
+                advice="Choose a folder that exists and that you may write to.",
+            ) from None
+        self._stream.write(PREFACE)
+
+    def record(
+        self, name: str, kind: str, time: int, value: float | str, *, metadata: str = ""
+    ) -> None:
+        """Add a value.
+
+        Args:
+            name: of the entry; the first value of a name and a type starts one.
+            kind: type of the entry: ``string``, or one of ``PACKING``.
+            time: [µs].
+            value: what it is.
+            metadata: of the entry.
+        """
+        if (name, kind) not in self._numbers:
+            self._numbers[name, kind] = number = len(self._numbers) + 1
+            said = start_payload(Start(number, name, kind, metadata))
+            self._stream.write(_pack_long(time, 0, said))
+        if isinstance(value, str):
+            payload = value.encode("utf-8", "replace")
+        else:
+            payload = struct.pack(PACKING[kind], value)
+        self._stream.write(_pack_long(time, self._numbers[name, kind], payload))
+
+    def flush(self) -> None:
+        """Let others read what was recorded so far."""
+        self._stream.flush()
+
+    def close(self) -> None:
+        """End the file."""
+        self._stream.close()
+
+
+def _pack_long(time: int, number: int, payload: bytes) -> bytes:
+    """One record; four bytes for its size and for the entry's number, eight for its time."""
+    return struct.pack("<BIIQ", 0b01111111, number, len(payload), time) + payload

@@ -44,12 +44,54 @@ def load_wanted_records(path: Path, wanted: Wanted) -> Records:
     Raises:
         UnreadableFile: it is empty, foreign, of a later version, or ends before its first record.
     """
+    kept = _Kept(wanted)
+    end, size = _read_windows(path, kept, at=0)
+    found = kept.records(path, size=size, end=end)
+    kept.clear()
+    return found
+
+
+class GrowingFile:
+    """The wanted records of a file that is still being written, read on from where it stopped.
+
+    Args:
+        path: the file.
+        wanted: whether the values of an entry are.
+    """
+
+    def __init__(self, path: Path, wanted: Wanted) -> None:
+        self.path = path
+        self._kept = _Kept(wanted)
+        self._end = 0
+
+    def read_on(self) -> Records:
+        """All records so far; a last one that is not whole yet is read the next time.
+
+        Raises:
+            UnreadableFile: it is empty, foreign, of a later version, or ends before its first
+                record.
+        """
+        self._end, size = _read_windows(self.path, self._kept, at=self._end)
+        return self._kept.records(self.path, size=size, end=self._end)
+
+    @property
+    def read_until(self) -> int:
+        """[bytes] up to where whole records have been read."""
+        return self._end
+
+
+def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
+    """Keep the wanted records from an offset on; 0 begins behind the preface.
+
+    Returns:
+        The offset behind the last whole record, and the length of the file.
+    """
     with path.open("rb") as stream:
         size = stream.seek(0, 2)
-        stream.seek(0)
-        opening = File(bytearray(stream.read(PREFACE)) + bytearray(PAD))
-        at = first_record(opening, size=size, where=str(path))
-        kept = _Kept(wanted)
+        if at == 0:
+            stream.seek(0)
+            opening = File(bytearray(stream.read(PREFACE)) + bytearray(PAD))
+            at = first_record(opening, size=size, where=str(path))
         window = FIRST
         while at < size:
             file = _window(stream, at, window)
@@ -64,7 +106,7 @@ def load_wanted_records(path: Path, wanted: Wanted) -> Records:
             kept.add(file, start, base=at)
             at += end
             window = min(2 * window, LARGEST)
-    return kept.records(path, size=size, end=at)
+    return at, size
 
 
 def _window(stream: BinaryIO, at: int, length: int) -> File:
@@ -135,7 +177,11 @@ class _Kept:
     def records(self, path: Path, *, size: int, end: int) -> Records:
         """All that was kept."""
         table = np.concatenate([np.zeros((5, 0), dtype=np.int64), *self.pieces], axis=1)
-        self.pieces.clear()
+        self.pieces[:] = [table]
         file = File(bytearray().join([*self.payloads, bytes(PAD)]))
-        self.payloads.clear()
         return Records(path, size, file, table[0], end, RecordHeaders(*table[1:]))
+
+    def clear(self) -> None:
+        """Let go of what was kept."""
+        self.pieces.clear()
+        self.payloads.clear()

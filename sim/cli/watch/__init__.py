@@ -1,0 +1,221 @@
+"""``sysid watch``: the gains of a robot whose tests are still being run."""
+
+import json
+import sys
+import tempfile
+import threading
+import time
+from contextlib import ExitStack, suppress
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from sim.cli.fit.against import check_against_physics, compare_directions_alone
+from sim.cli.open import open_browser, page_options
+from sim.cli.options import FILE, as_json, read_file_parts, reading_options, velocity_options
+from sim.core.vocabulary import FOUR_TESTS
+from sim.feedback import PRESETS
+from sim.support.command_line import DONE
+
+if TYPE_CHECKING:
+    from sim.cli.open.session import Session
+    from sim.cli.watch.live_fit import LiveFit, WatchUpdate
+    from sim.cli.watch.recordings import Source
+
+PAUSE = 0.2  # [s] between looks; a program of WPILib writes its log out four times a second
+
+
+@click.command()
+@click.argument("place", metavar="[FILE|FOLDER]", type=FILE, required=False)
+@click.option(
+    "--nt",
+    metavar="ADDRESS",
+    help="Follow NetworkTables instead: of localhost, of 10.12.34.2, or of team 1234.",
+)
+@click.option(
+    "--save", type=FILE, metavar="FOLDER", help="Keep what NetworkTables sent, as .wpilog files."
+)
+@click.option("--page", is_flag=True, help="Show the same live on the page of `sysid open`.")
+@page_options
+@reading_options
+@velocity_options
+@as_json
+def watch(
+    place: Path | None,
+    *,
+    nt: str | None,
+    save: Path | None,
+    page: bool,
+    port: int,
+    no_browser: bool,
+    type_: str | None,
+    units: str | None,
+    motor: str | None,
+    pick: int | None,
+    velocity_scale: float,
+    ignore_velocity: bool,
+    as_json: bool,
+    **entries: str | None,
+) -> int:
+    """Fit a robot's log while the tests are run, and say after each what to do next.
+
+    Give the .wpilog that a robot or a simulation is writing, or the folder in which it will appear;
+    or --nt ADDRESS to follow NetworkTables. Ctrl-C ends it and prints the gains.
+
+    For example: sysid watch logs
+    """
+    if (place is None) == (nt is None):
+        raise click.UsageError("Give a log or a folder, or --nt ADDRESS: one of them.")
+    if save is not None and nt is None:
+        raise click.UsageError("--save keeps what NetworkTables sends, so it needs --nt.")
+    from sim.cli.watch.live_fit import LiveFit  # noqa: PLC0415 - --help must not wait for it
+
+    read = partial(
+        read_file_parts, units=units, type=type_, motor=motor, entries=entries,
+        velocity=None if ignore_velocity else velocity_scale, pick=pick,
+    )  # fmt: skip
+    with ExitStack() as ends:
+        source = _open_source(place, nt=nt, save=save, state=entries["state"], ends=ends)
+        live = LiveFit(source, read, type=type_ or "")
+        session = _open_page(port, ends=ends, no_browser=no_browser) if page else None
+        if not as_json:
+            click.echo(f"Run {', '.join(FOUR_TESTS)}, in any order.\nCtrl-C here ends it.")
+            sys.stdout.flush()
+        with suppress(KeyboardInterrupt):
+            _load_fit()
+            _follow(live, session, as_json=as_json)
+        if not as_json:
+            _show_end(live)
+    return DONE
+
+
+def _open_source(
+    place: Path | None, *, nt: str | None, save: Path | None, state: str | None, ends: ExitStack
+) -> "Source":
+    """What is to be followed; it is closed with the stack.
+
+    Raises:
+        Refusal: it is not there, or needs a package that is not.
+    """
+    if place is not None:
+        from sim.cli.watch.recordings import FileSource  # noqa: PLC0415 - reads formats
+
+        return FileSource(place, state=state)
+    from sim.cli.watch.network_tables import NetworkTablesSource  # noqa: PLC0415 - only with --nt
+
+    folder = save or _make_temporary_folder("sysid-watch-", ends)
+    source = NetworkTablesSource(nt or "", folder=folder, state=state)
+    ends.callback(source.close)
+    return source
+
+
+def _open_page(port: int, *, ends: ExitStack, no_browser: bool) -> "Session":
+    """Serve the page of `sysid open` until the stack is closed.
+
+    Raises:
+        BadRequest: the port is taken.
+    """
+    from sim.cli.open.server import PageServer  # noqa: PLC0415 - only with --page
+    from sim.cli.open.session import LiveView, Session  # noqa: PLC0415 - the same
+
+    session = Session(_make_temporary_folder("sysid-open-", ends))
+    session.live = LiveView("starting", dict.fromkeys(FOUR_TESTS, 0))
+    server = ends.enter_context(PageServer(session, port=port))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    ends.callback(server.shutdown)
+    click.echo(f"The page is at {server.address}", err=True)
+    session.import_everything()
+    if not no_browser:
+        open_browser(server.address)
+    return session
+
+
+def _make_temporary_folder(prefix: str, ends: ExitStack) -> Path:
+    temporary = tempfile.TemporaryDirectory(prefix=prefix, ignore_cleanup_errors=True)
+    return Path(ends.enter_context(temporary))
+
+
+def _load_fit() -> None:
+    """Load what the first fit needs, the compiled engine meanwhile."""
+    import sim.fit.output_error  # noqa: PLC0415 - that is the point of it
+    import sim.inspect.detect_faults  # noqa: PLC0415 - the same
+    import sim.report.next_test  # noqa: F401, PLC0415 - the same
+    from sim.physics.engine import load_engine  # noqa: PLC0415 - the same
+
+    threading.Thread(target=load_engine, daemon=True).start()
+
+
+def _follow(live: "LiveFit", session: "Session | None", *, as_json: bool) -> None:
+    """Look again and again; only an exception ends it."""
+    status = ""
+    while True:
+        update = live.look()
+        if update is not None:
+            show = _show_json if as_json else _show_update
+            show(update)
+        if session is not None:
+            _renew_page(session, live)
+        if live.source.status != status:
+            status = live.source.status
+            if not as_json:
+                click.echo(status)
+        sys.stdout.flush()
+        if update is None:
+            time.sleep(PAUSE)
+
+
+def _renew_page(session: "Session", live: "LiveFit") -> None:
+    """Show on the page what has ended since, and what to do next."""
+    from sim.cli.open.session import LiveView  # noqa: PLC0415 - only with --page
+
+    for one in live.take_renewed():
+        session.renew(one, one.path, one.logs)
+    update = live.last
+    log = None if update is None else update.log
+    counts = {test: len(log.runs_of_test(test)) if log else 0 for test in FOUR_TESTS}
+    session.live = LiveView(live.source.status, counts, "" if update is None else update.advice)
+
+
+def _show_update(update: "WatchUpdate") -> None:
+    """Print a block: which tests have ended, the gains so far, and what to do next."""
+    from sim.report.fit_terminal import format_gains  # noqa: PLC0415 - --help must not wait for it
+    from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - the same
+
+    log, pooled = update.log, update.pooled
+    runs = 0 if log is None else len(log.runs)
+    click.echo(f"\n{', '.join(update.tests)} ended; {runs} run{'s' * (runs != 1)} so far.")
+    if pooled is None:
+        click.echo(f"  no gains yet: {update.refusal}")
+    else:
+        for name, value, error, unit in format_gains(pooled.found):
+            click.echo(f"  {name} {value} {unit}, one standard error {error}")
+        click.echo(f"  {gain_verdict(pooled.found, log)}")
+    click.echo(f"  Next: {update.advice}")
+
+
+def _show_json(update: "WatchUpdate") -> None:
+    click.echo(json.dumps(update.to_json(), allow_nan=False))
+
+
+def _show_end(live: "LiveFit") -> None:
+    """Print the last gains as ``sysid fit`` does."""
+    update = live.last
+    click.echo("")
+    if update is None or update.log is None or update.pooled is None:
+        click.echo(f"There are no gains: {update.refusal if update else 'no test has ended.'}")
+        return
+    from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415 - only now
+    from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - the same
+
+    preset = PRESETS["default"]
+    found = check_against_physics(update.pooled.found, update.log, parts=None)
+    found, notes = compare_directions_alone(found, update.log, patient=False)
+    tried = try_feedback_gains(found := found.in_log_units(), preset, own=None)
+    found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
+    show_fit(
+        found, preset=preset, title=", ".join(map(str, update.paths)), log=update.log,
+        tried=tried, notes=(*notes, *update.pooled.notes),
+    )  # fmt: skip

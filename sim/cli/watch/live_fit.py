@@ -1,0 +1,165 @@
+"""The fit of a robot whose tests are still being run, renewed after each of them."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts, parts_of_files
+from sim.cli.watch.recordings import Recording, Source, split_finished
+from sim.core.errors import Refusal
+from sim.core.log import Log
+
+if TYPE_CHECKING:
+    from sim.cli.fit.parts import PooledParts
+
+GROWING = ("truncated", "unfinished-run")  # doubts that say no more than that a file still grows
+
+Reader = Callable[[Path], Mapping[str, Log]]
+
+
+@dataclass(frozen=True, eq=False)
+class WatchUpdate:
+    """What is known after a test.
+
+    Args:
+        tests: those that have ended since the last update, in their order.
+        parts: the logs of all parts so far, by name; empty where none can be read.
+        pooled: their fit, in the unit of the log; None where there is none yet.
+        refusal: why there is none; None if there is one.
+        advice: what to do next.
+        paths: the files they come from.
+    """
+
+    tests: tuple[str, ...]
+    parts: Mapping[str, Log]
+    pooled: "PooledParts | None"
+    refusal: Refusal | None
+    advice: str
+    paths: tuple[Path, ...]
+
+    @property
+    def log(self) -> Log | None:
+        """All runs of all parts."""
+        return joined_log(self.parts) if self.parts else None
+
+    def to_json(self) -> dict[str, Any]:
+        """As ``sysid watch --json`` prints it."""
+        from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - once it is needed
+
+        log = self.log
+        said: dict[str, Any] = {
+            "tests": list(self.tests),
+            "recorded": [] if log is None else [run.test for run in log.runs],
+            "files": [str(path) for path in self.paths],
+            "next": self.advice,
+            "refusal": None if self.refusal is None else str(self.refusal),
+            "verdict": "",
+            "fit": None,
+        }
+        if self.pooled is not None:
+            said["fit"] = self.pooled.found.to_json()
+            said["verdict"] = gain_verdict(self.pooled.found, log)
+        return said
+
+
+class LiveFit:
+    """Follows a source, and fits what it has whenever a test ends.
+
+    Args:
+        source: where the recordings come from.
+        read: reads a file, a log for each motor.
+        type: of the mechanism; empty takes what the log says.
+    """
+
+    def __init__(self, source: Source, read: Reader, *, type: str = "") -> None:  # noqa: A002 - the field's own word
+        self.source = source
+        self.last: WatchUpdate | None = None
+        self._read, self._type = read, type
+        self._renewed: dict[Recording, None] = {}
+
+    def take_renewed(self) -> tuple[Recording, ...]:
+        """The recordings whose logs were read anew since this was last asked."""
+        renewed = tuple(self._renewed)
+        self._renewed.clear()
+        return renewed
+
+    def look(self) -> WatchUpdate | None:
+        """What is new since the last look; None if no test has ended.
+
+        Raises:
+            Refusal: what is followed is no log, or several entries name the same tests.
+        """
+        recordings = tuple(self.source.look())
+        refusals: list[Refusal] = []
+        ended = [test for one in recordings for test in self._follow(one, refusals)]
+        if not ended:
+            return None
+        self.last = self._renew(recordings, tuple(ended), refusals)
+        return self.last
+
+    def _follow(self, one: Recording, refusals: list[Refusal]) -> list[str]:
+        """Read a recording anew if tests in it have ended; their names."""
+        try:
+            tests = one.growing.list_tests()
+        except FileNotFoundError:  # it is being renamed, or was removed
+            return []
+        finished, running = split_finished(tests)
+        new = [interval.test for interval in finished if interval not in one.finished]
+        if new:
+            one.finished = finished
+            try:
+                one.logs = _drop_running(self._read(one.path), since=running)
+                self._renewed[one] = None
+            except Refusal as refusal:
+                refusals.append(refusal)
+        return new
+
+    def _renew(
+        self, recordings: Sequence[Recording], ended: tuple[str, ...], refusals: Sequence[Refusal]
+    ) -> WatchUpdate:
+        """Fit and inspect all that is there."""
+        from sim.fit import fit  # noqa: PLC0415 - the command says where it is before it loads this
+        from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - the same
+        from sim.report.next_test import advise_next  # noqa: PLC0415 - the same
+
+        files = [(one.path, one.logs) for one in recordings if one.logs]
+        paths = tuple(path for path, _ in files)
+        if not files:
+            return WatchUpdate(ended, {}, None, refusals[0], refusals[0].advice, paths)
+        parts = parts_of_files(files)
+        pooled, refusal, found = None, None, None
+        try:
+            log = joined_log(parts)
+            pooled = fit_parts(
+                parts, partial(fit, type=self._type), kind=kind_of_parts(parts, len(files))
+            )
+            found = pooled.found
+            pooled = replace(pooled, found=found.in_log_units())
+        except Refusal as why:
+            refusal = why
+        advice = (
+            refusals[0].advice
+            if refusals
+            else advise_next(log, found=found, inspection=inspect(log), last=ended)
+        )
+        return WatchUpdate(ended, parts, pooled, refusal, advice, paths)
+
+
+def _drop_running(logs: Mapping[str, Log], *, since: float) -> dict[str, Log]:
+    """The logs without the run that goes on, and without doubts that only say so.
+
+    Args:
+        logs: the log of each motor.
+        since: [s] when that run began; infinite if none goes on.
+    """
+    kept = {
+        name: replace(
+            log,
+            runs=tuple(run for run in log.runs if run.time[0] < since),
+            doubts=tuple(doubt for doubt in log.doubts if doubt.code not in GROWING),
+        )
+        for name, log in logs.items()
+    }
+    return {name: log for name, log in kept.items() if log.runs}

@@ -1,0 +1,249 @@
+"""NetworkTables of a robot or a simulation, written down as logs while they come in.
+
+What is followed is a file in the end, whoever writes it: every value that arrives is recorded with
+the robot's own time, counted from the beginning of the recording. So `sysid fit` reads the same
+numbers from the same file later.
+
+NetworkTables sends a value when it changes, so a constant voltage comes once. Logs that hold only
+changes are read by that rule (``sim/io/entries/clock.py``): a value holds until the next one.
+"""
+
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from sim.cli.watch.recordings import SUFFIX, Recording
+from sim.core.errors import BadRequest
+from sim.core.vocabulary import TESTS
+from sim.io.entries.entry import STRING
+from sim.io.entries.names import find_test_name
+from sim.io.entries.state import FILLERS
+from sim.io.formats.wpilog.signals import SignalRecorder
+
+TYPES = {"double": "double", "float": "float", "int": "int64", "boolean": "boolean", STRING: STRING}
+"""Type of a topic -> of an entry; arrays and structures hold no signal."""
+PORT = 5810  # of NetworkTables 4
+CUT = "interrupted"  # stands where a test began whose end nobody saw, and names no test
+LARGEST_TEAM = 25599  # 10.255.99.2
+"""The last team number that an address has room for."""
+
+
+class NetworkTablesSource:
+    """Follows NetworkTables 4, a recording for each connection.
+
+    A connection that was lost and a robot program that started again, which loses it too, begin a
+    new recording. The one before stays as it is. A test that was running then is not in it: its
+    first moment is marked as no test, and its samples stay in the file.
+
+    Args:
+        address: ``localhost``, ``10.12.34.2``, either with ``:PORT``, or the number of a team.
+        folder: where the recordings are written; it is made.
+        state: the entry that names the tests; None looks for it.
+
+    Raises:
+        BadRequest: no pyntcore, or the folder or the address cannot be used.
+    """
+
+    def __init__(self, address: str, *, folder: Path, state: str | None = None) -> None:
+        self._ntcore = _import_ntcore()
+        self._server = _split_address(address)
+        _make_folder(folder)
+        self._address, self._folder, self._state = address, folder, state
+        self._recordings: list[Recording] = []
+        self._recorder: _TopicRecorder | None = None
+        self._connected = False
+        self._since = 0  # [µs] of the robot's clock, when the connection began
+        self._client = _Client(self._ntcore, *self._server)
+
+    @property
+    def status(self) -> str:
+        """What it waits for or follows."""
+        if self._connected:
+            return f"following NetworkTables of {self._address}"
+        again = " again" if self._recordings else ""
+        return f"waiting for NetworkTables of {self._address}{again}"
+
+    def look(self) -> Sequence[Recording]:
+        """All recordings so far, with what has arrived since the last look."""
+        flags, lost = self._ntcore.EventFlags, False
+        for event in self._client.poller.readQueue():
+            if event.is_(flags.kConnected):
+                self._connected = True
+            elif event.is_(flags.kDisconnected):
+                self._connected, lost = False, True
+                self._end_recording()
+            elif isinstance(event.data, self._ntcore.TimeSyncEventData):
+                self._note_begin(event.data)
+            elif isinstance(event.data, self._ntcore.ValueEventData):
+                self._record(event.data.topic, event.data.value)
+        if lost and not self._connected:
+            # a client drops values that are older than what it has, and a robot's clock begins anew
+            self._client.close()
+            self._client = _Client(self._ntcore, *self._server)
+        if self._recorder is not None:
+            self._recorder.flush()
+        return self._recordings
+
+    def close(self) -> None:
+        """Hang up."""
+        self._end_recording()
+        self._client.close()
+
+    def _note_begin(self, sync: Any) -> None:  # noqa: ANN401 - ntcore ships no types
+        """Note what the robot's clock said when the connection began."""
+        if sync.valid and self._recorder is None:
+            now = int(self._ntcore.Value.makeDouble(0.0).time())
+            self._since = now + int(sync.serverTimeOffset)
+
+    def _record(self, topic: Any, value: Any) -> None:  # noqa: ANN401 - ntcore ships no types
+        kind = TYPES.get(topic.getTypeString())
+        if kind is None:
+            return
+        name, time = topic.getName(), int(value.server_time())
+        if self._recorder is None:
+            path = _free_path(self._folder)
+            self._recorder = _TopicRecorder(path, since=self._since or time)
+            self._recordings.append(Recording(path, state=self._state))
+        self._recorder.record(name, kind, time, value.value(), topic.getProperties())
+
+    def _end_recording(self) -> None:
+        """Close the file; a test that is running does not count."""
+        if self._recorder is not None:
+            self._recorder.close()
+            self._recorder = None
+
+
+class _Client:
+    """A client of NetworkTables that is sent every value of every topic.
+
+    Args:
+        ntcore: the binding.
+        host: the server, or the number of a team.
+        port: of the server.
+    """
+
+    def __init__(self, ntcore: Any, host: str, port: int) -> None:  # noqa: ANN401 - it ships no types
+        self._destroy = ntcore.NetworkTableInstance.destroy
+        self._instance = ntcore.NetworkTableInstance.create()
+        self._subscriber = ntcore.MultiSubscriber(
+            self._instance, [""], ntcore.PubSubOptions(sendAll=True, keepDuplicates=True)
+        )
+        self.poller = ntcore.NetworkTableListenerPoller(self._instance)
+        self.poller.addListener(self._subscriber, ntcore.EventFlags.kValueAll)
+        self.poller.addConnectionListener(True)  # noqa: FBT003 - RobotPy takes it by position
+        self.poller.addTimeSyncListener(True)  # noqa: FBT003 - the same
+        self._instance.startClient4("sysid-watch")
+        if host.isdecimal():
+            self._instance.setServerTeam(int(host), port)
+        else:
+            self._instance.setServer(host, port)
+
+    def close(self) -> None:
+        """Hang up."""
+        self._instance.stopClient()
+        self.poller.close()
+        self._subscriber.close()
+        self._destroy(self._instance)
+
+
+class _TopicRecorder:
+    """Writes the values of one connection, in the order of each topic's own times.
+
+    Args:
+        path: the file.
+        since: [µs] of the robot's clock, when the recording begins; what was there before is
+            recorded as of then.
+    """
+
+    def __init__(self, path: Path, *, since: int) -> None:
+        self._file = SignalRecorder(path)
+        self._since = since
+        self._tests: dict[str, tuple[int, str]] = {}  # topic -> since when it names which test
+
+    def record(self, name: str, kind: str, time: int, value: float | str, properties: Any) -> None:  # noqa: ANN401 - ntcore ships no types
+        """Write a value down, unless it names a test whose beginning nobody saw."""
+        if isinstance(value, str):
+            test = find_test_name(value, fillers=FILLERS) or value
+            if test in TESTS and time < self._since:
+                return
+            if self._tests.get(name, (0, ""))[1] != test:
+                self._tests[name] = (self._count(time), test)
+        metadata = json.dumps({"properties": properties, "source": "NT"})  # as DataLogManager
+        self._file.record(_entry_name(name), kind, self._count(time), value, metadata=metadata)
+
+    def _count(self, time: int) -> int:
+        """[µs] since the recording began."""
+        return max(time - self._since, 0)
+
+    def flush(self) -> None:
+        """Let others read what was recorded so far."""
+        self._file.flush()
+
+    def close(self) -> None:
+        """End the file, and mark the beginning of a test that was cut off."""
+        for name, (since, test) in self._tests.items():
+            if test in TESTS:
+                self._file.record(_entry_name(name), STRING, since, CUT)
+        self._file.close()
+
+
+def _entry_name(topic: str) -> str:
+    """As WPILib's DataLogManager names a topic in a log."""
+    return f"NT:{topic}"
+
+
+def _import_ntcore() -> Any:  # noqa: ANN401 - ntcore ships no types
+    """The binding of NetworkTables.
+
+    Raises:
+        BadRequest: it is not installed.
+    """
+    try:
+        import ntcore  # noqa: PLC0415 - an extra
+    except ImportError:
+        raise BadRequest(
+            "following NetworkTables needs pyntcore",
+            advice='Install it with: pip install "sysid-course[live]". A .wpilog file that grows '
+            "can be followed without it.",
+        ) from None
+    return ntcore
+
+
+def _split_address(address: str) -> tuple[str, int]:
+    """Host or team, and port.
+
+    Raises:
+        BadRequest: it is none.
+    """
+    host, _, port = address.partition(":")
+    if not re.fullmatch(r"[\w.-]+", host) or (port and not port.isdecimal()):
+        raise BadRequest(
+            f"{address!r} is no address",
+            advice="Give localhost, an address like 10.12.34.2, or the number of your team.",
+        )
+    if host.isdecimal() and not 0 < int(host) <= LARGEST_TEAM:
+        raise BadRequest(
+            f"there is no team {host}", advice="Give localhost, or the number of your team."
+        )
+    return host, int(port or PORT)
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadRequest(
+            f"this folder cannot be made ({error.strerror or error})",
+            where=str(folder),
+            advice="Choose another folder for --save.",
+        ) from None
+
+
+def _free_path(folder: Path) -> Path:
+    """A name that no file in the folder has, the first of which is ``networktables-1.wpilog``."""
+    number = 1
+    while (path := folder / f"networktables-{number}{SUFFIX}").exists():
+        number += 1
+    return path

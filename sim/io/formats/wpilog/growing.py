@@ -1,0 +1,58 @@
+"""A WPILOG file that a robot is still writing: which tests it holds so far."""
+
+from contextlib import suppress
+from pathlib import Path
+
+from sim.core.errors import MissingSignal
+from sim.io.entries.entry import STRING
+from sim.io.entries.state import RunInterval, find_run_intervals, find_state_entries
+from sim.io.format import ReadOptions
+from sim.io.formats.wpilog.contents import read_contents
+from sim.io.formats.wpilog.records import PREFACE
+from sim.io.formats.wpilog.windows import GrowingFile
+
+
+class GrowingLog:
+    """The tests of a file that grows.
+
+    Only texts are read, as they name the tests, and only what is new since the last look.
+
+    Args:
+        path: the file; it may be empty.
+        state: the entry that names the tests; None looks for it.
+    """
+
+    def __init__(self, path: Path, *, state: str | None = None) -> None:
+        self._asked = ReadOptions(entries={"state": state} if state else {})
+        self._file = GrowingFile(path, lambda entry: entry.type == STRING)
+
+    @property
+    def path(self) -> Path:
+        """Where the file is; it may be renamed while it grows."""
+        return self._file.path
+
+    @path.setter
+    def path(self, path: Path) -> None:
+        self._file.path = path
+
+    def list_tests(self) -> tuple[RunInterval, ...]:
+        """The tests so far, by their beginning; one that has not ended yet ends at ``FOREVER``.
+
+        Raises:
+            UnreadableFile: the file is foreign.
+            BadRequest: several entries name the tests of one mechanism.
+        """
+        if self.path.stat().st_size <= PREFACE:
+            return ()
+        entries = read_contents(self._file.read_on()).entries
+        where = str(self.path)
+        with suppress(MissingSignal):
+            states = find_state_entries(entries, asked=self._asked, where=where)
+            found = [one for state in states for one in find_run_intervals(state, where=where)[0]]
+            return tuple(sorted(found, key=lambda one: one.begin))
+        return ()
+
+    @property
+    def was_replaced(self) -> bool:
+        """Whether the file is shorter than what was read of it, so that it is another one."""
+        return self.path.stat().st_size < self._file.read_until

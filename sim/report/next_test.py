@@ -1,0 +1,148 @@
+"""One sentence about what to do after a test: repeat it, run another one, or stop.
+
+What is wrong with the last run goes first, as it is repeated while the robot still stands there.
+Then come the tests that are missing, and then what the gains need. The faults are those of
+``sysid inspect``, the rest is that of the verdict.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from sim.core.log import LEAST_STEP, Log, Run
+from sim.core.vocabulary import FOUR_TESTS
+from sim.fit.result import Fit
+from sim.inspect.detect_faults import Inspection
+from sim.inspect.fault import Damage
+from sim.inspect.launch import step_start
+from sim.report.gain_verdicts import list_gain_advice
+
+SETTLES = 3.0  # [timescales] in which a step has almost reached its speed, as the lessons plan it
+FEWEST = 2  # [samples] for which a limit holds a voltage down
+FINE = 0.1  # [V] to which a step is advised
+TOO_SHORT = ("little-motion", "short-rise")  # what inspect doubts in a run, by code
+ENOUGH = "Enough: every gain is usable."
+
+
+def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Sequence[str]) -> str:
+    """What to do next.
+
+    Args:
+        log: all runs so far, in the order they were recorded.
+        found: the fit of them; None where they cannot be fitted yet.
+        inspection: what is wrong with the log.
+        last: the tests that have ended since the advice before.
+    """
+    for test in last:
+        index = max((k for k, run in enumerate(log.runs) if run.test == test), default=None)
+        if index is None:
+            return f"Repeat {test}: its log holds no motion."
+        said = _judge_run(index, log, found=found, inspection=inspection)
+        if said:
+            return said
+    missing = list_missing_tests(log)
+    if missing:
+        return f"{_enumerate(missing)} {'is' if len(missing) == 1 else 'are'} missing."
+    if found is None:
+        return "Run `sysid inspect` on the log: all four tests are there, and give no gains."
+    grave = [doubt for doubt in found.doubts if doubt.grave]
+    if grave:
+        return grave[0].message
+    advice = list_gain_advice(found, log)
+    return f"{_capital('; '.join(advice))}." if advice else ENOUGH
+
+
+def list_missing_tests(log: Log) -> tuple[str, ...]:
+    """Those of the four tests of SysId of which a log has no run."""
+    return tuple(test for test in FOUR_TESTS if not log.runs_of_test(test))
+
+
+def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspection) -> str:
+    """Why a run has to be repeated, and how; empty if it need not."""
+    run = log.runs[index]
+    faults = [one for one in inspection.faults if one.where.run == index]
+    stop = next((one for one in faults if one.fault == "hard-stop"), None)
+    if stop is not None and run.kind == "dynamic":
+        return _repeat_within_travel(run, stop, found=found)
+    if faults:
+        worst = max(faults, key=lambda one: one.confidence)
+        return f"Repeat {run.test}: {worst.evidence} {worst.advice}"
+    limited = find_voltage_limit(run)
+    if limited is not None:
+        lasts, volts = limited
+        return (
+            f"{run.test} met a current limit or a weak battery: for {lasts * 1000.0:.0f} ms the "
+            f"motor got less than the step, {volts:.1f} V at first. Repeat it with "
+            f"{_below(volts):g} V."
+        )
+    for doubt in inspection.doubts:
+        if doubt.code in TOO_SHORT and f"{run.test} " in doubt.message:
+            return f"Repeat {run.test}: {doubt.message}"
+    return ""
+
+
+def find_voltage_limit(run: Run) -> tuple[float, float] | None:
+    """How long a limit held the voltage of a step down after it came on, and to what at first.
+
+    The command of a step is constant. Where the voltage at the motor is lower at first, by as much
+    as would make a step of the command (``LEAST_STEP``), the current was limited or the battery
+    gave way. One low reading alone may have been taken while the step came on.
+
+    Returns:
+        [s] and [V]; None where nothing held it down, or the run is no step.
+    """
+    if run.kind != "dynamic" or not len(run):
+        return None
+    first = step_start(run)
+    size = np.abs(run.voltage[first:])
+    free = size > (1.0 - LEAST_STEP) * np.percentile(size, 90)
+    count = int(np.argmax(free))
+    if count < FEWEST:
+        return None
+    return float(run.time[first + count] - run.time[first]), float(size[:count].min())
+
+
+def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
+    """Advice for a step that ended at a stop: how soon, and a step that settles before it."""
+    first = step_start(run)
+    after = max(stop.where.start - float(run.time[first]), 0.0)
+    most = float(np.abs(run.voltage).max())
+    way = abs(float(np.interp(stop.where.start, run.time, run.position) - run.position[first]))
+    volts = 0.5 * most if found is None else settled_step(found.gains, way)
+    volts = min(volts, 0.5 * most) if not 0.0 < volts < most else volts
+    return (
+        f"{run.test} reached its end after {after * 1000.0:.0f} ms. Repeat it with "
+        f"{_below(volts):g} V, or let go earlier."
+    )
+
+
+def settled_step(gains: Mapping[str, float], way: float) -> float:
+    """[V] the largest step that has almost reached its speed within some way.
+
+    From rest, x(t) = v·(t - τ·(1 - exp(-t/τ))) with τ = kA/kV and v = (V - kS)/kV, solved for V at
+    t = ``SETTLES``·τ.
+
+    Args:
+        gains: in SI.
+        way: [m or rad].
+    """
+    kv, ka = gains["kV"], gains["kA"]
+    if not (kv > 0.0 and ka > 0.0):
+        return 0.0
+    reach = ka / kv * (SETTLES - 1.0 + math.exp(-SETTLES))  # [s] per unit of the final speed
+    return max(gains["kS"], 0.0) + kv * way / reach
+
+
+def _below(volts: float) -> float:
+    """[V] the next lower step that one would type."""
+    return max(math.floor(volts / FINE + 1e-9) * FINE, FINE)
+
+
+def _enumerate(names: Sequence[str]) -> str:
+    """Names as a sentence lists them."""
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

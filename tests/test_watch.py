@@ -1,0 +1,337 @@
+"""`sysid watch`: a log that grows is fitted after each test, as `sysid fit` would fit it."""
+
+import os
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.cli.options import read_file_parts
+from sim.cli.watch.live_fit import LiveFit
+from sim.cli.watch.recordings import FileSource
+from sim.core.errors import UnreadableFile
+from sim.core.log import Run
+from sim.core.vocabulary import FOUR_TESTS
+from sim.fit import fit
+from sim.inspect.contaminate import contaminate
+from sim.inspect.detect_faults import inspect
+from sim.io import read, write
+from sim.io.entries.state import FOREVER
+from sim.io.formats.wpilog.growing import GrowingLog
+from sim.report.next_test import ENOUGH, advise_next, find_voltage_limit, settled_step
+
+READ = partial(
+    read_file_parts, units=None, type=None, motor=None, entries={}, velocity=1.0, pick=None
+)
+SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
+
+
+def drive_log(seed=1, **routine):
+    """The four tests of a drivetrain."""
+    rng = np.random.default_rng(seed)
+    return simulate(MECHANISMS["drivetrain"], Routine(**{"step": 3.5, **routine}), rng=rng)
+
+
+@pytest.fixture(scope="module")
+def content(tmp_path_factory):
+    """The bytes of a log of four tests."""
+    path = tmp_path_factory.mktemp("whole") / "drive.wpilog"
+    write(drive_log(), path)
+    return path.read_bytes()
+
+
+def grow(path, content, share):
+    """Let a file have a share of its content."""
+    path.write_bytes(content[: round(share * len(content))])
+
+
+@settings(max_examples=20)
+@given(cuts=st.lists(st.floats(0.0, 1.0), max_size=6))
+def test_wherever_a_growing_log_stops_its_tests_are_those_of_the_whole(
+    tmp_path_factory, content, cuts
+):
+    path = tmp_path_factory.mktemp("grows") / "drive.wpilog"
+    path.write_bytes(b"")
+    growing = GrowingLog(path)
+    before = ()
+    for share in [*sorted(cuts), 1.0]:
+        with path.open("ab") as stream:
+            stream.write(content[path.stat().st_size : round(share * len(content))])
+        tests = growing.list_tests()
+        finished = [one for one in tests if one.end != FOREVER]
+        assert list(before) == finished[: len(before)]  # nothing that was complete changes
+        assert len(tests) - len(finished) <= 1
+        before = finished
+
+    assert [one.test for one in before] == list(FOUR_TESTS)
+    assert [one.begin for one in before] == [one.begin for one in GrowingLog(path).list_tests()]
+
+
+def test_each_test_is_reported_once_and_the_gains_are_those_of_the_file(tmp_path, content):
+    path = tmp_path / "drive.wpilog"
+    grow(path, content, 0.0)
+    live = LiveFit(FileSource(path), READ)
+    reported = []
+    for share in np.linspace(0.0, 1.0, 41):
+        grow(path, content, share)
+        update = live.look()
+        reported += [] if update is None else [(update.tests, update.advice)]
+
+    assert [tests for tests, _ in reported] == [(test,) for test in FOUR_TESTS]
+    assert reported[0][1] == "quasistatic-reverse, dynamic-forward and dynamic-reverse are missing."
+    assert reported[2][1] == "dynamic-reverse is missing."
+    assert reported[3][1] == ENOUGH
+    assert live.last.pooled.found.gains == fit(read(path)).in_log_units().gains
+    assert live.look() is None
+
+
+def test_a_test_that_still_runs_is_left_out(tmp_path, content):
+    whole = tmp_path / "whole.wpilog"
+    whole.write_bytes(content)
+    path = tmp_path / "drive.wpilog"
+    grow(path, content, 0.9)  # in the middle of the last test
+    live = LiveFit(FileSource(path), READ)
+    update = live.look()
+
+    assert [run.test for run in update.log.runs] == list(FOUR_TESTS[:3])
+    assert not {one.code for one in update.log.doubts} & {"truncated", "unfinished-run"}
+    log = read(whole)
+    expected = fit(replace(log, runs=log.runs[:3]))
+    assert update.pooled.found.gains == expected.in_log_units().gains
+
+
+def test_a_file_that_is_renamed_goes_on(tmp_path, content):
+    path = tmp_path / "FRC_TBD_1.wpilog"
+    grow(path, content, 0.6)
+    live = LiveFit(FileSource(path), READ)
+    first = live.look()
+    path = path.rename(tmp_path / "FRC_20260214_153000.wpilog")
+    with path.open("ab") as stream:
+        stream.write(content[path.stat().st_size :])
+    second = live.look()
+
+    assert len(first.tests) + len(second.tests) == 4
+    assert second.paths == (path,)
+    assert len(second.log.runs) == 4
+
+
+def test_a_file_that_begins_anew_adds_to_what_was_complete(tmp_path, content):
+    path = tmp_path / "robot.wpilog"
+    grow(path, content, 0.6)
+    live = LiveFit(FileSource(path), READ)
+    done = live.look().tests
+    other = tmp_path / "other" / "robot.wpilog"
+    other.parent.mkdir()
+    log = drive_log(seed=2)
+    write(replace(log, runs=log.runs[2:]), other)
+    grow(path, b"", 0.0)
+    assert live.look() is None
+    path.write_bytes(other.read_bytes())
+    update = live.look()
+
+    assert update.tests == FOUR_TESTS[2:]
+    assert [run.test for run in update.log.runs] == [*done, *FOUR_TESTS[2:]]
+
+
+def test_in_a_folder_logs_of_another_day_do_not_count(tmp_path, content):
+    old = tmp_path / "old.wpilog"
+    old.write_bytes(content)
+    live = LiveFit(FileSource(tmp_path), READ)
+    assert live.look() is None
+    assert live.source.status == f"waiting for a log that grows in {tmp_path}"
+    new = tmp_path / "new.wpilog"
+    grow(new, content, 0.6)
+    first = live.look()
+    restarted = tmp_path / "restarted.wpilog"
+    restarted.write_bytes(content)
+    second = live.look()
+
+    assert (first.paths, second.paths) == ((new,), (new, restarted))
+    assert second.tests == FOUR_TESTS
+    assert len(second.log.runs) == len(first.log.runs) + 4
+
+
+def test_what_is_not_there_or_is_no_log_is_refused(tmp_path):
+    with pytest.raises(UnreadableFile, match="no such file or folder"):
+        FileSource(tmp_path / "missing.wpilog")
+    foreign = tmp_path / "foreign.wpilog"
+    foreign.write_text("this is a text and no log at all", encoding="utf-8")
+    with pytest.raises(UnreadableFile, match="does not begin with WPILOG"):
+        LiveFit(FileSource(foreign), READ).look()
+
+
+# ---- what to do next
+
+
+def advise(log, *, last):
+    """The advice about a log whose last test is named."""
+    return advise_next(log, found=fit(log), inspection=inspect(log), last=(last,))
+
+
+def test_a_run_that_is_damaged_is_repeated_before_others_are_asked_for():
+    log = contaminate(
+        drive_log(), "encoder-slip", severity=1.0, test="quasistatic-forward", at=4.5,
+        rng=np.random.default_rng(1),
+    ).log  # fmt: skip
+    log = replace(log, runs=log.runs[:2])
+
+    assert advise(log, last="quasistatic-forward").startswith("Repeat quasistatic-forward: ")
+    assert advise(log, last="quasistatic-reverse") == (
+        "dynamic-forward and dynamic-reverse are missing."
+    )
+
+
+def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_through():
+    robot = replace(MECHANISMS["drivetrain"], stator=40.0)
+    log = simulate(robot, Routine(step=5.0), rng=np.random.default_rng(1), electrical=True)
+    run = log.runs_of_test("dynamic-forward")[0]
+    lasts, volts = find_voltage_limit(run)
+    said = advise(log, last="dynamic-forward")
+    freed = simulate(
+        robot, Routine(step=float(said.split()[-2])), rng=np.random.default_rng(1), electrical=True
+    )
+
+    assert 0.02 <= lasts < 0.5
+    assert volts < 3.0
+    assert said.startswith("dynamic-forward met a current limit or a weak battery: for ")
+    assert find_voltage_limit(freed.runs_of_test("dynamic-forward")[0]) is None
+
+
+def test_a_step_without_a_limit_is_not_one():
+    runs = [run for seed in range(5) for run in drive_log(seed).runs]
+    robot, rng = MECHANISMS["drivetrain"], np.random.default_rng(3)
+    sagging = simulate(robot, Routine(step=3.5), rng=rng, duty_cycle=True).runs
+
+    assert {find_voltage_limit(run) for run in [*runs, *sagging]} == {None}
+
+
+@pytest.mark.shared
+def test_the_steps_of_real_robots_without_a_limit_are_not_taken_for_limited(shared):
+    """Their first reading may lie between nothing and the step."""
+    logs = [read(path) for path in sorted((shared / "data" / "real").glob("*.json"))]
+    steps = [run for log in logs for run in log.runs if run.kind == "dynamic"]
+
+    assert len(steps) >= 8
+    assert {find_voltage_limit(run) for run in steps} == {None}
+
+
+def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():
+    log = drive_log()
+    log = contaminate(
+        log, "hard-stop", severity=1.0, test="dynamic-forward", at=0.4,
+        rng=np.random.default_rng(1),
+    ).log  # fmt: skip
+    said = advise(log, last="dynamic-forward")
+
+    assert said.startswith("dynamic-forward reached its end after ")
+    assert 0.0 < float(said.split("with ")[1].split()[0]) < 3.5
+
+
+@given(
+    kv=st.floats(0.05, 10.0), ka=st.floats(0.01, 2.0), ks=st.floats(0.0, 1.0),
+    way=st.floats(0.01, 10.0),
+)  # fmt: skip
+def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka, ks, way):
+    volts = settled_step({"kS": ks, "kV": kv, "kA": ka}, way)
+    time_ = np.linspace(0.0, 3.0 * ka / kv, 2001)
+    speed = (volts - ks) / kv * -np.expm1(-time_ * kv / ka)
+    gone = float(np.sum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time_)))
+
+    assert gone == pytest.approx(way, rel=1e-4)
+    assert speed[-1] / ((volts - ks) / kv) == pytest.approx(0.95, abs=0.001)
+
+
+def test_a_test_without_samples_is_repeated():
+    log = replace(drive_log(), runs=drive_log().runs[:1])
+
+    assert advise(log, last="dynamic-forward") == (
+        "Repeat dynamic-forward: its log holds no motion."
+    )
+
+
+def test_a_run_of_nothing_has_no_limit():
+    assert find_voltage_limit(Run("dynamic-forward", [], [], [], [])) is None
+
+
+# ---- the command
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "Give a log or a folder, or --nt ADDRESS"),
+        (["a.wpilog", "--nt", "localhost"], "Give a log or a folder, or --nt ADDRESS"),
+        (["a.wpilog", "--save", "kept"], "--save keeps what NetworkTables sends"),
+        (["missing.wpilog"], "missing.wpilog: there is no such file or folder. Give the .wpilog"),
+    ],
+)
+def test_what_cannot_be_followed_is_refused_in_one_line(tmp_path, arguments, said):
+    done = subprocess.run(
+        [*SYSID, "watch", *arguments],
+        cwd=tmp_path, capture_output=True, encoding="utf-8", check=False, timeout=60,
+    )  # fmt: skip
+
+    assert (done.returncode, done.stdout) == (2, "")
+    assert said in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
+    code = "import sys; sys.modules['ntcore'] = None; from sim.cli import main; main()"
+    done = subprocess.run(
+        [sys.executable, "-c", code, "watch", "--nt", "localhost"],
+        cwd=tmp_path, capture_output=True, encoding="utf-8", check=False, timeout=60,
+    )  # fmt: skip
+
+    assert (done.returncode, done.stdout) == (2, "")
+    assert 'needs pyntcore. Install it with: pip install "sysid-course[live]"' in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows sends Ctrl-C to all of a console")
+def test_ctrl_c_ends_it_with_the_gains_of_the_file(tmp_path, content):
+    path = tmp_path / "drive.wpilog"
+    path.write_bytes(content)
+    running = subprocess.Popen(
+        [*SYSID, "watch", str(path)],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
+    )  # fmt: skip
+    said = []
+    while "  Next: " not in "".join(said[-1:]):
+        said.append(running.stdout.readline())
+        assert said[-1], running.stderr.read()
+    running.send_signal(signal.SIGINT)
+    rest, errors = running.communicate(timeout=60)
+    found = subprocess.run(
+        [*SYSID, "fit", str(path)],
+        capture_output=True, encoding="utf-8", check=False, timeout=60,
+    )  # fmt: skip
+
+    assert (running.returncode, errors) == (0, "")
+    assert rest.strip() == found.stdout.strip()
+
+
+def test_ctrl_c_before_any_test_says_that_there_is_nothing(tmp_path):
+    code = (
+        "import sim.cli.watch as it\n"
+        "from sim.cli import main\n"
+        "def stop(*_, **__): raise KeyboardInterrupt\n"
+        "it._follow = stop\n"
+        "main()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, "watch", str(tmp_path)],
+        capture_output=True, encoding="utf-8", check=False, timeout=60,
+    )  # fmt: skip
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.rstrip().endswith("There are no gains: no test has ended.")
