@@ -23,6 +23,7 @@ from sim.reconcile.forward_selection import (
     admissible_candidates,
     alternative_paths,
     choose_path,
+    take_nearest,
 )
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
 from sim.reconcile.selection_data import SelectionData
@@ -258,3 +259,31 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     found = replace_effects(SelectionData(ONE_NOISE, ()), done, None)
 
     assert [one.candidate.effect for one in found] == ["", taken, "stribeck"]
+
+
+@pytest.mark.parametrize(
+    ("last", "others", "taken"),
+    [
+        (5.0, [weighed("velocity-filter", 900.0, gap=1.0)], "velocity-filter"),
+        (0.5, [weighed("velocity-filter", 900.0, gap=1.0)], "backlash"),
+        (5.0, [weighed("velocity-filter", 900.0, gap=1.0, why=WIDENS)], "backlash"),
+        (5.0, [], "backlash"),
+    ],
+)
+def test_a_search_without_time_for_a_next_round_takes_what_closes_most_of_the_gap(
+    last, others, taken
+):
+    before = replace(model("", 1000.0, gap=9.0), candidates=tuple(others))
+
+    found = take_nearest([before, model("backlash", 600.0, gap=last)])
+
+    assert [one.candidate.effect for one in found] == ["", taken]
+
+
+def test_a_search_that_looked_for_a_next_effect_keeps_its_last_one():
+    before = replace(
+        model("", 1000.0, gap=9.0), candidates=(weighed("velocity-filter", 900.0, gap=1.0),)
+    )
+    done = [before, model("backlash", 600.0, gap=5.0, others=THEN)]
+
+    assert take_nearest(done) is done

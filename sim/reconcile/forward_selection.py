@@ -63,6 +63,8 @@ def select_effects(data: SelectionData, base: Estimate, log: Log) -> list[Select
     done = add_pair(data, done, log)
     done = choose_path(data, done, log)
     done = simplify_effects(data, done, log)
+    if data.out_of_time():
+        done = take_nearest(done)
     return measure_removals(data, done)
 
 
@@ -77,6 +79,21 @@ def _continue_search(
             break
         done = thought
     return done
+
+
+def take_nearest(done: list[SelectionRound]) -> list[SelectionRound]:
+    """The same, with the last effect replaced by the one of its round that left the smallest gap.
+
+    What any robot has a little of goes first, since the next round finds the rest. Where there is
+    no time for a next round, what closes most of the gap matters more.
+    """
+    if len(done) == 1 or done[-1].candidates:
+        return done
+    admitted = [one for one in done[-2].candidates if one.report.admitted]
+    nearest = min(admitted, key=lambda one: one.gap.velocity, default=None)
+    if nearest is None or not nearest.gap.velocity < done[-1].gap.velocity:
+        return done
+    return [*done[:-1], _next_round(done[-2], nearest)]
 
 
 def add_pair(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
