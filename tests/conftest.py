@@ -44,6 +44,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_release",
     "test_workers",
     "test_everyday_effects",
+    "test_watch_robot",
 )
 
 
