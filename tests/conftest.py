@@ -52,6 +52,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_bench_reconcile",
     "test_dataset_cluster",
     "test_class_cluster",
+    "test_watch_robot",
 )
 
 

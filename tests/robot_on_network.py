@@ -3,7 +3,7 @@
     python robot_on_network.py PORT LOG
 
 Each line of standard input is what to publish next: {"run": 0, "share": 1.0, "ends": true,
-"clock": 10.0}, a run of the log or its first part, its times counted from that clock [s]. It
+"clock": 10.0}, a run of the log or its first part, moved to that many seconds after the start. It
 publishes what a robot program does with a SysIdRoutine: the data, then the name of the test. A
 number that is never the same goes out all the time. The robot is off when its input ends.
 """
@@ -24,6 +24,7 @@ NAMES = ("VoltageVolts", "PositionMeters", "VelocityMetersPerSec")
 def main(port, path):
     """Publish what is asked for."""
     runs = sim.read(path).runs
+    began = ntcore.Value.makeDouble(0.0).time() / SECOND
     instance = ntcore.NetworkTableInstance.create()
     table = instance.getTable("Drive")
     signals = [table.getDoubleTopic(name).publish() for name in NAMES]
@@ -35,7 +36,7 @@ def main(port, path):
         asked = json.loads(line)
         run = runs[asked["run"]]
         count = round(asked["share"] * len(run))
-        clock = asked["clock"] - float(run.time[0])
+        clock = began + asked["clock"] - float(run.time[0])
         rows = zip(run.time[:count], run.voltage, run.position, run.velocity, strict=False)
         for moment, *values in rows:
             at = round(SECOND * (moment + clock))

@@ -301,8 +301,12 @@ def test_without_pyntcore_one_line_says_what_to_install(tmp_path):
 def test_ctrl_c_ends_it_with_the_gains_of_the_file(tmp_path, content):
     path = tmp_path / "drive.wpilog"
     path.write_bytes(content)
+    code = (  # whatever started these tests may have it ignore Ctrl-C
+        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "from sim.cli import main; main()"
+    )
     running = subprocess.Popen(
-        [*SYSID, "watch", str(path)],
+        [sys.executable, "-c", code, "watch", str(path)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8",
     )  # fmt: skip
     said = []

@@ -23,12 +23,11 @@ from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
-from sim.io.format import HEAD, Format, ReadOptions
+from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
 from sim.io.velocity import velocity_from_position
 from sim.support.atomic_file import atomic_path
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
-LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
 
 
 class _WithEntries(Format, Protocol):

@@ -24,6 +24,7 @@ from sim.core.errors import BadSample
 from sim.core.log import LARGEST, Array, Log, Run
 
 HEAD = 4096  # [bytes] how much of a file `recognizes` is shown
+LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the one that was meant
 
 
 @dataclass(frozen=True)

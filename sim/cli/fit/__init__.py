@@ -40,7 +40,12 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
         click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
-        click.option("--wpilog", type=FILE, help="Write measured, simulated, residual as a log."),
+        click.option(
+            "--wpilog",
+            type=FILE,
+            help="Write measured, simulated, residual and innovation as a log, and a layout file "
+            "for AdvantageScope.",
+        ),
     )
     for option in reversed(options):
         command = option(command)

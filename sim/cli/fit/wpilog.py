@@ -1,4 +1,4 @@
-"""``sysid fit --wpilog``: measured, simulated, and what is left, as entries of one log."""
+"""``sysid fit --wpilog``: measured, simulated, residual and innovation as entries of one log."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from sim.cli.fit.layout import write_layout
 from sim.core.units import Unit, find_unit
+from sim.fit.innovations import RunInnovations, compute_innovations
 from sim.fit.replay import FEWEST, RunReplay, replay_fit
 from sim.inspect.detect_faults import inspect
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
@@ -22,7 +24,7 @@ TOP = "/sysid"  # above all entries
 
 
 def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
-    """Write every run, measured and simulated, at the log's own times.
+    """Write every run, measured and simulated, at the log's own times, and a layout to show it.
 
     Where there are several parts, the entries of each stand below its name:
     ``/sysid/left/measured/velocity``.
@@ -36,10 +38,9 @@ def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
         BadRequest: nothing can be simulated with these gains, or the file cannot be written.
     """
     unit = find_unit(found.log_units)
+    tops = {name: f"{TOP}/{name}" if len(parts) > 1 else TOP for name in parts}
     groups = [
-        group
-        for name, log in parts.items()
-        for group in _list_groups(found, log, f"{TOP}/{name}" if len(parts) > 1 else TOP, unit)
+        group for name, log in parts.items() for group in _list_groups(found, log, tops[name], unit)
     ]
     names = {name for group in groups for name in group.signals}
     units = {
@@ -48,14 +49,17 @@ def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
         if not name.endswith("voltage")
     }
     write_signals(groups, path, units=units | {f"{TOP}/voltage": "volts"})
+    write_layout(path, tuple(tops.values()))
 
 
 def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[SignalGroup]:
-    """A group for each run that is long enough to be simulated."""
+    """Groups for each run that is long enough to be simulated."""
     faults = inspect(log).faults
     runs = [(k, run) for k, run in enumerate(log.runs) if len(run) >= FEWEST]
     for (k, run), replay in zip(runs, replay_fit(found, log), strict=False):
         yield _make_group(replay, run, [one for one in faults if one.where.run == k], top, unit)
+    for innovations in compute_innovations(found, log):
+        yield from _innovation_groups(innovations, top, unit)
 
 
 def _make_group(
@@ -77,3 +81,13 @@ def _make_group(
     marks += [(one.where.end, "") for one in faults]
     texts = {f"{top}/test": [(float(time[0]), run.test), (after, "none")]}
     return SignalGroup(time, signals, texts | ({f"{top}/fault": sorted(marks)} if marks else {}))
+
+
+def _innovation_groups(one: RunInnovations, top: str, unit: Unit) -> Iterator[SignalGroup]:
+    """The innovations of one run; positions and velocities need not be new at the same times."""
+    for name, time, values in (
+        ("position", one.position_time, one.position),
+        ("velocity", one.velocity_time, one.velocity),
+    ):
+        if time.size:
+            yield SignalGroup(time, {f"{top}/innovation/{name}": values / unit.si})

@@ -21,8 +21,8 @@ from urllib.parse import parse_qs, urlsplit
 from sim.cli.open import page_data
 from sim.cli.open.session import OpenLog, Reading, Session
 from sim.core.errors import BadRequest, Refusal
-from sim.io import LARGEST_FILE
 from sim.io.entries.entry import NEEDED
+from sim.io.format import LARGEST_FILE
 
 PAGE = Path(__file__).with_name("page")
 KINDS = {

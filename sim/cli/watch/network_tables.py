@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from sim.cli.watch.recordings import SUFFIX, Recording
+from sim.cli.watch.recordings import Recording
 from sim.core.errors import BadRequest
 from sim.core.vocabulary import TESTS
 from sim.io.entries.entry import STRING
@@ -244,6 +244,6 @@ def _make_folder(folder: Path) -> None:
 def _free_path(folder: Path) -> Path:
     """A name that no file in the folder has, the first of which is ``networktables-1.wpilog``."""
     number = 1
-    while (path := folder / f"networktables-{number}{SUFFIX}").exists():
+    while (path := folder / f"networktables-{number}.wpilog").exists():
         number += 1
     return path

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from sim.core.errors import UnreadableFile
 from sim.io.entries.state import FOREVER, RunInterval
+from sim.io.formats.wpilog import SUFFIXES
 from sim.io.formats.wpilog.growing import GrowingLog
 
 if TYPE_CHECKING:
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 
     from sim.core.log import Log
 
-SUFFIX = ".wpilog"
 SECOND = 1e6  # [µs]
 
 
@@ -118,13 +118,17 @@ class FileSource:
         """The logs beside one another: path, number on the disk, and size, the oldest first."""
         folder = self.place if self.place.is_dir() else self.place.parent
         found = []
-        for path in folder.glob(f"*{SUFFIX}"):
+        for path in filter(_is_log, folder.iterdir()):
             try:
                 told = path.stat()
             except OSError:  # it was renamed or removed since
                 continue
             found.append((told.st_mtime_ns, path, (told.st_dev, told.st_ino), told.st_size))
         return [(path, key, size) for _, path, key, size in sorted(found)]
+
+
+def _is_log(path: Path) -> bool:
+    return path.suffix.lower() in SUFFIXES
 
 
 def _identify(path: Path) -> tuple[int, int]:

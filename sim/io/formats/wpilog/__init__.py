@@ -22,13 +22,13 @@ from sim.io.format import ReadOptions
 from sim.io.formats.wpilog.contents import FileDamage, read_contents
 from sim.io.formats.wpilog.control import Start
 from sim.io.formats.wpilog.entry import FileEntry
-from sim.io.formats.wpilog.records import MAGIC, load_records
+from sim.io.formats.wpilog.records import MAGIC, XZ_MAGIC, load_records
 from sim.io.formats.wpilog.windows import load_wanted_records
 from sim.io.formats.wpilog.writing import write
 
 __all__ = ["SUFFIXES", "entries", "read", "read_motors", "recognizes", "write"]
 
-SUFFIXES = (".wpilog",)
+SUFFIXES = (".wpilog", ".wpilogxz")
 Made_co = TypeVar("Made_co", covariant=True)
 
 
@@ -42,8 +42,8 @@ class _Maker(Protocol[Made_co]):
 
 
 def recognizes(head: bytes) -> bool:
-    """Whether a file that starts like this is a WPILOG file."""
-    return head.startswith(MAGIC)
+    """Whether a file that starts like this is a WPILOG file, packed with xz or not."""
+    return head.startswith((MAGIC, XZ_MAGIC))
 
 
 def entries(path: Path) -> list[FileEntry]:

@@ -24,6 +24,7 @@ class GrowingLog:
 
     def __init__(self, path: Path, *, state: str | None = None) -> None:
         self._asked = ReadOptions(entries={"state": state} if state else {})
+        self._size = 0  # [bytes] at the last look
         self._file = GrowingFile(path, lambda entry: entry.type == STRING)
 
     @property
@@ -42,7 +43,8 @@ class GrowingLog:
             UnreadableFile: the file is foreign.
             BadRequest: several entries name the tests of one mechanism.
         """
-        if self.path.stat().st_size <= PREFACE:
+        self._size = self.path.stat().st_size
+        if self._size <= PREFACE:
             return ()
         entries = read_contents(self._file.read_on()).entries
         where = str(self.path)
@@ -55,4 +57,4 @@ class GrowingLog:
     @property
     def was_replaced(self) -> bool:
         """Whether the file is shorter than what was read of it, so that it is another one."""
-        return self.path.stat().st_size < self._file.read_until
+        return self.path.stat().st_size < self._size

@@ -11,18 +11,22 @@ by its successor; the walk touches no more than the places where that is not so.
 guessed: a record is taken only because the one before it ends where it begins.
 """
 
+import lzma
 import struct
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cached_property
 from os import SEEK_END
 from pathlib import Path
-from typing import TypeAlias, TypeVar
+from tempfile import SpooledTemporaryFile
+from typing import IO, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.errors import UnreadableFile
+from sim.io.format import LARGEST_FILE
 
 Bytes: TypeAlias = NDArray[np.uint8]
 Numbers: TypeAlias = NDArray[np.int64]
@@ -30,6 +34,9 @@ Flags: TypeAlias = NDArray[np.bool_]
 Number = TypeVar("Number", bound=np.generic)
 
 MAGIC = b"WPILOG"
+XZ_MAGIC = b"\xfd7zXZ\x00"  # of a file that is packed with xz: .wpilogxz
+PIECE = 1 << 20  # [bytes] that are unpacked at a time
+IN_MEMORY = 1 << 26  # [bytes] an unpacked log that is larger goes to the disk
 PREFACE = 12  # [bytes] magic, version (2), length of the extra header (4)
 MAJOR = 1  # the one version there is: 1.0
 PAD = 32  # [bytes] of zero behind the file, so that a header cut short can be looked at
@@ -115,7 +122,7 @@ class Records:
 
     def header_at(self, offset: int) -> RecordHeaders:
         """What the header at an offset of the file says, whole or not."""
-        with self.path.open("rb") as stream:
+        with open_log(self.path) as stream:
             stream.seek(offset)
             found = bytearray(stream.read(PAD)) + bytearray(PAD)
         header = read_headers(File(found).buffer, np.array([0]))
@@ -123,12 +130,61 @@ class Records:
 
     def only_zeros_from(self, offset: int) -> bool:
         """Whether the rest of the file is nothing but zero bytes."""
-        with self.path.open("rb") as stream:
+        with open_log(self.path) as stream:
             stream.seek(offset)
             while block := stream.read(LARGEST_WINDOW):
                 if block.count(0) < len(block):
                     return False
         return True
+
+
+def open_log(path: Path) -> IO[bytes]:
+    """Open a file to read its bytes, unpacked if it is packed with xz.
+
+    What was packed before the file was cut off is there: a robot may lose power while it writes.
+
+    Raises:
+        UnreadableFile: it is damaged, or too large once it is unpacked.
+    """
+    stream = path.open("rb")
+    if stream.read(len(XZ_MAGIC)) != XZ_MAGIC:
+        stream.seek(0)
+        return stream
+    stream.seek(0)
+    with stream, ExitStack() as ends:
+        unpacked = ends.enter_context(SpooledTemporaryFile(max_size=IN_MEMORY))
+        _unpack(stream, unpacked, where=str(path))
+        unpacked.seek(0)
+        ends.pop_all()  # whoever asked closes it
+        return unpacked
+
+
+def _unpack(stream: IO[bytes], unpacked: IO[bytes], *, where: str) -> None:
+    """Unpack a file that is packed with xz.
+
+    Raises:
+        UnreadableFile: it is damaged, or too large once it is unpacked.
+    """
+    try:
+        with lzma.open(stream) as packed:
+            while piece := packed.read1(PIECE):
+                unpacked.write(piece)
+                if unpacked.tell() > LARGEST_FILE:
+                    raise UnreadableFile(
+                        f"unpacked it has more than {LARGEST_FILE / 2**30:.0f} GiB, the most that "
+                        "is read",
+                        where=where,
+                        advice="Export only the four tests from it, with AdvantageScope for "
+                        "example.",
+                    )
+    except EOFError:
+        pass  # it was cut off, and so is its last record
+    except lzma.LZMAError as error:
+        raise UnreadableFile(
+            f"it is packed with xz, and damaged ({error})",
+            where=where,
+            advice="Copy it from the robot again; if it is the same there, record the tests again.",
+        ) from None
 
 
 def load_records(path: Path) -> Records:
@@ -137,10 +193,12 @@ def load_records(path: Path) -> Records:
     Raises:
         UnreadableFile: it is empty, foreign, of a later version, or ends before its first record.
     """
-    with path.open("rb") as file:
+    with open_log(path) as file:
         content = bytearray(file.seek(0, SEEK_END) + PAD)
         file.seek(0)
-        size = file.readinto(memoryview(content)[:-PAD])
+        found = file.read(len(content) - PAD)
+        size = len(found)
+        content[:size] = found
     del content[size + PAD :]  # of a file that became shorter while it was read
     whole = File(content)
     start, end = follow_records(whole, first=first_record(whole, size=size, where=str(path)))

@@ -8,7 +8,7 @@ entry, and records of a size that their type cannot have.
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO, TypeAlias
+from typing import IO, TypeAlias
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from sim.io.formats.wpilog.records import (
     Records,
     first_record,
     follow_records,
+    open_log,
     read_headers,
 )
 
@@ -74,11 +75,6 @@ class GrowingFile:
         self._end, size = _read_windows(self.path, self._kept, at=self._end)
         return self._kept.records(self.path, size=size, end=self._end)
 
-    @property
-    def read_until(self) -> int:
-        """[bytes] up to where whole records have been read."""
-        return self._end
-
 
 def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
     """Keep the wanted records from an offset on; 0 begins behind the preface.
@@ -86,7 +82,7 @@ def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
     Returns:
         The offset behind the last whole record, and the length of the file.
     """
-    with path.open("rb") as stream:
+    with open_log(path) as stream:
         size = stream.seek(0, 2)
         if at == 0:
             stream.seek(0)
@@ -109,7 +105,7 @@ def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
     return at, size
 
 
-def _window(stream: BinaryIO, at: int, length: int) -> File:
+def _window(stream: IO[bytes], at: int, length: int) -> File:
     stream.seek(at)
     return File(bytearray(stream.read(length)) + bytearray(PAD))
 

@@ -5,6 +5,7 @@ the first loop of every test falls outside of it; here both carry the same time,
 lost.
 """
 
+import lzma
 import struct
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -20,6 +21,7 @@ from sim.io.formats.wpilog.control import Start, start_payload
 from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
 
 SECOND = 1e6  # [µs]
+PACKED = ".wpilogxz"  # suffix of a log that is packed with xz
 REST = 1_000_000  # [µs] before a run that has to be moved behind the one before it
 LOOP = 20_000  # [µs] how long the only sample of a run lasts
 MECHANISM, MOTOR = "Mechanism", "motor"  # names where the log has none
@@ -41,7 +43,7 @@ def write(log: Log, path: Path) -> None:
 
     Args:
         log: what to write; positions go out in its ``units``.
-        path: the file.
+        path: the file; one that ends in .wpilogxz is packed.
 
     Raises:
         BadRequest: the log has no runs, or a run without samples.
@@ -63,7 +65,8 @@ def write(log: Log, path: Path) -> None:
     for run, time, end in zip(log.runs, times, ends, strict=True):
         parts.append(_loops(run, time, ids, width=width, si=UNITS[log.units].si))
         parts.append(_record(ids["state"], end, IDLE[0].encode(), width))
-    path.write_bytes(b"".join(parts))
+    content = b"".join(parts)
+    path.write_bytes(lzma.compress(content) if path.suffix.lower() == PACKED else content)
 
 
 def _recorded(log: Log, name: str) -> bool:

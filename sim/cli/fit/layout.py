@@ -1,0 +1,103 @@
+"""The layout file with which AdvantageScope shows what ``sysid fit --wpilog`` wrote.
+
+AdvantageScope opens it with File > Import Layout…, and then the log. The keys are those of its own
+exports since version 4: ``hubs``, ``satellites``, ``version``; it asks before it takes the file of
+another version. Source: its ``src/main/electron/main.ts``, and the layout that AdvantageKit's
+TalonFX swerve template brings.
+"""
+
+import hashlib
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from sim.core.errors import BadRequest
+from sim.support.atomic_file import write_atomically
+
+SUFFIX = ".layout.json"  # in place of the log's .wpilog
+VERSION = "26.0.0"
+DOCUMENTATION, LINE_GRAPH = 0, 1  # types of a tab
+COLORS = ("#2b66a2", "#e5b31b", "#af2437", "#80588e")  # of its own list, which takes no others
+NO_CONVERSION = {"type": None, "factor": 1}
+
+
+def write_layout(log: Path, tops: Sequence[str]) -> None:
+    """Write a layout beside a log: velocities and voltage on one tab, what is left on another.
+
+    Args:
+        log: what ``write_replay`` wrote.
+        tops: the path above the entries of each part: ``/sysid/left``.
+
+    Raises:
+        BadRequest: the file cannot be written.
+    """
+    tabs = [_tab("", DOCUMENTATION, None)]
+    for top in tops:
+        name = top.rpartition("/")[2] if len(tops) > 1 else ""
+        texts = (f"{top}/test", f"{top}/fault")
+        velocity = _line_graph(
+            (f"{top}/measured/velocity", f"{top}/simulated/velocity"), (f"{top}/voltage",), texts
+        )
+        left = _line_graph(
+            (f"{top}/residual/velocity", f"{top}/innovation/velocity"),
+            (f"{top}/residual/position", f"{top}/innovation/position"),
+            texts,
+        )
+        tabs += [
+            _tab(f"{name} velocity".strip(), LINE_GRAPH, velocity),
+            _tab(f"{name} residual".strip(), LINE_GRAPH, left),
+        ]
+    state = {
+        "sidebar": {"width": 300, "expanded": ["/sysid", *(tops if len(tops) > 1 else ())]},
+        "tabs": {"selected": 1, "tabs": tabs},
+    }
+    hub = {"x": 100, "y": 100, "width": 1100, "height": 650, "state": state}
+    content = {"hubs": [hub], "satellites": [], "version": VERSION}
+    path = log.with_suffix(SUFFIX)
+    try:
+        write_atomically(path, json.dumps(content, indent=2))
+    except OSError as error:
+        raise BadRequest(
+            f"cannot be written ({error.strerror or error})",
+            where=str(path),
+            advice="Choose a folder that exists and that you may write to.",
+        ) from None
+
+
+def _tab(title: str, kind: int, controller: dict[str, Any] | None) -> dict[str, Any]:
+    return {
+        "type": kind,
+        "title": title,
+        "controller": controller,
+        "controllerUUID": hashlib.sha256(title.encode()).hexdigest()[:32],
+        "renderer": "#/" if kind == DOCUMENTATION else None,
+        "controlsHeight": 0 if kind == DOCUMENTATION else 200,
+    }
+
+
+def _line_graph(left: Sequence[str], right: Sequence[str], texts: Sequence[str]) -> dict[str, Any]:
+    """The state of a line graph: numbers on its two axes, and texts as stripes."""
+    colors = iter(COLORS)
+    return {
+        "leftSources": [_number(key, next(colors)) for key in left],
+        "rightSources": [_number(key, next(colors)) for key in right],
+        "discreteSources": [
+            _source("stripes", key, "String", {"color": color})
+            for key, color in zip(texts, COLORS, strict=False)
+        ],
+        "leftLockedRange": None,
+        "rightLockedRange": None,
+        "leftUnitConversion": NO_CONVERSION,
+        "rightUnitConversion": NO_CONVERSION,
+        "leftFilter": 0,
+        "rightFilter": 0,
+    }
+
+
+def _number(key: str, color: str) -> dict[str, Any]:
+    return _source("stepped", key, "Number", {"color": color, "size": "normal"})
+
+
+def _source(kind: str, key: str, of: str, options: dict[str, str]) -> dict[str, Any]:
+    return {"type": kind, "logKey": key, "logType": of, "visible": True, "options": options}

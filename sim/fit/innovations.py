@@ -1,0 +1,79 @@
+"""Innovations of a fitted model: each reading less what the readings before it predict.
+
+A replay (``replay.py``) runs on its own from the start of a run, so that one slip shifts all that
+comes after it. An innovation forgets: the Kalman filter corrects the model with each reading, so
+what stands out stands where it happened. Where a model holds, innovations are white (Ljung, *System
+Identification*, section 16.6).
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+from sim.core.log import Array, Log
+from sim.core.units import find_unit
+from sim.estimation.measurements import measure_runs
+from sim.estimation.model_structure import ModelStructure
+from sim.estimation.optimize import tune_process_noise
+from sim.fit import Fit
+from sim.fit.replay import FEWEST, model_of_fit
+from sim.fit.search import TRACKING, fit_problem
+
+
+@dataclass(frozen=True, eq=False)
+class RunInnovations:
+    """Innovations of one run, at the readings that were compared.
+
+    Args:
+        position_time: (m,) [s] in the log's own time.
+        position: (m,) [m or rad].
+        velocity_time: (n,) [s] the same.
+        velocity: (n,) [m/s or rad/s].
+    """
+
+    position_time: Array
+    position: Array
+    velocity_time: Array
+    velocity: Array
+
+
+def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
+    """The innovations of a fit's model on every run that is long enough.
+
+    The process noise is the likeliest for these gains, as in the fit. A reading that repeats the
+    one before it is no new one, and has no innovation.
+
+    Args:
+        found: the fit, in any unit.
+        log: what it was fitted to, or any other of the same mechanism.
+
+    Raises:
+        BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
+    """
+    fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
+    way, model = model_of_fit(fitted)
+    runs = tuple(replace(run, voltage=way * run.voltage) for run in log.runs if len(run) >= FEWEST)
+    log = replace(log, runs=runs)
+    friction = None if fitted.type == "simple" else model.gains["kS"]
+    problem = fit_problem(log, measure_runs(log, friction=friction))
+    values = dict(model.gains)
+    if fitted.type == "arm":
+        size, angle = values.pop("kG"), values.pop("offset_rad")
+        values |= {"level": size * math.cos(angle), "upright": -size * math.sin(angle)}
+    for part in model.parts:
+        values |= {f"{part.effect}.{name}": value for name, value in part.parameters.items()}
+    structure = ModelStructure(fitted.type, tuple(part.effect for part in model.parts))
+    noise = TRACKING * problem.noise.velocity**2
+    point = problem.evaluate(structure, values, problem.initial_nuisance, noise)
+    if math.isfinite(point.cost):
+        point = tune_process_noise(problem, point)
+    if not point.innovations.size:
+        return ()
+    compared = ~problem.ignored_readings
+    several = []
+    for record, first, last in zip(
+        problem.records, problem.run_edges[:-1], problem.run_edges[1:], strict=True
+    ):
+        time, errors = record.measurements.time, point.innovations[first:last]
+        x, v = compared[first:last].T
+        several.append(RunInnovations(time[x], errors[x, 0], time[v], errors[v, 1]))
+    return tuple(several)
