@@ -420,6 +420,8 @@ Table(
 #    ```
 #
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
+#    (CTRE logs the way straight in rotations of the motor. That will do: the lever tells the
+#    command how far one rotation goes.)
 #
 # 6. **Push** at a wall, once.
 #

@@ -37,6 +37,7 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.faults import FAULTS
 from sim.io import read_motors
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 from sim.physics.motors import find_motor
 from sim.reconcile import reconcile
 from sim.support.command_line import run_command
@@ -269,7 +270,7 @@ def test_logs_that_changed_places_are_refused():
 
     with pytest.raises(BadRequest, match="the log of turning is in meters"):
         moment_of_inertia(straight, turning, mass=60.0)
-    with pytest.raises(BadRequest, match="the log of going straight is in radians"):
+    with pytest.raises(BadRequest, match="is in radians, so the speeds tell no lever"):
         moment_of_inertia(turning, turning, mass=60.0)
     bad = replace(turning, gains={**turning.gains, "kA": -0.1})
     with pytest.raises(BadRequest, match="kA of turning is -0.1"):
@@ -359,6 +360,38 @@ def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
     assert found["moment_of_inertia"]["value"] == pytest.approx(3.69, abs=0.05)
     assert found["moment_of_inertia"]["lever_seen"] == pytest.approx(0.424, abs=0.001)
     assert "lever" in {one["code"] for one in found["warnings"]}
+
+
+def test_ctres_own_log_of_going_straight_in_rotations_of_a_motor_will_do(tmp_path, logs, capsys):
+    """Phoenix 6 logs rotations of the motor: the lever tells how many meters one is."""
+    turn = KRAKEN.wheel_radius / KRAKEN.ratio  # [m] of the robot for a radian of the motor
+    (module, *_) = record_modules(KRAKEN, GENTLE, rng=rng()).values()
+    groups = []
+    for one in module.runs:
+        motor = "Phoenix6/TalonFX-1/"
+        signals = {
+            f"{motor}MotorVoltage": one.voltage,
+            f"{motor}Position": one.position / turn / math.tau,
+            f"{motor}Velocity": one.velocity / turn / math.tau,
+        }
+        tests = [(float(one.time[0]), one.test), (float(one.time[-1]) + 0.02, "none")]
+        groups.append(SignalGroup(one.time, signals, {"SysIdTranslation_State": tests}))
+    path = tmp_path / "rotations.wpilog"
+    write_signals(groups, path, units={})
+
+    code, said, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
+        "--lever", KRAKEN.lever,
+    )  # fmt: skip
+    refused, _, why = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60
+    )
+
+    assert code == 0
+    assert "Moment of inertia 5.22" in said
+    assert "which cannot be checked" in said
+    assert refused == 2
+    assert "Give --lever as well" in why
 
 
 def test_a_rate_in_place_of_a_voltage_is_told_and_gives_no_inertia(logs, capsys):
