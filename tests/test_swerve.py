@@ -394,6 +394,36 @@ def test_ctres_own_log_of_going_straight_in_rotations_of_a_motor_will_do(tmp_pat
     assert "Give --lever as well" in why
 
 
+def test_advantagekits_log_of_going_straight_is_read_module_by_module(tmp_path, logs, capsys):
+    """Radians of the wheel, and a steer motor beside each drive motor that holds still."""
+    modules = record_modules(KRAKEN, GENTLE, rng=rng())
+    groups = []
+    for k, one in enumerate(modules["front-left"].runs):
+        signals = {}
+        for number, log in enumerate(modules.values()):
+            place, own = f"/Drive/Module{number}/", log.runs[k]
+            signals[f"{place}DriveAppliedVolts"] = own.voltage
+            signals[f"{place}DrivePositionRad"] = own.position / KRAKEN.wheel_radius
+            signals[f"{place}DriveVelocityRadPerSec"] = own.velocity / KRAKEN.wheel_radius
+            signals[f"{place}TurnAppliedVolts"] = 0.02 * np.sin(own.time)
+            signals[f"{place}TurnVelocityRadPerSec"] = 0.01 * np.cos(own.time)
+        tests = [(float(one.time[0]), one.test), (float(one.time[-1]) + 0.02, "none")]
+        groups.append(SignalGroup(one.time, signals, {"/RealOutputs/Drive/SysIdState": tests}))
+    path = tmp_path / "akit.wpilog"
+    write_signals(groups, path, units={})
+
+    code, said, _ = run(capsys, "fit", path)
+    _, turned, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
+        "--lever", KRAKEN.lever,
+    )  # fmt: skip
+
+    assert code == 0
+    assert "simple mechanism in radians" in said
+    assert "All 4 motors, each fitted alone, agree within their errors" in said
+    assert "Moment of inertia 5.2" in turned
+
+
 def test_a_rate_in_place_of_a_voltage_is_told_and_gives_no_inertia(logs, capsys):
     rate = ("--voltage", RATE, *GYRO)
 
