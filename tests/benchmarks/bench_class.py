@@ -4,9 +4,9 @@
 
 All thirteen exercises, answers right, half right, mistaken and missing (`class_made.py`). The
 second run finds everything graded. Processor time is what the run asks of the machine, however
-busy that is with other things (Windows does not tell it). Memory is that of the largest process, and the time
-of each exercise is that of a few students graded here, one after another. Aim: 500 students in five
-minutes.
+busy that is with other things (Windows does not tell it). Memory is that of the largest process,
+and the time of each exercise is that of a few students graded here, one after another. Aim: 500
+students in five minutes.
 """
 
 import json
