@@ -231,6 +231,7 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
         (1 / math.sqrt(2), "half the trackwidth was given"),
         (math.sqrt(2), "the trackwidth was given; a square swerve's lever is T/√2"),
         (1 / 2 / math.pi, "rotations read as radians"),
+        (180 / math.pi, "degrees read as radians"),
         (1.3, "the lever, the wheel's radius or a unit is wrong"),
     ],
 )
