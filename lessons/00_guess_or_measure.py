@@ -632,7 +632,7 @@ Table(
 #
 # | tool | what it is for |
 # |---|---|
-# | these notebooks | predict, run, explain; ten lessons, 0 to 9 |
+# | these notebooks | predict, run, explain; eleven lessons, 0 to 10 |
 # | `grade` | checks the exercises, gives hints, says what comes next |
 # | `sysid` | simulates, reads, fits and inspects logs, also those of a real robot |
 #

@@ -151,7 +151,7 @@ Table(
 # find a module that rubs, lift the robot and turn each wheel by hand.
 #
 # So **compare the modules first, then pool**. The mean of three good wheels and a worn one is right
-# for none of them. `sysid fit` compares them for you and says which two are furthest apart.
+# for none of them. `sysid fit` compares them for you and prints the kV and kA of each.
 
 # %% [markdown]
 # ## 4 A slow spin: how large is a wheel?
@@ -255,7 +255,7 @@ for doubt in found["half the trackwidth, T/2"].doubts:
     print(doubt.message)
 
 # %% [markdown]
-# This check also finds degrees that were taken for radians: then the "lever" is 24 m.
+# This check also finds degrees that were taken for radians: then the "lever" is 7 mm.
 #
 # ### Why 5.2 and not 5.0?
 #
@@ -406,8 +406,7 @@ Table(
 #
 # 1. **Straight.** Mark 5 meters of carpet. Lock the wheels straight, and run the four tests of the
 #    translation routine, with a step below the slip.
-# 2. **Compare the modules:** `sysid fit straight.wpilog`. Look for the sentence that names two
-#    modules.
+# 2. **Compare the modules:** `sysid fit straight.wpilog`. Look for the sentence with the modules.
 # 3. **Spin** slowly, five turns or more, on carpet. Write down gyro and motor turns.
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
 #    robot, and nobody in it. Use a small step here, too.
@@ -420,6 +419,8 @@ Table(
 #    ```
 #
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
+#    (CTRE logs the way straight in rotations of the motor. That will do: the lever tells the
+#    command how far one rotation goes.)
 #
 # 6. **Push** at a wall, once.
 #

@@ -63,6 +63,23 @@ def test_a_unit_knows_its_size(text, factor):
 
 
 @pytest.mark.parametrize(
+    ("text", "same", "times"),
+    [
+        ("N·m", "kg·m²/s²", 1.0),
+        ("Nm", "newton meter", 1.0),
+        ("lb·in²", "kg·m²", 0.45359237 * 0.0254**2),
+        ("g·m^2", "kg·m²", 1e-3),
+        ("mA", "amps", 1e-3),
+    ],
+)
+def test_torque_inertia_and_current_have_units(text, same, times):
+    one, other = read_unit(text), read_unit(same)
+
+    assert one.powers == other.powers
+    assert one.factor / other.factor == pytest.approx(times)
+
+
+@pytest.mark.parametrize(
     ("text", "part"), [("V·x/m", "x"), ("V/(m/s", "("), ("", "nothing"), ("V %", "%")]
 )
 def test_what_is_no_unit_is_named(text, part):

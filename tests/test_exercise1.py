@@ -132,6 +132,8 @@ def test_the_unit_may_be_written_in_many_ways(copy, written):
         ('"rot/(V·s)"', 0, "upside down"),
         ('"V·s"', 0, "multiply it by the unit of your"),
         ('"V·s/(m·rot)"', 0, "multiply it by the unit of your"),
+        ('"V·s/kg"', 0, "multiply it by the unit of your"),
+        ('"V·s/A"', 0, "multiply it by the unit of your"),
         ('"V·s·rot"', 0, "multiply it by the unit of your"),
         ('"V/(s"', 0, "( without )"),
         ('" "', 0, "nothing yet"),

@@ -37,6 +37,7 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.faults import FAULTS
 from sim.io import read_motors
+from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 from sim.physics.motors import find_motor
 from sim.reconcile import reconcile
 from sim.support.command_line import run_command
@@ -230,6 +231,7 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
         (1 / math.sqrt(2), "half the trackwidth was given"),
         (math.sqrt(2), "the trackwidth was given; a square swerve's lever is T/√2"),
         (1 / 2 / math.pi, "rotations read as radians"),
+        (180 / math.pi, "degrees read as radians"),
         (1.3, "the lever, the wheel's radius or a unit is wrong"),
     ],
 )
@@ -269,7 +271,7 @@ def test_logs_that_changed_places_are_refused():
 
     with pytest.raises(BadRequest, match="the log of turning is in meters"):
         moment_of_inertia(straight, turning, mass=60.0)
-    with pytest.raises(BadRequest, match="the log of going straight is in radians"):
+    with pytest.raises(BadRequest, match="is in radians, so the speeds tell no lever"):
         moment_of_inertia(turning, turning, mass=60.0)
     bad = replace(turning, gains={**turning.gains, "kA": -0.1})
     with pytest.raises(BadRequest, match="kA of turning is -0.1"):
@@ -361,6 +363,68 @@ def test_it_is_in_the_json_and_a_tanks_lever_is_grave(logs, capsys):
     assert "lever" in {one["code"] for one in found["warnings"]}
 
 
+def test_ctres_own_log_of_going_straight_in_rotations_of_a_motor_will_do(tmp_path, logs, capsys):
+    """Phoenix 6 logs rotations of the motor: the lever tells how many meters one is."""
+    turn = KRAKEN.wheel_radius / KRAKEN.ratio  # [m] of the robot for a radian of the motor
+    (module, *_) = record_modules(KRAKEN, GENTLE, rng=rng()).values()
+    groups = []
+    for one in module.runs:
+        motor = "Phoenix6/TalonFX-1/"
+        signals = {
+            f"{motor}MotorVoltage": one.voltage,
+            f"{motor}Position": one.position / turn / math.tau,
+            f"{motor}Velocity": one.velocity / turn / math.tau,
+        }
+        tests = [(float(one.time[0]), one.test), (float(one.time[-1]) + 0.02, "none")]
+        groups.append(SignalGroup(one.time, signals, {"SysIdTranslation_State": tests}))
+    path = tmp_path / "rotations.wpilog"
+    write_signals(groups, path, units={})
+
+    code, said, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
+        "--lever", KRAKEN.lever,
+    )  # fmt: skip
+    refused, _, why = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60
+    )
+
+    assert code == 0
+    assert "Moment of inertia 5.22" in said
+    assert "which cannot be checked" in said
+    assert refused == 2
+    assert "Give --lever as well" in why
+
+
+def test_advantagekits_log_of_going_straight_is_read_module_by_module(tmp_path, logs, capsys):
+    """Radians of the wheel, and a steer motor beside each drive motor that holds still."""
+    modules = record_modules(KRAKEN, GENTLE, rng=rng())
+    groups = []
+    for k, one in enumerate(modules["front-left"].runs):
+        signals = {}
+        for number, log in enumerate(modules.values()):
+            place, own = f"/Drive/Module{number}/", log.runs[k]
+            signals[f"{place}DriveAppliedVolts"] = own.voltage
+            signals[f"{place}DrivePositionRad"] = own.position / KRAKEN.wheel_radius
+            signals[f"{place}DriveVelocityRadPerSec"] = own.velocity / KRAKEN.wheel_radius
+            signals[f"{place}TurnAppliedVolts"] = 0.02 * np.sin(own.time)
+            signals[f"{place}TurnVelocityRadPerSec"] = 0.01 * np.cos(own.time)
+        tests = [(float(one.time[0]), one.test), (float(one.time[-1]) + 0.02, "none")]
+        groups.append(SignalGroup(one.time, signals, {"/RealOutputs/Drive/SysIdState": tests}))
+    path = tmp_path / "akit.wpilog"
+    write_signals(groups, path, units={})
+
+    code, said, _ = run(capsys, "fit", path)
+    _, turned, _ = run(
+        capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
+        "--lever", KRAKEN.lever,
+    )  # fmt: skip
+
+    assert code == 0
+    assert "simple mechanism in radians" in said
+    assert "All 4 motors, each fitted alone, agree within their errors" in said
+    assert "Moment of inertia 5.2" in turned
+
+
 def test_a_rate_in_place_of_a_voltage_is_told_and_gives_no_inertia(logs, capsys):
     rate = ("--voltage", RATE, *GYRO)
 
@@ -449,7 +513,6 @@ EDWIN = "StuyPulse+Edwin~sysid~data~drivetrain"
 CUBE = "StuyPulse+SwerveSysId~client~data.json"
 
 
-@pytest.mark.slow
 @pytest.mark.shared
 def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real, capsys):
     """A tank of 2022, some 55 kg; its track width is not known, 0.55 m is ordinary."""
@@ -465,7 +528,6 @@ def test_a_real_robot_that_turned_has_a_moment_of_inertia_a_robot_can_have(real,
     assert found["error"] > 0.05 * found["value"]  # the log is poor, and the error says so
 
 
-@pytest.mark.slow
 @pytest.mark.shared
 def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsys):
     """One file has the wheel's circumference in it, the other none: kV differs sixteenfold."""
@@ -480,7 +542,6 @@ def test_a_real_pair_of_logs_in_different_units_is_told_by_the_lever(real, capsy
     assert "lever" in {one["code"] for one in json.loads(said)["warnings"]}
 
 
-@pytest.mark.slow
 @pytest.mark.shared
 def test_wheels_read_while_turning_need_a_lever(real, capsys):
     code, _, why = run(
@@ -492,7 +553,6 @@ def test_wheels_read_while_turning_need_a_lever(real, capsys):
     assert "Give --lever as well: trackwidth/√2" in why
 
 
-@pytest.mark.slow
 @pytest.mark.shared
 def test_a_real_log_of_a_swerve_project_is_read_and_not_believed(real, capsys):
     """Its velocity is the position times a factor: no gains describe it, and it is said so."""
@@ -556,7 +616,6 @@ severity = 1.0
 # ---- the solvers accept it ----
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["swerve", "swerve-rotation"])
 def test_reconcile_finds_what_is_hidden_in_it(name):
     robot = MECHANISMS[name].hide("velocity-filter", 1.5)

@@ -147,8 +147,8 @@ def kv_unit(answers: Answers) -> None:
     right = read_unit(f"V*s/{symbol}")
     if given.powers == right.powers and math.isclose(given.factor, right.factor):
         return
-    alike = given.powers[:2] == right.powers[:2] and sum(given.powers) == sum(right.powers)
-    if alike and max(given.powers[2:]) == 0:
+    volts, length, rest = given.powers[:2], given.powers[2:4], given.powers[4:]
+    if volts == right.powers[:2] and sum(length) == -1 and max(length) == 0 and not any(rest):
         hint = f"the right kind of unit, but your velocities are in {symbol}/s"
         raise WrongAnswer(raw, hint=hint, misconception="M-UNITS", earned=1.0)
     raise WrongAnswer(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
@@ -156,6 +156,8 @@ def kv_unit(answers: Answers) -> None:
 
 def _about_unit(given: tuple[int, ...]) -> str:
     volt, second, *length = given
+    if any(given[4:]):
+        return "multiply it by the unit of your velocity: only volts must remain"
     if (volt, second, sum(length)) == (-1, -1, 1):
         return "that is upside down: velocity for each volt"
     if (volt, second) == (1, 2) and sum(length) == -1:

@@ -54,7 +54,7 @@ class Made:
 
 
 def asked(course: Path) -> tuple[Exercise, ...]:
-    """The twelve exercises; practice has no number, and is none of them."""
+    """The thirteen exercises; practice has no number, and is none of them."""
     return tuple(one for one in list_exercises(course) if one.name[-1].isdigit())
 
 

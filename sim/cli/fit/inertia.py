@@ -140,6 +140,8 @@ def describe_inertia(turned: "MomentOfInertia") -> str:
     share = turned.error / turned.value
     error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"
     said = " as the speeds tell it" if turned.lever == turned.lever_seen else ""
+    if turned.lever_seen is None:
+        said = ", which cannot be checked, as the log of going straight is not in meters"
     return (
         f"Moment of inertia {turned.value:.3g} {error}: mass · lever · kA "
         f"turning / kA straight, with a lever of {turned.lever:.3g} m{said}. Wheels and rotors are "

@@ -8,6 +8,10 @@ stand in the corners and push across the diagonal, so it is trackwidth/√2. The
 a wheel runs at R·ω, so that R = kV'/kV. (PathPlanner, "Robot Config", and Choreo, "Estimating MoI",
 give the formula, both with half the trackwidth.)
 
+Where the test straight ahead was logged in rotations of a motor, as Phoenix 6 does, the lever gives
+the meters: kV'/R volts for each meter per second, whatever the wheel and the gears. What remains is
+J = m·R²·τ'/τ, with τ = kA/kV.
+
 Wheels and rotors are in both kA. Where they are worth a share s of the mass, the robot's own
 inertia is J - s·(m·R² - J).
 """
@@ -17,7 +21,7 @@ from dataclasses import dataclass, replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.core.units import find_unit
+from sim.core.units import find_unit, gains_per
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.physics.theory import FACTORS
 from sim.fit.result import Fit
@@ -42,7 +46,7 @@ class MomentOfInertia:
         error: [kg·m²] one standard error, from those of the two kA.
         without_rotors: [kg·m²] the least and the most of the robot's own.
         lever: [m] that was used.
-        lever_seen: [m] that the speeds tell, kV'/kV.
+        lever_seen: [m] that the speeds tell, kV'/kV; None where only the lever tells the meters.
         doubts: what speaks against it.
     """
 
@@ -50,7 +54,7 @@ class MomentOfInertia:
     error: float
     without_rotors: tuple[float, float]
     lever: float
-    lever_seen: float
+    lever_seen: float | None
     doubts: tuple[Doubt, ...] = ()
 
     def to_json(self) -> dict[str, object]:
@@ -76,28 +80,38 @@ def moment_of_inertia(
 
     Args:
         turning: of a test on the spot, its position an angle of the robot.
-        straight: of a test straight ahead, its position a length.
+        straight: of a test straight ahead, its position a length, or rotations of a motor.
         mass: [kg] of the robot.
         lever: [m] of a wheel; None takes the one that the speeds tell.
         by_wheels: the position of ``turning`` is the wheels' way, a length, and no gyro's angle.
 
     Raises:
-        BadRequest: a mass or a lever that no robot has, none where only the wheels were read, a
-            position of the wrong kind, or gains of which one is not above zero.
+        BadRequest: a mass or a lever that no robot has, no lever where one is needed, a position
+            of the wrong kind, or gains of which one is not above zero.
     """
     if by_wheels:
         turning = _per_radian(turning, lever)
     _check(turning, straight, mass=mass, lever=lever)
     turn, go = fit_in_si(turning), fit_in_si(straight)
+    in_turns = find_unit(straight.units).angular
     seen = turn.gains["kV"] / go.gains["kV"]
+    if in_turns and lever is not None:  # the lever tells how many meters a rotation is
+        go, seen = _scaled(go, seen / lever), lever
     arm = seen if lever is None else lever
     value = mass * arm * turn.gains["kA"] / go.gains["kA"]
     parts = [one.errors["kA"] / one.gains["kA"] for one in (turn, go)]
-    if lever is None:
+    if lever is None or in_turns:
         parts += [one.errors["kV"] / one.gains["kV"] for one in (turn, go)]
     own = sorted(value - share * (mass * arm**2 - value) for share in ROTORS)
     doubts = () if lever is None else tuple(_lever_doubts(turn, go, seen, lever))
-    return MomentOfInertia(value, value * math.hypot(*parts), (own[0], own[1]), arm, seen, doubts)
+    return MomentOfInertia(
+        value,
+        value * math.hypot(*parts),
+        (own[0], own[1]),
+        arm,
+        None if in_turns else seen,
+        doubts,
+    )
 
 
 def _per_radian(turning: Fit, lever: float | None) -> Fit:
@@ -107,12 +121,17 @@ def _per_radian(turning: Fit, lever: float | None) -> Fit:
             "the log of turning has the way of the wheels and no angle of the robot",
             advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
         )
-    found = turning.in_units("meters")
-    gains, errors = (
-        {name: value * lever if name in {"kV", "kA"} else value for name, value in one.items()}
-        for one in (found.gains, found.errors)
+    found = _scaled(turning.in_units("meters"), lever)
+    return replace(found, units="radians", log_units="radians")
+
+
+def _scaled(found: Fit, factor: float) -> Fit:
+    """The fit with kV and kA for a unit of position that is ``factor`` times as large."""
+    return replace(
+        found,
+        gains=gains_per(found.gains, factor=factor),
+        errors=gains_per(found.errors, factor=factor),
     )
-    return replace(found, units="radians", log_units="radians", gains=gains, errors=errors)
 
 
 def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> None:
@@ -125,10 +144,10 @@ def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> 
             advice="Give the angle of the robot: a gyro's position and velocity, with --position, "
             "--velocity and --units degrees.",
         )
-    if find_unit(straight.units).angular:
+    if find_unit(straight.units).angular and lever is None:
         raise BadRequest(
-            f"the log of going straight is in {straight.units}",
-            advice="Log meters of the wheels: rotations of a wheel times 2π times its radius.",
+            f"the log of going straight is in {straight.units}, so the speeds tell no lever",
+            advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
         )
     for what, one in (("turning", turning), ("going straight", straight)):
         low = [gain for gain in ("kV", "kA") if not one.gains[gain] > 0.0]

@@ -27,7 +27,7 @@ from sim.inspect.log_features import LogFeatures
 
 TURN = 2.0 * math.pi
 NEAR = 0.05  # [share] how closely a factor must be met; slip and filters bend it less
-DRIVE = "drive"  # in the name of the mechanism; SysId's own tool writes Drivetrain
+DRIVES = ("drive", "swerve")  # in the name of a mechanism; SysId's own tool writes Drivetrain
 FULL = 12.0  # [V]
 FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes span about 2 to 7
 FAR = 2.5  # [times] a factor that is none of the known ones but too large to be a bent measurement
@@ -96,7 +96,7 @@ def _usual(features: LogFeatures) -> float:
 def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
     """A drivetrain faster or slower than any: both readings are in another unit than it says."""
     per, name = find_unit(features.log.units), features.log.mechanism
-    if per.angular or DRIVE not in name.lower():
+    if per.angular or not any(word in name.lower() for word in DRIVES):
         return
     speeds = [
         FULL * run.top_speed / float(np.abs(run.voltage).max())
