@@ -60,7 +60,7 @@ def _check_python() -> MachineFinding:
 
 def _check_packages() -> MachineFinding:
     lacking = [name for name in NEEDED if _find_version(name) is None]
-    found = f"{', '.join(lacking)} missing" if lacking else "all there"
+    found = f"{', '.join(lacking)} missing" if lacking else "all installed"
     advice = 'In the course folder: python -m pip install -e ".[course]"'
     return MachineFinding("packages", found, not lacking, advice=advice)
 
@@ -76,7 +76,7 @@ def _check_engine() -> MachineFinding:
     from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - beside its use
 
     if not engine_can_compile():
-        advice = "It works, slowly. To compile it: python -m pip install numba"
+        advice = "The simulation works, but slowly. To make it fast: python -m pip install numba"
         return MachineFinding(
             "simulation", "not compiled: Numba is missing", right=False, needed=False, advice=advice
         )
@@ -89,14 +89,14 @@ def _check_engine() -> MachineFinding:
 
 def _check_writing(course: Path) -> MachineFinding:
     right = all(os.access(place, os.W_OK) for place in (course, course / "exercises"))
-    found = f"{course}, {'which may be written' if right else 'which may not be written'}"
+    found = f"{course}, {'writable' if right else 'not writable'}"
     return MachineFinding("course", found, right, advice="Copy the course to a folder of your own.")
 
 
 def _check_terminal() -> MachineFinding:
     encoding = (sys.stdout.encoding or "ascii").lower()
     right = encoding.replace("-", "") == "utf8"
-    advice = "Signs such as ✓ are shown as letters; set PYTHONUTF8=1 to see them."
+    advice = "This terminal shows letters for signs such as ✓. To see the signs: set PYTHONUTF8=1"
     return MachineFinding("terminal", encoding, right, needed=False, advice=advice)
 
 
@@ -104,8 +104,8 @@ def _check_isolation() -> MachineFinding:
     found = find_isolation_level()
     right = found.startswith("isolated")
     advice = (
-        "Fine for your own answers. Grade a class's code on Linux, where it can be shut in, or in "
-        "a container: grade class --in docker. Else it is not run."
+        "This is enough for your own answers. To grade the code of a class, use Linux or a "
+        "container: grade class --in docker. Elsewhere, code of others is not run."
     )
     return MachineFinding("learners' code", found, right, needed=False, advice=advice)
 
@@ -114,7 +114,7 @@ def _check_container() -> MachineFinding:
     from grader.classroom.container import BUILD, find_engines  # noqa: PLC0415 - beside its use
 
     there = find_engines()
-    found = f"{' and '.join(there)} answers" if there else "neither docker nor podman answers"
+    found = f"{' and '.join(there)} found" if there else "neither docker nor podman is running"
     advice = (
         "For grade class --in docker: install Docker or Podman, start it, and in the course "
         f"folder: {BUILD.format(engine='docker')}"

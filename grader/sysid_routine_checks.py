@@ -97,7 +97,7 @@ class ConfigSetting:
         if got.known is Certainty.DEFAULT:
             seen = f"left to WPILib's default, {value:g} {self.unit}"
             if right:
-                return f"This is {seen}. Write it down all the same: a default may change."
+                return f"This is {seen}. Write the number anyway: a default may change."
         else:
             self._check_dimension(got, facts)
             seen = f"{quote_code(got)}: {value:g} {self.unit}"
@@ -136,16 +136,16 @@ def check_motor_driven(motor: str, calls: Sequence[DriveCall]) -> None:
     """
     mine = [call for call in calls if call.motor == motor]
     if not mine:
-        hint = "Drive every motor: the others carry one that is left out, and kS and kA come out "
-        hint += "too large."
+        hint = "Drive every motor. The others have to turn one that gets no voltage, and kS and kA "
+        hint += "become too large."
         raise WrongAnswer(f"{motor} gets no voltage", hint=hint)
     for call in mine:
         if call.condition:
             raise WrongAnswer(
                 explain_doubt(f"when {motor} gets the voltage", f"behind `{call.condition}`"),
-                hint="Send every voltage that the test asks for, whatever it is.",
+                hint="Send every voltage of the test, without a condition.",
             )
-        hint, misconception = "setVoltage() takes the volts as they come.", ""
+        hint, misconception = "Pass the voltage to setVoltage() unchanged.", ""
         if call.output is Output.VOLTAGE and call.uses_parameter and call.scaled is False:
             continue
         if call.output is Output.DUTY or BATTERY.search(call.text):
@@ -157,9 +157,9 @@ def check_motor_driven(motor: str, calls: Sequence[DriveCall]) -> None:
                 explain_doubt(f"what {motor} gets", quote_code(call)), hint="Call setVoltage()."
             )
         elif not call.uses_parameter:
-            hint = "That is the same whatever the test asks for. Send the callback's own voltage."
+            hint = "That does not depend on the test. Send the voltage that the callback gets."
         else:
-            hint = f"The voltage is changed on its way. {hint}"
+            hint = f"Your code changes the voltage. {hint}"
         raise WrongAnswer(quote_code(call), hint=hint, misconception=misconception)
 
 
@@ -172,8 +172,8 @@ def check_only_test_drives(facts: RoutineFacts) -> None:
     for call in facts.in_periodic:
         raise WrongAnswer(
             f"periodic() calls {quote_code(call)}",
-            hint=f"It runs in every loop, during a test too, and takes {call.motor} away from it. "
-            "Leave the motors to commands.",
+            hint=f"It runs in every loop, also during a test, and changes the voltage of "
+            f"{call.motor}. Let only commands drive the motors.",
         )
 
 
@@ -184,10 +184,10 @@ def check_open_loop(call: DriveCall) -> None:
         WrongAnswer: it is a closed loop or a share of the battery, or it cannot be told.
     """
     if call.output is Output.DUTY:
-        hint = "A test asks for volts and should get volts: setVoltage(voltage), undivided."
+        hint = "A test commands volts, so send volts: setVoltage(voltage), not divided."
         raise WrongAnswer(quote_code(call), hint=hint, misconception="M-DUTY")
     if call.output is Output.CLOSED_LOOP:
-        hint = "Send the voltage as it comes, and leave every controller out of the test."
+        hint = "Send the voltage unchanged, and use no controller in the test."
         raise WrongAnswer(quote_code(call), hint=hint, misconception="M-CLOSEDLOOP")
     if call.output is Output.UNKNOWN:
         raise WrongAnswer(
@@ -213,9 +213,9 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
     voltage = there.get("voltage")
     if voltage and voltage.source is Source.COMMANDED:
         raise WrongAnswer(
-            f"{quote_code(voltage)}: the voltage that was asked for",
-            hint="Log what the motor put out: getMotorVoltage(), getAppliedOutput() times the bus "
-            "voltage, or in Python getVoltage().",
+            f"{quote_code(voltage)}: the commanded voltage",
+            hint="Log the voltage that the motor got: getMotorVoltage(), getAppliedOutput() times "
+            "the bus voltage, or in Python getVoltage().",
             misconception="M-CMDVOLT",
             earned=earned - points * _SHARE["voltage"],
         )
@@ -264,12 +264,12 @@ def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
     wanted = find_motion_family(mechanism)
     hint = ""
     if len(families) > 1:
-        hint = "Some of these go along a line and others turn. Choose one kind for all."
+        hint = "Some of these are lengths and others are angles. Choose one kind for all."
     elif len(lengths) > 1:
         hint = "Choose one unit for the position, and the same per second for the velocity."
     elif wanted and families != {wanted}:
         unit = "Meters" if wanted == "linear" else "Rotations or Radians"
-        hint = f"{mechanism} sounds like something that moves in {unit}. Log it so."
+        hint = f"By its name, {mechanism} moves in {unit}. Log it in {unit}."
     if hint:
         raise WrongAnswer(seen, hint=hint, misconception="M-UNITS")
 

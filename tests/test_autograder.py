@@ -246,7 +246,10 @@ def test_of_a_group_the_first_is_the_student(tmp_path):
     ("words", "said"),
     [
         (["gradescope", "-o", "x.zip", "--secret", "{root}/class.secret"], "in the course folder"),
-        (["gradescope", "-o", "x.zip", "--secret", "../gone"], "the secret is not there"),
+        (
+            ["gradescope", "-o", "x.zip", "--secret", "../gone"],
+            "there is no such file with a secret",
+        ),
         (["gradescope", "-o", "x.zip", "--roster", "gone.csv"], "gone.csv"),
         (["gradescope", "-o", "x.zip", "--exercise", "99"], "there is no exercise '99'"),
         (["github", "-o", "{root}/README.md/grade.yml"], "cannot be written"),

@@ -261,7 +261,7 @@ def test_another_secret_does_not_open_the_seal(tmp_path, capsys):
     (tmp_path / "class.secret").unlink()
     assert "made with another secret" in refused(capsys, path, "-o", folder)
     assert not (tmp_path / "class.secret").exists()  # none is made in place of the lost one
-    assert "the secret is not there" in refused(capsys, path, "-o", folder, "--check")
+    assert "there is no such file with a secret" in refused(capsys, path, "-o", folder, "--check")
 
 
 def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys):

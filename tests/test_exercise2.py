@@ -106,10 +106,13 @@ def test_theory_is_what_the_bench_says_of_the_same_parts():
     parts = type(OWN.module.draw("ann").parts)
     made = parts("Kraken X60", 6000, find_motor("krakenX60").back_emf, 4, 6.75, 0.1016)
 
-    assert made.paper == pytest.approx(
+    assert made.theoretical_kv == pytest.approx(
         theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508), rel=1e-9
     )
-    assert (made.paper, made.exact) == (pytest.approx(2.538, abs=5e-4), pytest.approx(2.524, 1e-3))
+    assert (made.theoretical_kv, made.exact) == (
+        pytest.approx(2.538, abs=5e-4),
+        pytest.approx(2.524, 1e-3),
+    )
 
 
 def test_a_duty_cycle_on_a_tired_battery_logged_as_asked_for_does_what_is_told():
@@ -154,18 +157,18 @@ def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
 def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
     variant = OWN.module.draw(student)
     said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
-    for wrong in (7.77, 1.03 * variant.parts.paper, variant.measured):
+    for wrong in (7.77, 1.03 * variant.parts.theoretical_kv, variant.measured):
         graded(copy, student=student, kV_theory=wrong, difference=3333, verdict="x", ks_flag="x")
         run_command(["2", "--student", student])
         run_command(["2", "--student", student, "--json"])
     said += capsys.readouterr().out
     said += (copy.folder / "data" / make_folder_name(student) / "given.toml").read_text("utf-8")
-    said = said.replace(f"{1.03 * variant.parts.paper:.4g}", "")
+    said = said.replace(f"{1.03 * variant.parts.theoretical_kv:.4g}", "")
     numbers = [abs(float(text)) for text in re.findall(r"\d+\.\d+", said)]
-    percent = abs(variant.percent(variant.parts.paper))
+    percent = abs(variant.percent(variant.parts.theoretical_kv))
 
     assert len(numbers) > 20
-    assert [n for n in numbers if abs(n - variant.parts.paper) < 0.002 * n] == []
+    assert [n for n in numbers if abs(n - variant.parts.theoretical_kv) < 0.002 * n] == []
     assert [n for n in numbers if abs(n - percent) < 0.02] == []
 
 
@@ -243,7 +246,9 @@ def test_a_theory_made_with_the_ratio_in_the_code_is_named(copy):
     student = student_who(lambda one: one.planted == ("gear-ratio",))
     variant = OWN.module.draw(student)
     other = float(variant.told["code"]["ratio"]) / variant.parts.ratio
-    found = graded(copy, student=student, kV_theory=variant.parts.paper * other)["kv-theory"]
+    found = graded(copy, student=student, kV_theory=variant.parts.theoretical_kv * other)[
+        "kv-theory"
+    ]
 
     assert "the ratio in the code" in found.hint
 
@@ -251,7 +256,7 @@ def test_a_theory_made_with_the_ratio_in_the_code_is_named(copy):
 @pytest.mark.parametrize("times", [0.5, 2 * 3.14159265])
 def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
     variant = OWN.module.draw("ann")
-    wrong = variant.parts.paper * times
+    wrong = variant.parts.theoretical_kv * times
     found = graded(copy, kV_theory=wrong, difference=variant.percent(wrong))
 
     assert found["kv-theory"].points == 0
@@ -261,7 +266,7 @@ def test_a_difference_that_follows_from_a_wrong_theory_earns_half(copy, times):
 @pytest.mark.parametrize("written", ["{:.1f} %", "{:.1f}%", "{:.1f} percent", "{:.1f}"])
 def test_a_percentage_may_be_written_in_many_ways(copy, written):
     variant = OWN.module.draw("ann")
-    text = written.format(variant.percent(variant.parts.paper))
+    text = written.format(variant.percent(variant.parts.theoretical_kv))
 
     assert graded(copy, difference=text)["difference"].status == "passed"
     assert graded(copy, difference=text.replace(".", ","))["difference"].status == "passed"
@@ -270,7 +275,7 @@ def test_a_percentage_may_be_written_in_many_ways(copy, written):
 def test_a_share_of_the_measured_kv_is_named(copy):
     student = student_who(lambda one: one.verdict == "inspect")
     variant = OWN.module.draw(student)
-    of_measured = 100.0 * (1.0 - variant.parts.paper / variant.measured)
+    of_measured = 100.0 * (1.0 - variant.parts.theoretical_kv / variant.measured)
 
     assert (
         "percent of what?"
@@ -294,14 +299,14 @@ def test_every_slip_on_paper_is_named_for_everybody(copy):
         variant = OWN.module.draw(student)
         slips = [1 / 60, 60.0, 1 / variant.parts.ratio, 6.2832]
         for times in slips + [0.5, 2.0] * bool(variant.parts.diameter):
-            found = graded(copy, student=student, kV_theory=variant.parts.paper * times)
+            found = graded(copy, student=student, kV_theory=variant.parts.theoretical_kv * times)
 
             assert found["kv-theory"].misconception == "M-UNITS", (student, times)
 
 
 def test_a_theory_in_another_unit_is_converted(copy):
     student = student_who(lambda one: one.kind == "turret")
-    paper = OWN.module.draw(student).parts.paper
+    paper = OWN.module.draw(student).parts.theoretical_kv
 
     in_radians = f"{paper / 6.283185:.5f} V·s/rad"
     assert graded(copy, student=student, kV_theory=in_radians)["kv-theory"].status == "passed"
@@ -384,7 +389,7 @@ def test_a_right_sign_is_not_asked_for_again(copy):
     below = student_who(lambda one: one.verdict == "bookkeeping")
     above = student_who(lambda one: one.verdict == "inspect")
     for student, word, says in ((below, "ok", "below zero"), (above, "bookkeeping", "above zero")):
-        percent = OWN.module.draw(student).percent(OWN.module.draw(student).parts.paper)
+        percent = OWN.module.draw(student).percent(OWN.module.draw(student).parts.theoretical_kv)
         right = graded(copy, student=student, difference=percent, verdict=word)["verdict"]
         wrong = graded(copy, student=student, difference=-percent, verdict=word)["verdict"]
 

@@ -195,7 +195,7 @@ def test_a_chooser_holds_no_button(tmp_path):
     rows = four('m_chooser.addOption("{kind} {way}", m_arm.{kind}(Direction.k{Way}));')
     found = judged(tmp_path, java(rows))
 
-    assert "Nobody holds a button there, so nobody" in found["held"].hint
+    assert "No button is held there, so nobody" in found["held"].hint
     assert 'addOption("quasistatic forward"' in found["held"].seen
 
 

@@ -71,7 +71,7 @@ def tampering_allowed(monkeypatch):
         pytest.param(
             (IMPORT, GOES_ON),
             "held",
-            f"in WPILib's simulation {FIRST} went on when it was let go",
+            f"in WPILib's simulation {FIRST} continued after the button was released",
             1,
             id="a test that goes on",
         ),

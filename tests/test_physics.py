@@ -144,7 +144,7 @@ def test_a_wrong_unit_in_the_log_is_named(kind, factor, named):
         ("elevator", {"load": 40.0}, "ka-below-theory", "20 kg"),
         ("shooter", {"load": 0.003}, "ka-above-theory", "kV fits"),
         ("drivetrain", {"count": 2}, "ka-below-theory", "or 4 motors"),
-        ("drivetrain", {"ratio": 8.14}, "ka-above-theory", "the other way"),
+        ("drivetrain", {"ratio": 8.14}, "ka-above-theory", "the inverse factor"),
     ],
 )
 def test_wrong_parts_are_caught_and_what_would_fit_is_said(kind, wrong, code, named):

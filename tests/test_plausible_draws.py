@@ -59,7 +59,7 @@ def test_exercise_2_has_a_ks_that_goes_with_what_the_mechanic_noticed():
         assert KS["least"] <= variant.friction <= STOP, student
         assert variant.flag == "fine" or "as it did when it was new" not in mechanic, student
         assert variant.measured * variant.speed < BATTERY / 2, student
-        assert 0.4 < variant.measured / variant.parts.paper < 2.2, (
+        assert 0.4 < variant.measured / variant.parts.theoretical_kv < 2.2, (
             student
         )  # a radius for a diameter
         if variant.kind == "drivetrain":

@@ -179,7 +179,7 @@ def empty_course(tmp_path, monkeypatch):
         (["release", "-o", "out", "--roster", "r.csv", "--secret", "out/s"], "be given away"),
         (["release", "--check", "."], "no secret was named"),
         (["release", "--check", ".", "--secret", "short"], "fewer than 16 characters"),
-        (["class", "in", "--secret", "nowhere"], "the secret is not there"),
+        (["class", "in", "--secret", "nowhere"], "there is no such file with a secret"),
     ],
 )
 def test_what_cannot_be_released_is_one_line(capsys, command, said):

@@ -80,7 +80,7 @@ BROKEN = {
     "brackets in text": ("A.java", 'class A {\n String s = "((("\n}', 2, "a ';' is missing"),
     "not Java": ("A.java", "def f():\n    pass\n", 1, "this is not Java: def f():"),
     "garbage": ("A.java", "class A { int x = " + "-*" * 900, 1, "the '{' here is never closed"),
-    "more garbage": ("A.java", "!;" * 20_000, 1, "too little of this is Java"),
+    "more garbage": ("A.java", "!;" * 20_000, 1, "most of this is not Java"),
     "Java as Python": ("a.py", "public class A {\n}\n", 1, "this is not Python: invalid syntax"),
     "no colon": ("a.py", "class A\n    pass\n", 1, "this is not Python: expected ':'"),
     "bottomless": ("a.py", "x = " + "-" * 50_000 + "1", 1, "nested deeper than Python itself"),
@@ -142,7 +142,7 @@ def test_what_is_too_deep_to_follow_is_said(tmp_path: Path) -> None:
 
     assert facts.drive == ()
     assert [problem.message for problem in facts.unread] == [
-        "the code goes deeper here than it was followed"
+        "the code is nested too deeply here for the grader"
     ]
 
 

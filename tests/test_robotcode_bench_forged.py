@@ -148,7 +148,7 @@ def test_a_file_in_the_place_of_wpilibs_own_earns_nothing(mine, tmp_path):
     path = mine("")
     (tmp_path / "wpimath.py").write_text("", "utf-8")
 
-    assert "takes the place of WPILib's own" in EXERCISE.grade(path, student="ann").reason
+    assert "replaces WPILib's own" in EXERCISE.grade(path, student="ann").reason
 
 
 HONEST = (

@@ -225,7 +225,7 @@ def test_results_made_to_hurt_are_only_results_that_cannot_be_read(tmp_path, lef
     found = read_facts(tmp_path, tmp_path / "mine.py", ended=True, seconds=1)
 
     assert (found.outcome, found.said) == (
-        RunOutcome.CANNOT, "the run left nothing that can be read",
+        RunOutcome.CANNOT, "the run left no result",
     )  # fmt: skip
 
 

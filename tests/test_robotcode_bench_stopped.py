@@ -103,7 +103,7 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
 
     assert run.outcome is RunOutcome.ENDLESS
     assert (run.where, run.line) in {("drive", 38), ("drive", 39)}
-    assert "did not come to an end within 4 s" in run.said
+    assert "did not end within 4 s" in run.said
 
 
 @pytest.mark.parametrize(

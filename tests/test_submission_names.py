@@ -188,5 +188,5 @@ def test_two_folders_of_one_student_are_refused(tmp_path, course):
     for name in ("Jane Doe", "Doe Jane"):
         (tmp_path / "in" / name).mkdir(parents=True)
 
-    with pytest.raises(BadRequest, match="are one student's"):
+    with pytest.raises(BadRequest, match="belong to one student"):
         find_submissions(tmp_path / "in", course, roster=people(tmp_path, CANVAS))

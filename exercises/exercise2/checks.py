@@ -76,7 +76,7 @@ def read(path: Path, *, student: str) -> Answers:
 
 @check(points=3)
 def kv_theory(answers: Answers) -> str | None:
-    """The kV that the free speed promises, on paper."""
+    """The theoretical kV, which follows from the free speed."""
     variant = answers.variant
     value = read_answer_number(answers.given.get("kv_theory"), variant.asked)
     nearest = min(variant.theories, key=lambda one: abs(one - value))
@@ -89,7 +89,7 @@ def kv_theory(answers: Answers) -> str | None:
 
 @check(points=2)
 def difference(answers: Answers) -> None:
-    """How far the measured kV is above the one on paper, in percent."""
+    """How far the measured kV is above the theoretical one, in percent."""
     variant, value = answers.variant, _percent(answers)
     try:
         theirs = read_answer_number(answers.given.get("kv_theory"), variant.asked)
@@ -123,13 +123,13 @@ def _own_difference(answers: Answers) -> float | None:
 
 
 def _near(value: float, percent: float, variant: Variant) -> bool:
-    ratio = variant.measured / variant.parts.paper
+    ratio = variant.measured / variant.parts.theoretical_kv
     return abs(value - percent) <= POINT * max(1.0, ratio)
 
 
 def _about_percent(value: float, variant: Variant) -> str:
     """What a wrong percentage may have been."""
-    percent = variant.percent(variant.parts.paper)
+    percent = variant.percent(variant.parts.theoretical_kv)
     undone = (
         (100.0 * value, "this is a fraction. Write percent, 100 times as much"),
         (-value, "the size is right, the sign is not: above theory is positive, below negative"),
@@ -145,9 +145,9 @@ def _about_percent(value: float, variant: Variant) -> str:
     for once, says in undone:
         if _near(once, percent, variant):
             return says
-    of_measured = 100.0 * (1.0 - variant.parts.paper / variant.measured)
+    of_measured = 100.0 * (1.0 - variant.parts.theoretical_kv / variant.measured)
     if _near(value, of_measured, variant):
-        return "percent of what? Divide by the kV on paper, not by the measured one"
+        return "percent of what? Divide by the theoretical kV, not by the measured one"
     return "outside the accepted ±1 %. Compute measured minus theory, and divide by theory"
 
 
@@ -166,7 +166,7 @@ def verdict(answers: Answers) -> None:
                 more = "Check the sign of your difference"
             return f"{says} {more}", "M-BELOW-THEORY-OK"
         if found == "bookkeeping":
-            says = "that is for a kV below the one on paper."
+            says = "that is for a kV below the theoretical one."
             more = "Your difference is above zero" if sound else "Which sign has your difference?"
             return f"{says} {more}", ""
         return "find your difference, with its sign, in the table of the README", ""

@@ -126,7 +126,7 @@ def _clear(variant: Variant) -> bool:
         for theory in variant.theories
         for off in (-CLEAR, CLEAR)
     }
-    low, high = variant.percent(variant.parts.paper), OFF[1] * 100.0
+    low, high = variant.percent(variant.parts.theoretical_kv), OFF[1] * 100.0
     if "gear-ratio" in variant.planted and not OFF[0] * 100.0 < abs(low) < high:
         return False
     found = lookalikes(variant)
@@ -134,7 +134,7 @@ def _clear(variant: Variant) -> bool:
     return (
         len(ways) == 1
         and abs(low) > 2.5
-        and not any(abs(one.value / variant.parts.paper - 1.0) < near for one in found[1:])
+        and not any(abs(one.value / variant.parts.theoretical_kv - 1.0) < near for one in found[1:])
         and not any(
             abs(one.value / other.value - 1.0) < APART
             for one, other in combinations(found[1:], 2)

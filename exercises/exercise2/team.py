@@ -61,7 +61,7 @@ class Parts:
         return (self.diameter / 2.0 if self.diameter else 0.5 / math.pi) / self.ratio
 
     @property
-    def paper(self) -> float:
+    def theoretical_kv(self) -> float:
         """KV as 12 V over the free speed promises it."""
         return FULL / (self.free_rpm * math.pi / 30.0) / self._per
 
@@ -100,8 +100,8 @@ class Variant:
 
     @property
     def asked(self) -> AskedNumber:
-        """The number on paper, as it is asked for."""
-        return AskedNumber("kV_theory", self.parts.paper, f"V·s/{self.symbol}", NEAR)
+        """The theoretical kV, as it is asked for."""
+        return AskedNumber("kV_theory", self.parts.theoretical_kv, f"V·s/{self.symbol}", NEAR)
 
     def right(self, value: float) -> bool:
         """Whether this is a kV that theory gives, by either formula."""
@@ -110,7 +110,7 @@ class Variant:
     @property
     def theories(self) -> tuple[float, float]:
         """Both ways to compute it."""
-        return self.parts.paper, self.parts.exact
+        return self.parts.theoretical_kv, self.parts.exact
 
     def percent(self, theory: float) -> float:
         """How far the measured kV is above a theory [%]."""
@@ -119,7 +119,7 @@ class Variant:
     @property
     def verdict(self) -> str:
         """What the difference says."""
-        return verdict(self.percent(self.parts.paper))
+        return verdict(self.percent(self.parts.theoretical_kv))
 
     @property
     def flag(self) -> str:

@@ -195,7 +195,7 @@ def bound(facts: BindingFacts) -> None:
         text, line = facts.elsewhere[0]
         raise WrongAnswer(
             f"{text} in line {line}",
-            hint="Nobody holds a button there, so nobody can let go. Bind the test to a button.",
+            hint="No button is held there, so nobody can release it. Bind the test to a button.",
         )
     _readable(facts, earned=0.0)
     if all_of(one.test for one in facts.factories) >= TESTS:

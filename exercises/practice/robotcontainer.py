@@ -3,6 +3,8 @@
 from commands2.button import CommandXboxController
 from example_subsystem import ExampleSubsystem
 
+# TODO: 1. Import SysIdRoutine from commands2.sysid, and what your guard needs from wpilib.
+
 
 class RobotContainer:
     """Everything there is on the robot."""
@@ -17,6 +19,6 @@ class RobotContainer:
 
     def configure_bindings(self) -> None:
         """Say which button does what."""
-        # TODO: 1. Bind the four tests to four buttons, so that each runs while its button is
+        # TODO: 2. Bind the four tests to four buttons, so that each runs while its button is
         #       held, and never by accident in a match. Next to each, a comment: which test is it,
         #       and which property of the mechanism does it measure?

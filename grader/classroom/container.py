@@ -48,7 +48,7 @@ def grade_in_container(context: click.Context, *, course: Path, output: Path) ->
     engine, image = str(context.params["engine"]), str(context.params["image"])
     if context.params.get("cluster"):
         raise BadRequest(
-            "--in and --cluster exclude each other",
+            "--in and --cluster cannot be used together",
             advice="A container has no network. Leave one of the two out.",
         )
     program = shutil.which(engine)
@@ -102,7 +102,7 @@ def _format_mount(path: Path, target: str, *, write: bool = False) -> str:
     source = path.resolve()
     if "," in str(source) or '"' in str(source):
         raise BadRequest(
-            "a container cannot be given a path with a comma or a quotation mark",
+            "a container cannot use a path with a comma or a quotation mark",
             where=str(source),
             advice="Rename that folder.",
         )

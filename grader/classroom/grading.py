@@ -94,7 +94,7 @@ def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
         grade = exercise.grade(folder, student=job.numbers_of, run=job.run)
         return make_grade_record(replace(grade, student=student))
     except MemoryError:
-        reason = "grading it took more memory than there is"
+        reason = "grading it needed more memory than this computer has"
         return make_missing_record(exercise, student, status="ungradable", reason=reason)
     except Exception as error:  # noqa: BLE001 - one student's file must not stop the class
         broken = f"our mistake ({type(error).__name__}: {error}); please report it, with the file"

@@ -60,7 +60,7 @@ def _explain_foreign_package(one: Submission, found: ClassPackage, secret: bytes
     if not found.is_for(one.student):
         return (
             f"its package was issued to {found.student}, and {one.student} handed it in. Ask both; "
-            "then rename it as the one whose work it is"
+            "then rename it to the student who did the work"
         )
     return ""
 
@@ -81,7 +81,7 @@ def _grade_as_started(one: Submission) -> Submission:
         one,
         problem=(
             f"its course was started as {started_as}, and {one.student} handed it in. Ask both; "
-            "then rename it as the one whose work it is"
+            "then rename it to the student who did the work"
         ),
     )
 

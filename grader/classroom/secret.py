@@ -28,7 +28,7 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
         raise BadRequest(
             f"the secret has fewer than {FEWEST} characters",
             where=str(path or VARIABLE),
-            advice="Take a longer one: a short secret can be found by trying.",
+            advice="Use a longer one: a short secret can be guessed.",
         )
     if value:
         return Secret(value, hidden=True)
@@ -36,7 +36,7 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
         return None
     if not make:
         raise BadRequest(
-            "the secret is not there",
+            "there is no such file with a secret",
             where=str(path),
             advice="Name the file that grade release made.",
         )

@@ -117,7 +117,7 @@ def find_submissions(
         if twins and not (part.name.file and twins[0].name.file):
             raise BadRequest(
                 f"{_format_name(twins[0].path.name)} and {_format_name(part.path.name)} "
-                "are one student's",
+                "belong to one student",
                 where=str(folder),
                 advice="Keep one of the two, or put all of that student's into one folder.",
             )

@@ -31,7 +31,7 @@ WORTH = 8  # [exercises] that a further process has to save, to be worth its sta
 AHEAD = 4  # [exercises for each worker] handed out at a time: enough that none waits
 LOOK = 0.2  # [s] between two looks at whether somebody wants to stop
 TOO_LONG = f"grading it took more than {SECONDS:g} s and was stopped"
-ENDED = "the process that graded it came to an end, perhaps for want of memory"
+ENDED = "the process that graded it stopped, perhaps because the memory was full"
 
 Task = tuple[GradingJob, str]  # a student, and one of their exercises
 

@@ -80,7 +80,7 @@ class CallbackInterpreter(StatementInterpreter):
 
     def cannot_read(self, node: Node) -> None:
         """Say that the way leads out of these files."""
-        said = f"`{node.place.text}` leads to code that is not in this file or those beside it"
+        said = f"`{node.place.text}` calls code that is not in this file or in the files next to it"
         self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
 
     def call(self, node: Call, frame: Frame) -> Value:

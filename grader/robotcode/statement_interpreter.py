@@ -132,7 +132,7 @@ class StatementInterpreter(ABC):
 
     def too_deep(self, node: Node, frame: Frame) -> Value:
         """Stop where no person's code leads, and say so."""
-        said = "the code goes deeper here than it was followed"
+        said = "the code is nested too deeply here for the grader"
         self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
         return replace(frame.value(node), carries=None)
 

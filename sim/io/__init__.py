@@ -65,7 +65,7 @@ _FOREIGN = (
     _ForeignFormat(
         (),
         (".hoot",),
-        "a log of CTRE's SignalLogger (.hoot), whose inside only CTRE's tools can read",
+        "a log of CTRE's SignalLogger (.hoot), which only CTRE's tools can read",
         "Convert it to WPILOG with Phoenix Tuner X (Log Extractor) or with owlet, and give that.",
     ),
     _ForeignFormat(
@@ -340,7 +340,7 @@ def _writer(given: str) -> _Writer:
                 return cast("_Writer", module)
             writable.extend(module.SUFFIXES)
     raise BadRequest(
-        f"no format that can be written ends in {Path(given).suffix or 'nothing'!r}",
+        f"a log whose name ends in {Path(given).suffix or 'nothing'!r} cannot be written",
         where=given,
         advice=f"End its name in one of: {', '.join(sorted(writable))}.",
     )
@@ -358,8 +358,8 @@ def _head(given: str) -> bytes:
             raise UnreadableFile("the file is empty", advice="Copy it from the robot again.")
         if state.st_size > LARGEST_FILE:
             raise UnreadableFile(
-                f"the file has {state.st_size / 2**30:.1f} GiB, the most that is read is "
-                f"{LARGEST_FILE / 2**30:.0f} GiB",
+                f"the file has {state.st_size / 2**30:.1f} GiB, and at most "
+                f"{LARGEST_FILE / 2**30:.0f} GiB can be read",
                 advice="Export only the four tests from it, with AdvantageScope for example.",
             )
         with path.open("rb") as stream:

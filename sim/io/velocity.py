@@ -73,7 +73,7 @@ def check_velocity(log: Log) -> Log:
     if _off_line(velocity, position) < SAME and _off_line(velocity, slope) > UNLIKE:
         doubt = Doubt(
             "velocity-is-position",
-            f"{log.source}: what is logged as the velocity is the position, so the slope of the "
+            f"{log.source}: the log has the position in place of the velocity, so the slope of the "
             "position was taken for the velocity. Log the velocity in the robot's code.",
         )
         return velocity_from_position(log).add_doubts(doubt)

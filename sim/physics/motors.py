@@ -86,7 +86,7 @@ def find_motor(name: str) -> Motor:
 
 
 def theoretical_kv(of: Motor, *, ratio: float, radius: float | None = None) -> float:
-    """The kV that 12 V over the free speed promises, as teams compute it on paper.
+    """The theoretical kV: 12 V over the free speed, as teams compute it.
 
     Args:
         of: the motor.

@@ -109,7 +109,7 @@ MISTAKES = (
             (RIGHT, "m_right.set(voltage.in(Volts) / 12.0)"),
         ),
         "open-loop",
-        "setVoltage(voltage), undivided",
+        "setVoltage(voltage), not divided",
         "M-DUTY",
     ),
     Mistake(
@@ -120,7 +120,7 @@ MISTAKES = (
             ("self.right.setVoltage(voltage)", "self.right.set(voltage / 12)"),
         ),
         "drive",
-        "takes the volts as they come",
+        "to setVoltage() unchanged",
         "M-DUTY",
     ),
     Mistake(
@@ -128,7 +128,7 @@ MISTAKES = (
         JAVA,
         replace_text((LEFT, "m_left.setVoltage(voltage.in(Volts) / 12)")),
         "drive",
-        "takes the volts as they come",
+        "to setVoltage() unchanged",
         "M-DUTY",
     ),
     Mistake(
@@ -139,7 +139,7 @@ MISTAKES = (
             (RIGHT, "m_right.setControl(new VelocityVoltage(voltage.in(Volts)))"),
         ),
         "open-loop",
-        "leave every controller out",
+        "use no controller in the test",
         "M-CLOSEDLOOP",
     ),
     Mistake(
@@ -161,7 +161,7 @@ MISTAKES = (
         PYTHON,
         replace_text(("setVoltage(voltage)", "setVoltage(3.5)")),
         "drive",
-        "the same whatever the test asks for",
+        "does not depend on the test",
     ),
     Mistake(
         "no log callback",
@@ -200,7 +200,7 @@ MISTAKES = (
             (APPLIED_LEFT, "Volts.of(m_asked)"),
         ),
         "log",
-        "the voltage that was asked for",
+        "the commanded voltage",
         "M-CMDVOLT",
     ),
     Mistake(

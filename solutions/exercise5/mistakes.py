@@ -251,9 +251,9 @@ MISTAKES = (
     Mistake(
         "a misspelled method of the routine",
         PYTHON,
-        replace_text(("self.routine.dynamic", "self.routine.dynamc")),
+        replace_text(("self.routine.dynamic", "self.routine.dynamik")),
         "factories",
-        "unknown method dynamc. Did you mean dynamic?",
+        "unknown method dynamik. Did you mean dynamic?",
     ),
     Mistake(
         "a method that the subsystem spells otherwise",

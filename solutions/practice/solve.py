@@ -86,7 +86,10 @@ def fill_in_code(exercise: Path, gains: dict[str, float], symbol: str) -> dict[s
             python,
             f"        self.feedforward = {kind}({arguments})\n",
         ),
-        "robotcontainer.py": (buttons_python[1],),
+        "robotcontainer.py": (
+            "import wpilib\nfrom commands2.sysid import SysIdRoutine\n",
+            buttons_python[1],
+        ),
     }
     return {name: _filled(exercise / name, several) for name, several in parts.items()}
 

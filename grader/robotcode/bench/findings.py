@@ -94,15 +94,15 @@ def _driven(motor: DrivenMotor) -> tuple[str, str, str] | None:
     ):
         return None
     if not motor.share:
-        hint = "Drive every motor: the others carry one that is left out, and kS and kA come out "
-        hint += "too large."
+        hint = "Drive every motor. The others have to turn one that gets no voltage, and kS and kA "
+        hint += "become too large."
         return f"{IN} {motor.name} never gets a voltage", hint, ""
     seen = f"{IN} {motor.name} got {motor.got:.2f} V when the test asked for {motor.asked:.2f} V"
     for nominal in (12.0, 12.5, 13.0):
         if abs(abs(motor.share) * nominal / BATTERY - 1.0) < CLOSE / 2:
-            hint = f"A share of {nominal:g} V is no voltage. Hand the voltage to setVoltage()."
-            return f"{seen}: the battery stood at {BATTERY:g} V", hint, "M-DUTY"
-    return seen, "The voltage is changed on its way. Send it as it comes: setVoltage(voltage).", ""
+            hint = f"A share of {nominal:g} V is not a voltage. Pass the voltage to setVoltage()."
+            return f"{seen}: the battery had {BATTERY:g} V", hint, "M-DUTY"
+    return seen, "Your code changes the voltage. Send it unchanged: setVoltage(voltage).", ""
 
 
 def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> RunFault | None:
@@ -128,19 +128,21 @@ def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> RunFault | None:
     eyes = [one.encoder for one in ran.recorded if one.encoder is not None]
     if len(eyes) == len(names) == len(ran.per_pulse) > len({*eyes}):
         twice = [one.name for one in ran.recorded if eyes.count(one.encoder or 0) > 1]
-        hint = "Record for each motor what its own encoder says."
-        return RunFault(
-            f"{IN} {' and '.join(twice)} follow one and the same encoder", hint, "", 1 / 3
-        )
+        hint = "Record for each motor the reading of its own encoder."
+        return RunFault(f"{IN} {' and '.join(twice)} record the same encoder", hint, "", 1 / 3)
     return None
 
 
 def _voltage(one: LoggedMotor) -> RunFault | None:
-    advice = "Log what the motor put out: in Python, getVoltage() of the motor."
+    advice = "Log the voltage that the motor got: in Python, getVoltage() of the motor."
     off = abs(one.kept - one.lowered) > CLOSE * abs(one.lowered)
     if one.as_asked or (one.voltage and off and abs(one.voltage - 1.0) < CLOSE):
-        low = f" of {one.lowered:.2f} V, which was all it got, the log says {one.kept:.2f} V"
-        seen = f"{IN}, on a battery that sags,{low}" if off else f"{IN} the log repeats the request"
+        low = f"the motor got {one.lowered:.2f} V, and the log says {one.kept:.2f} V"
+        seen = (
+            f"{IN}, with a weak battery, {low}"
+            if off
+            else f"{IN} the log has the commanded voltage"
+        )
         return RunFault(f"{seen} ({one.name})", advice, "M-CMDVOLT", 1 / 2)
     if one.voltage is not None and abs(one.voltage - 1.0) > CLOSE:
         seen = f"{IN} the voltage in the log is {one.voltage:.3g} times that of {one.name}"
@@ -151,7 +153,7 @@ def _voltage(one: LoggedMotor) -> RunFault | None:
 def _sign(one: LoggedMotor) -> RunFault | None:
     if one.forward is False:
         hint = "Invert the encoder, or what is logged, so that both signs agree."
-        seen = f"{IN} a positive voltage of {one.name} goes with a negative velocity"
+        seen = f"{IN} a positive voltage of {one.name} gives a negative velocity"
         return RunFault(seen, hint, "", 1 / 3)
     return None
 
@@ -185,7 +187,7 @@ def _scale(one: LoggedMotor) -> RunFault | None:
     seen = f"{IN} {one.name} moved 1 m, and the log says {abs(one.scale):.4g}"
     unit = "rotations" if one.angular else "meters"
     return RunFault(
-        f"{seen} {unit}", "The encoders count meters: log them as they come.", "M-UNITS"
+        f"{seen} {unit}", "The encoders count meters: log their readings unchanged.", "M-UNITS"
     )
 
 
@@ -197,7 +199,7 @@ def check_requirements(ran: RunFacts) -> RunFault | None:
     """Whether the tests require the subsystem they drive."""
     if ran.required:
         return None
-    hint = "Pass self after the two callbacks. Then no other command can move the motors meanwhile."
+    hint = "Pass self after the two callbacks. Then nothing else moves the motors during a test."
     return RunFault(f"{IN} the tests do not require the subsystem they drive", hint)
 
 
@@ -205,8 +207,12 @@ def check_release(ran: RunFacts) -> RunFault | None:
     """Whether a test stops when its button is let go."""
     for one in ran.presses:
         if one.stayed:
-            hint = "It has to stop when the button is let go: hand the test itself to whileTrue()."
-            return RunFault(f"{IN} {_of(one)} went on when it was let go", hint, "", 2 / 3)
+            hint = (
+                "A test must stop when you release the button: pass the test itself to whileTrue()."
+            )
+            return RunFault(
+                f"{IN} {_of(one)} continued after the button was released", hint, "", 2 / 3
+            )
     return None
 
 
@@ -214,7 +220,7 @@ def check_guard(ran: RunFacts) -> RunFault | None:
     """Whether a button starts a test while the robot is driven."""
     for one in ran.presses:
         if not one.test_mode:
-            hint = "The guard lets it through. Ask each time, and for what no driver does."
+            hint = "The guard does not stop it. Check test mode each time a button is pressed."
             return RunFault(f"{IN}, outside of test mode, {_of(one)} ran", hint)
     return None
 

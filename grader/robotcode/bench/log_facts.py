@@ -91,7 +91,7 @@ def read_facts(folder: Path, file: Path, *, ended: bool, seconds: float) -> RunF
     except FileNotFoundError:
         return _gone(folder, file, ended=ended, seconds=seconds)
     except (*NOT_OURS, RecursionError):
-        return RunFacts(RunOutcome.CANNOT, "the run left nothing that can be read")
+        return RunFacts(RunOutcome.CANNOT, "the run left no result")
 
 
 def _left(path: Path) -> Path:
@@ -124,7 +124,7 @@ def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> RunFacts:
         return RunFacts(RunOutcome.CANNOT, f"the simulation took longer than {seconds:g} s")
     line = lines[0] if lines else 0
     place = f"{file.name}, line {line}: " if line else ""
-    said = f"{place}this did not come to an end within {seconds:g} s"
+    said = f"{place}this did not end within {seconds:g} s"
     callback = inside[0].removesuffix("_callback") if inside else ""
     return RunFacts(RunOutcome.ENDLESS, said, line, callback)
 
@@ -140,7 +140,7 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> RunFacts:
         )
     columns = list(zip(*seen["rows"], strict=True))
     if not columns:
-        return RunFacts(RunOutcome.CANNOT, "no test ever began")
+        return RunFacts(RunOutcome.CANNOT, "no test started")
     numbers = [np.array(column, dtype=np.float64) for column in columns[1:5]]
     trace = BenchTrace(np.array(columns[0], dtype=np.str_), *numbers)
     lasted = float(seen["lasted"]["quasistatic-forward"])

@@ -93,7 +93,7 @@ def _refusal(what: str, file: Path, line: int) -> UnreadableFile:
     return UnreadableFile(
         f"{what}, so the grader cannot see what this code does",
         where=f"{file}, line {line}",
-        advice="Take it out: a robot program needs no such thing. Then grade again.",
+        advice="Remove it: a robot program does not need it. Then grade again.",
     )
 
 
@@ -153,7 +153,7 @@ def _names(node: ast.AST) -> set[str]:
 def _found(file: Path, tree: ast.Module, local: frozenset[str]) -> Iterator[tuple[int, str]]:
     """Each line that tampers, and what it does."""
     if file.stem in PACKAGES:
-        yield 1, f"this file takes the place of WPILib's own {file.stem}"
+        yield 1, f"this file replaces WPILib's own {file.stem}"
     foreign = _foreign(tree, local)
     bases = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     calls = {id(node.func): node for node in ast.walk(tree) if isinstance(node, ast.Call)}
@@ -179,7 +179,7 @@ def _import(node: ast.Import | ast.ImportFrom, local: frozenset[str]) -> str:
         if module and alias.name.strip("_") in INSIDES | PARTLY.keys():
             return f"it imports {alias.name} of {module}"
         if not module and top in PARTLY and alias.asname:
-            return f"it hides {top} under another name"
+            return f"it gives {top} another name"
         whole = module or top
         if whole in NOT_IMPORTED and whole not in local:
             return f"it imports {whole}"
@@ -192,11 +192,11 @@ def _name(node: ast.Name, is_base: bool, call: ast.Call | None) -> str:  # noqa:
     if node.id in CALLS or _hidden_part(node.id):
         return f"it uses {node.id}"
     if node.id in PARTLY and not is_base:
-        return f"it hides {node.id} under another name"
+        return f"it gives {node.id} another name"
     if node.id == "getattr" and not _plain_getattr(call):
         return "it uses getattr with a name that cannot be read"
     if node.id == "open" and not (_only_reads(call, mode_at=1) or _writes_notes(call)):
-        return "it opens a file to write that may be code"
+        return "it writes a file that may be code"
     return ""
 
 
@@ -213,9 +213,9 @@ def _attribute(
     if plain in INSIDES or name in ATTRIBUTES or _hidden_part(name):
         return f"it uses {name}"
     if plain in PARTLY and not is_base:
-        return f"it hides {name} under another name"
+        return f"it gives {name} another name"
     if name == "open" and call is not None and not _only_reads(call, mode_at=0):
-        return "it opens a file to write that may be code"
+        return "it writes a file that may be code"
     if not isinstance(node.ctx, ast.Load) and _of_a_library(node, foreign):
         return f"it replaces {name} of {_root(node.value) or 'a library'}"
     return ""

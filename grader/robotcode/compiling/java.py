@@ -97,7 +97,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         line = node.place.line
         target = node.target if isinstance(node, Assign) and not node.declares else None
         if isinstance(target, Name) and target.name not in brought and _closed(scope, names):
-            yield ParseProblem(f"nothing declares {target.name}", line)
+            yield ParseProblem(f"{target.name} is not declared", line)
         for name in _types(node):
             if not open_ and not _is_type(name, declared, scope, names):
                 yield _undeclared(name, line)
@@ -127,7 +127,7 @@ def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
     for node in names.main.body:
         public = isinstance(node, Class) and node.place.text.startswith("public")
         if public and isinstance(node, Class) and suggest_name(node.name, frozenset({stem})):
-            said = f"the class is {node.name}, and its file {stem}: both need one name"
+            said = f"the class is called {node.name}, and its file {stem}: give both the same name"
             yield ParseProblem(said, node.place.line)
 
 
@@ -138,7 +138,7 @@ def _constructors(names: SymbolTable) -> Iterator[ParseProblem]:
     for found in CONSTRUCTOR.finditer(source):
         if found["name"] not in classes:
             line = source.count("\n", 0, found.start("name")) + 1
-            said = f"{found['name']}() has no return type, and no class is called so"
+            said = f"{found['name']}() has no return type, and no class has this name"
             yield ParseProblem(said, line)
 
 
@@ -195,11 +195,11 @@ def _replaced(names: SymbolTable) -> Iterator[ParseProblem]:
         ):
             lines = enumerate(text.split("\n"), 1)
             line = next((at for at, row in lines if _imports_it(row, one)), 1)
-            yield ParseProblem(f"{one.path} is not {name} as WPILib or its maker has it", line)
+            yield ParseProblem(f"{one.path} is not the {name} of WPILib or of its vendor", line)
     for found in OWN_BODY.finditer(text):
         if is_motor(found["type"]):
             line = text.count("\n", 0, found.start()) + 1
-            said = f"this {found['type']} has methods of its own: make a plain one"
+            said = f"this {found['type']} has methods of its own. Make it without them"
             yield ParseProblem(said, line)
 
 
@@ -257,7 +257,7 @@ def _variable(
         if not open_ and not _is_type(name, declared, scope, names):
             yield _undeclared(name, node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
-        yield ParseProblem(f"nothing declares {name}", node.place.line)
+        yield ParseProblem(f"{name} is not declared", node.place.line)
 
 
 def _is_plain(node: Name, scope: Scope) -> bool:
@@ -326,7 +326,7 @@ def _method(
         ):
             return
         if not static and _closed(scope, names) and scope.classes:
-            yield ParseProblem(f"nothing declares the method {target.name}()", line)
+            yield ParseProblem(f"the method {target.name}() is not declared", line)
 
 
 def _missing_method(target: Member, home: Scope, names: SymbolTable) -> ParseProblem:

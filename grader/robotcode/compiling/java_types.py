@@ -74,7 +74,9 @@ def _operands(node: Operation, scope: Scope, names: SymbolTable) -> Iterator[Par
         given = "" if part is None else type_of_expression(part, scope, names)
         if given == SIGNAL or given in MEASURES:
             what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
-            yield ParseProblem(f"{node.sign} takes numbers, and this is {what}", node.place.line)
+            yield ParseProblem(
+                f"{node.sign} works with numbers only, and this is {what}", node.place.line
+            )
 
 
 def _argument(
@@ -101,7 +103,7 @@ def _argument(
     owner = type_of_expression(target.owner, scope, names) if name == "in" else ""
     asked = measure_of_unit(last_name(call.args[0])) if name == "in" else ""
     if owner in MEASURES and asked and asked != owner:
-        yield ParseProblem(f"a {owner} is not in {last_name(call.args[0])}", line)
+        yield ParseProblem(f"a {owner} cannot be given in {last_name(call.args[0])}", line)
     if name == "setVoltage" and given in {SIGNAL, *MEASURES} - {"Voltage"}:
         yield ParseProblem(f"setVoltage() takes volts, and this is a {given}", line)
 
@@ -122,7 +124,7 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParsePr
             continue
         found = methods(given.name, scope.home, names) if scope.classes else []
         if scope.classes and not found and len(names.lineage(scope.home)) == 1:
-            yield ParseProblem(f"nothing declares the method {given.name}()", given.place.line)
+            yield ParseProblem(f"the method {given.name}() is not declared", given.place.line)
         fits = [
             one
             for one, _ in found
@@ -131,7 +133,7 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParsePr
         if found and not fits:
             wanted = max(allowed, key=len)
             wanted = "Voltage" if "Voltage" in allowed else wanted
-            said = f"{given.name}() has to take one {wanted} to be a callback in this place"
+            said = f"{given.name}() must take exactly one {wanted} to be this callback"
             yield ParseProblem(said, given.place.line)
 
 

@@ -35,7 +35,7 @@ def python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     if not wide:
         for one in every:
             if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Load) and one.id not in bound:
-                yield ParseProblem(f"nothing defines or imports {one.id}", one.lineno)
+                yield ParseProblem(f"{one.id} is not defined or imported", one.lineno)
     yield from _self_in_class_body(every)
     yield from _attributes(every)
 
@@ -114,7 +114,7 @@ def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
                 used = isinstance(node.ctx, ast.Load) and node.value.id == "self"
                 if used and node.attr not in known and not node.attr.startswith("__"):
-                    yield ParseProblem(f"nothing sets self.{node.attr}", node.lineno)
+                    yield ParseProblem(f"self.{node.attr} is never set", node.lineno)
     own = {one.name for one in every if isinstance(one, ast.FunctionDef)}
     own |= {one.attr for one in every if isinstance(one, ast.Attribute) and _is_set(one)}
     for node in every:

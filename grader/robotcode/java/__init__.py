@@ -42,7 +42,7 @@ def parse(text: str, path: Path) -> ir.Module:
     source = text.encode("utf-8", errors="replace")
     root = _root(source)
     if root is None:
-        lost = ParseProblem("too little of this is Java to make sense of it", 1)
+        lost = ParseProblem("most of this is not Java", 1)
         return ir.Module(path, "java", source, (), problems=(find_unmatched(text) or lost,))
     lowering = IrBuilder(source, EXPRESSIONS | DECLARATIONS)
     body = lowering.lower(root)

@@ -128,7 +128,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
             raise BadRequest(
                 f"the secret has fewer than {FEWEST} characters",
                 where=str(spec.secret) if kept else VARIABLE,
-                advice="Take a longer one: a short secret can be found by trying.",
+                advice="Use a longer one: a short secret can be guessed.",
             )
         return Secret(value, hidden=True)
     if spec.secret is None:
@@ -140,7 +140,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
         )
     if not make:
         raise BadRequest(
-            "the secret is not there",
+            "there is no such file with a secret",
             where=str(spec.secret),
             advice=f"Put back the file this dataset was made with, or set {VARIABLE}.",
         )

@@ -44,7 +44,7 @@ class Parts:
 
     @property
     def kv(self) -> float:
-        """[V·s/m or V·s/rad] as teams compute it on paper."""
+        """[V·s/m or V·s/rad] the theoretical kV, 12 V over the free speed."""
         return theoretical_kv(self.motor, ratio=self.ratio, radius=self.radius)
 
     @property

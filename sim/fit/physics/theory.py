@@ -56,35 +56,35 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
         return []
     share, unsure = kv / parts.kv, SURELY * error / parts.kv
     said = _describe_difference(found, "kV", parts.kv)
-    said = f"{said} that 12 V over the free speed of {parts.count} × {parts.motor.name} promises"
+    said = f"{said} that 12 V over the free speed of {parts.count} × {parts.motor.name} gives"
     named = [*_explain_ratio(share, parts)]
     if share + unsure < BELOW:
         why = " or ".join(named) or f"a wrong unit, {_parts_instead(kv, parts)}"
         return [
             Doubt(
                 "kv-below-theory",
-                f"{said}, and no motor outruns its free speed: look for {why}; the number of "
-                "motors does not matter.",
+                f"{said}, and no motor turns faster than its free speed. Check for {why}. The "
+                "number of motors does not matter.",
                 grave=True,
             )
         ]
     if named and share - unsure > TIGHT:
-        return [Doubt("kv-above-theory", f"{said}: look for {' or '.join(named)}.", grave=True)]
+        return [Doubt("kv-above-theory", f"{said}. Check for {' or '.join(named)}.", grave=True)]
     if share - unsure > TIGHT:
         return [
             Doubt(
                 "kv-above-theory",
-                f"{said}, more than drag explains: look first at the units, then whether the "
-                "voltage logged is the one applied, then at "
-                f"{_parts_instead(kv, parts)}, and last for what rubs.",
+                f"{said}. Drag does not explain so much. Check the units first, then whether the "
+                "log has the applied voltage, then for "
+                f"{_parts_instead(kv, parts)}, and at last for a part that rubs.",
             )
         ]
     if share - unsure > DRAG:
         return [
             Doubt(
                 "kv-drag",
-                f"{said}: something drags that grows with speed; look at belt tension, meshing "
-                "gears and grease, and whether the voltage logged is the one applied.",
+                f"{said}. Some friction grows with speed. Check belt tension, gears, grease, and "
+                "whether the log has the applied voltage.",
             )
         ]
     return []
@@ -151,7 +151,7 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
         return [
             Doubt(
                 "ka-below-theory",
-                f"{said}, and rotors can only add: {where}.",
+                f"{said}, and rotors can only make kA larger: {where}.",
                 grave=True,
             )
         ]
@@ -175,10 +175,12 @@ def _place_to_look(kv: float, ka: float) -> str:
     if _kv_fits(kv):
         return "kV fits, so look at the load, the number of motors and the voltage logged"
     if LIGHT / DRAG < ka / kv < HEAVY / BELOW:
-        return "kV is off as much, so look at the log's unit, its voltage and the kind of motor"
+        return (
+            "kV is wrong by the same factor, so look at the log's unit, its voltage and the motor"
+        )
     if LIGHT * BELOW < ka * kv < HEAVY * DRAG:
-        return "kV is off as much the other way, so look at the ratio and the radius"
-    return "look at what kV's doubt names first, then at the load and the number of motors"
+        return "kV is wrong by the inverse factor, so look at the ratio and the radius"
+    return "first follow the advice about kV, then look at the load and the number of motors"
 
 
 def _load_instead(share: float, parts: Parts, per: str) -> str:

@@ -159,7 +159,7 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
         return found[asked.pick - 1]
     names = [state.mechanism or state.entry.name for state in found]
     raise BadRequest(
-        f"tests of several mechanisms are in it: {number_names(names)}",
+        f"it contains the tests of several mechanisms: {number_names(names)}",
         where=where,
         advice=f"Choose one with --pick 1 to --pick {len(found)}, or with --state "
         f"{found[0].entry.name}, and record one routine per log.",

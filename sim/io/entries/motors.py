@@ -197,7 +197,7 @@ def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
             raise BadRequest(
                 f"several entries could be the {signal}: {quote_names(names)}",
                 where=search.where,
-                advice=f"Say which is meant with --{signal} ENTRY.",
+                advice=f"Choose one with --{signal} ENTRY.",
             )
         usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
         motors.setdefault(motor, {})[signal] = usable[0]

@@ -146,7 +146,7 @@ def _only(telling: Sequence[StateEntry], mechanism: str, *, where: str) -> State
         f"several entries name the tests of {mechanism!r}: "
         f"{quote_names([state.entry.name for state in own])}",
         where=where,
-        advice="Say which is meant with --state ENTRY.",
+        advice="Choose one with --state ENTRY.",
     )
 
 

@@ -46,7 +46,7 @@ EFFECT = Effect(
         Parameter("slack", "play from tooth to tooth", "{u}", power=-1, most=1e3),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.25),
     ),
-    fingerprint="After every start and turn the velocity shoots up, drops, and goes on as usual.",
+    fingerprint="After every start and turn the velocity jumps up, drops, and goes on as usual.",
     inspect="Gears, hex shafts and chains: turn the mechanism by hand with the motor held.",
     apart={
         "compliance": "Turn at two sizes of step, logged at 5 ms: play stays, a spring gives more.",

@@ -52,7 +52,7 @@ EFFECT = Effect(
     ),
     formula="(u - kV·v)/(1 + share·(u/12)²) in place of u - kV·v",
     parameters=(Parameter("share", "battery's resistance over the motors'", "1", most=100.0),),
-    fingerprint="Steps start more slowly than kA says, the more so the larger the step.",
+    fingerprint="Steps start more slowly than kA says, and larger steps even more so.",
     inspect="An old battery, a loose Anderson connector, a log of commanded voltage.",
     apart={
         "drag": "Add a second step level, or log the applied voltage: sag grows with the step.",

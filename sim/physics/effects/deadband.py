@@ -47,7 +47,7 @@ EFFECT = Effect(
     summary="small voltages that the motor controller ignores",
     formula="u = 0 where |u| < band",
     parameters=(Parameter("band", "smallest voltage that is applied", "V", most=12.0),),
-    fingerprint="Ramps start late and then at once at speed; below one voltage it coasts.",
+    fingerprint="Ramps start late and then jump to their speed; below one voltage it coasts.",
     inspect="The neutral deadband in the motor controller's configuration.",
     apart={
         "stribeck": "Let the voltage fall (triangle, coast): a deadband cuts it off.",

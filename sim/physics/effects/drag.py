@@ -30,7 +30,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 EFFECT = Effect(
     name="drag",
     kind="term",
-    summary="resistance of the air, which grows with the square of speed",
+    summary="air drag, which grows with the square of speed",
     formula="drag·v·|v|",
     parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2),),
     fingerprint="The missing voltage grows with speed, the same in both directions, and is zero"

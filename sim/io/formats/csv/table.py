@@ -244,7 +244,7 @@ def _comma(cells: Mapping[str, tuple[str, ...]], *, where: str) -> bool:
     }
     if len(signs) > 1:
         raise UnreadableFile(
-            "both commas and points stand in its numbers",
+            "its numbers have both commas and points",
             where=where,
             advice="Save it with one decimal sign, and without one for thousands.",
         )

@@ -162,5 +162,5 @@ def _unfinished(last: RunInterval, where: str) -> Iterator[Doubt]:
         yield Doubt(
             "unfinished-run",
             f"{where}: the file ends while {last.test} is running, so the end of that run is "
-            "missing. Let each test end before the log is closed.",
+            "missing. End each test before you close the log.",
         )

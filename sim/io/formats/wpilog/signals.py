@@ -59,7 +59,7 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
         kinds |= dict.fromkeys(group.signals, "double") | dict.fromkeys(group.texts, "string")
     if len(kinds) > MOST:
         raise BadRequest(
-            f"{len(kinds)} entries are more than the {MOST} that are written",
+            f"{len(kinds)} entries are too many: at most {MOST} can be written",
             where=str(path),
             advice="Fit fewer motors at a time.",
         )
