@@ -156,5 +156,5 @@ def test_a_place_that_cannot_be_written_is_refused_in_one_line(tmp_path, capsys,
 def test_too_many_entries_are_refused(tmp_path):
     group = SignalGroup(np.zeros(1), {f"/sysid/{k}": np.zeros(1) for k in range(300)})
 
-    with pytest.raises(BadRequest, match="300 entries are more"):
+    with pytest.raises(BadRequest, match="300 entries are too many"):
         write_signals([group], tmp_path / "out.wpilog", units={})
