@@ -9,7 +9,7 @@ robot's loop. The mechanism is the bench's, with its hidden effects, battery and
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -143,13 +143,12 @@ class PIDController:
 
     def __post_init__(self) -> None:
         self._total, self._last = 0.0, 0.0
-        self._has_measured = False
 
     def calculate(self, measurement: float, setpoint: float) -> float:
         """[V] for the error of one loop: first what is measured, then what is wanted."""
         error = setpoint - measurement
-        change = (error - self._last) / self.period if self._has_measured else 0.0
-        self._last, self._has_measured = error, True
+        change = (error - self._last) / self.period  # in the first loop from zero, as WPILib's
+        self._last = error
         if self.kI:
             most = 1.0 / abs(self.kI)  # WPILib's limit: the integral adds at most one volt
             self._total = min(max(self._total + error * self.period, -most), most)
@@ -242,6 +241,124 @@ def follow_in_closed_loop(
     time = period * np.arange(count)
     target = np.array([profile.calculate(t).position for t in time.tolist()])
     return FollowedMove(time, target, np.array(position[:-1]), np.array(asked))
+
+
+Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
+
+EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)  # no two numbers alike
+CLOSE = 1e-9  # [share] what rounding may change
+RIGHT = "Your loop: right."
+OURS = " The next cells use our loop until then."
+
+
+@dataclass(frozen=True)
+class CheckedLoop:
+    """A learner's loop, and what was found.
+
+    Args:
+        volts: the learner's loop where it is right, ours where it is not.
+        report: one line.
+    """
+
+    volts: Loop
+    report: str
+
+
+def feedforward_and_feedback(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
+    """[V] of the loop that lesson 8 asks for."""
+    forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
+    return forward + pid.calculate(one.position, one.now.position)
+
+
+def check_loop(mine: Loop) -> CheckedLoop:
+    """Check a learner's loop on one moment of a move; ``...`` is an empty gap.
+
+    Args:
+        mine: feedforward, feedback and what is known in a loop -> [V].
+    """
+    try:
+        answer = mine(*_controllers(), EXAMPLE)
+        if answer is ... or answer is None:
+            said = "Your loop: still empty. Put your answer in place of the three dots."
+            return CheckedLoop(feedforward_and_feedback, said + OURS)
+        found = float(answer)
+    except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
+        said = f"Your loop: it stops with an error: {error}."
+        return CheckedLoop(feedforward_and_feedback, said + OURS)
+    wanted = feedforward_and_feedback(*_controllers(), EXAMPLE)
+    if math.isclose(found, wanted, rel_tol=CLOSE):
+        return CheckedLoop(mine, RIGHT)
+    hint = next(
+        (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
+        "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
+    )
+    return CheckedLoop(feedforward_and_feedback, f"Your loop: not yet. {hint}{OURS}")
+
+
+def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
+    """A feedforward and a feedback, both new: a PID controller remembers the last error."""
+    return ElevatorFeedforward(0.25, 2.0, 4.5, 0.2), PIDController(7.0)
+
+
+def _wrong_loops() -> list[tuple[float, str]]:
+    """[V] of loops that learners write, and what to say to each."""
+    ff, pid = _controllers()
+    now, after, measured = EXAMPLE.now, EXAMPLE.after, EXAMPLE.position
+    forward = ff.calculateWithVelocities(now.velocity, after.velocity)
+    feedback = pid.calculate(measured, now.position)
+    acceleration = (after.velocity - now.velocity) / ff.period
+    return [
+        (forward, "The feedback is missing: add pid.calculate(measured, wanted)."),
+        (feedback, "The feedforward is missing: add ff.calculateWithVelocities(…)."),
+        (
+            forward - feedback,
+            (
+                "pid.calculate takes the measurement first, then what is wanted. Turned around, "
+                "it pushes away from the target."
+            ),
+        ),
+        (
+            ff.calculateWithVelocities(now.velocity, now.velocity) + feedback,
+            (
+                "The same velocity twice means no acceleration, so kA does nothing. The second one "
+                "is the velocity of the next loop."
+            ),
+        ),
+        (
+            ff.calculateWithVelocities(now.velocity, acceleration) + feedback,
+            "The second argument is a velocity, not an acceleration.",
+        ),
+        (
+            ff.calculateWithVelocities(now.position, after.position) + feedback,
+            "The feedforward needs velocities, not positions.",
+        ),
+        (
+            ff.calculateWithVelocities(EXAMPLE.velocity, after.velocity) + feedback,
+            "The feedforward looks at what you want, never at what is measured.",
+        ),
+        (
+            forward + pid.kP * (now.velocity - EXAMPLE.velocity),
+            "This loop controls a position: pid.calculate needs positions.",
+        ),
+    ]
+
+
+def phoenix_volts(
+    gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
+) -> float:
+    """[V] of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
+
+    Args:
+        gains: kS and kG [V], kV [V per rot/s], kA [V per rot/s²], kP [V per rot], all per rotation
+            of the mechanism.
+        one: the profile and the measurement, in meters.
+        meters_per_rotation: [m] that one rotation of the mechanism moves.
+    """
+    velocity = one.now.velocity / meters_per_rotation
+    acceleration = (one.after.velocity - one.now.velocity) / ONBOARD / meters_per_rotation
+    error = (one.now.position - one.position) / meters_per_rotation
+    forward = gains["kS"] * _sign(velocity) + gains["kV"] * velocity + gains["kA"] * acceleration
+    return forward + gains["kG"] + gains["kP"] * error
 
 
 def _sign(value: float) -> float:
