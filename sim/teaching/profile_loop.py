@@ -202,7 +202,7 @@ class FollowedMove:
 def follow_in_closed_loop(
     mechanism: Mechanism,
     profile: TrapezoidProfile,
-    volts: Callable[[LoopInput], float],
+    volts: Callable[[LoopInput], object],
     *,
     period: float = LOOP,
 ) -> FollowedMove:
@@ -238,7 +238,7 @@ def follow_in_closed_loop(
         )
         position.append(float(track.position[-1]))
         velocity.append(float(track.seen[-1]))
-    time = period * np.arange(count)
+    time = period * np.arange(count, dtype=np.float64)
     target = np.array([profile.calculate(t).position for t in time.tolist()])
     return FollowedMove(time, target, np.array(position[:-1]), np.array(asked))
 
@@ -270,7 +270,7 @@ def feedforward_and_feedback(ff: ElevatorFeedforward, pid: PIDController, one: L
     return forward + pid.calculate(one.position, one.now.position)
 
 
-def check_loop(mine: Loop) -> CheckedLoop:
+def check_loop(mine: Callable[..., object]) -> CheckedLoop:
     """Check a learner's loop on one moment of a move; ``...`` is an empty gap.
 
     Args:
@@ -281,13 +281,13 @@ def check_loop(mine: Loop) -> CheckedLoop:
         if answer is ... or answer is None:
             said = "Your loop: still empty. Put your answer in place of the three dots."
             return CheckedLoop(feedforward_and_feedback, said + OURS)
-        found = float(answer)
+        found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
     except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
         said = f"Your loop: it stops with an error: {error}."
         return CheckedLoop(feedforward_and_feedback, said + OURS)
     wanted = feedforward_and_feedback(*_controllers(), EXAMPLE)
     if math.isclose(found, wanted, rel_tol=CLOSE):
-        return CheckedLoop(mine, RIGHT)
+        return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
     hint = next(
         (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",

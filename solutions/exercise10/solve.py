@@ -1,5 +1,9 @@
-"""Exercise 10, answered in both languages: gains as shown, times what their unit asks for."""
+"""Exercise 10, answered in both languages: gains as shown, times what their unit asks for.
 
+The gains go into WPILib's class. With ROTATION in place of CONVERSION they fit Slot0Configs.
+"""
+
+import math
 import tomllib
 from pathlib import Path
 
@@ -40,6 +44,10 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
         if gain in units:
             value += " * CONVERSION"
         rows.append((gain, value, units.get(gain, "V")))
+    inside = given["motor_controller"]
+    turn = 2.0 * math.pi * inside.get("radius", 1.0) / SIZES[shown["units"]][1]
+    rows.append(("ROTATION", f"{turn:.8g}", f"{shown['units']} in one rotation of the mechanism"))
+    rows.append(("GEAR_RATIO", f"{inside['gear_ratio']:g}", "motor rotations in one of these"))
     duty = robot["loop_output"] == "duty cycle"
     loop = f"{shown['kP']:g} * CONVERSION{' / 12' if duty else ''}"
     rows.append(("kP", loop, "the analyzer's suggestion: start here, then tune"))
