@@ -296,7 +296,7 @@ def test_a_setting_with_the_wrong_gain_or_none_is_named(checked, place):
     ("language", "body", "wanted"),
     [
         ("java", "config.Slot0.kV = C.kV; config.Slot0.kS = C.kS;", {"kS": 1.0, "kV": 2.0}),
-        ("java", "var s = new Slot0Configs(); s.kV = C.kV; s.withKS(C.kS);", {"kS": 1.0, "kV": 2.0}),
+        ("java", "var s = new Slot0Configs(); s.kV = C.kV; s.withKS(1);", {"kS": 1.0, "kV": 2.0}),
         ("java", "config.Slot0.withKV(C.kV).withKA(C.kA);", {"kV": 2.0, "kA": 3.0}),
         ("java", "var s = new Slot1Configs().withKV(C.kV);", {}),
         ("java", "config.closedLoop.feedForward.sv(C.kS, C.kV);", {"kS": 1.0, "kV": 2.0}),

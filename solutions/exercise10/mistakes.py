@@ -56,15 +56,19 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
     """Put the gains into Phoenix 6's Slot0Configs, kV and kA times a scale, in Java or Python.
 
     Args:
-        scale: of the analyzer's number.
+        scale: of the analyzer's number; TURN and GEARS are those of the solution's note.
         sign: of kS, as Java has it.
     """
 
     def make(text: str) -> str:
         java = "new SimpleMotor" in text or "new Elevator" in text or "new Arm" in text
         arm = "ArmFeedforward(" in text
+        note = re.search(r"times ([\d.]+) in place of CONVERSION. Gears ([\d.]+):1", text)
+        if note is None:
+            raise ValueError("the solution no longer says what Slot0Configs would take")
+        times = scale.replace("TURN", note[1]).replace("GEARS", note[2])
         settings = [
-            f"{_with(gain, java=java)}({HELD}{gain}{_scaled(gain, scale)})"
+            f"{_with(gain, java=java)}({HELD}{gain}{_scaled(gain, times)})"
             for gain in re.findall(rf"{re.escape(HELD)}(k\w)", text)
         ]
         gravity = "Arm_Cosine" if arm else "Elevator_Static"
@@ -202,7 +206,7 @@ MISTAKES = (
     Mistake(
         "Slot0Configs with gains per rotation of the rotor",
         JAVA,
-        in_slot0(f"{HELD}ROTATION / {HELD}GEAR_RATIO"),
+        in_slot0("TURN / GEARS"),
         "conversion",
         "per rotation of the motor's rotor",
         "M-UNITS",
@@ -210,7 +214,7 @@ MISTAKES = (
     Mistake(
         "Slot0Configs with gains per radian",
         PYTHON,
-        in_slot0(f"{HELD}ROTATION / (2 * 3.14159265)"),
+        in_slot0("TURN / (2 * 3.14159265)"),
         "conversion",
         "Slot0Configs counts rotations of the mechanism",
         "M-UNITS",
@@ -218,7 +222,7 @@ MISTAKES = (
     Mistake(
         "kS by the sign of the error",
         JAVA,
-        in_slot0(f"{HELD}ROTATION", sign="UseClosedLoopSign"),
+        in_slot0("TURN", sign="UseClosedLoopSign"),
         "feedforward",
         "Then kS follows the sign of the error",
     ),

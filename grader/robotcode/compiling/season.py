@@ -96,6 +96,7 @@ CLASSES = frozenset(HOME) | frozenset(MODULE_OF)
 METHODS = frozenset(
     {
         *(*COMMANDS, *SIGNALS, *PYTHON_WORDS, "motor", "setControl", "getValueAsDouble"),
+        *("withStaticFeedforwardSign", "withGravityType"),
         *("getMotorVoltage", "getSupplyVoltage", "getDutyCycle", "getStatorCurrent", "getValue"),
         *("getAppliedOutput", "getBusVoltage", "getEncoder", "configure", "getConfigurator"),
         *("quasistatic", "dynamic", "onFalse", "whileFalse", "toggleOnTrue", "negate"),

@@ -11,7 +11,7 @@ public class Slot0 {
     public static final double kS = 0.08992; // V
     public static final double kV = 0.1645; // V·s/rot of the wheel
     public static final double kA = 0.03118; // V·s²/rot of the wheel
-    public static final double kP = 0.128; // V·s/rot, the analyzer's suggestion: start here
+    public static final double kP = 0.128; // the analyzer's suggestion: start here
   }
 
   private final TalonFXConfiguration m_config = new TalonFXConfiguration();

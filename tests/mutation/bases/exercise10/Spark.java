@@ -23,6 +23,5 @@ public class Spark {
         .kS(CharacterizationConstants.kS)
         .kV(CharacterizationConstants.kV)
         .kA(CharacterizationConstants.kA);
-    m_config.closedLoop.p(CharacterizationConstants.kP);
   }
 }

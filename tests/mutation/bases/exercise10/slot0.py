@@ -9,16 +9,10 @@ class CharacterizationConstants:
     kS = 0.08992  # V
     kV = 0.1645  # V·s/rot of the wheel
     kA = 0.03118  # V·s²/rot of the wheel
-    kP = 0.128  # V·s/rot, the analyzer's suggestion: start here
+    kP = 0.128  # the analyzer's suggestion: start here
 
 
-class ExampleMechanism:
-    """Follows a velocity."""
-
-    def __init__(self) -> None:
-        """Make the configuration."""
-        self.slot0 = Slot0Configs()
-        self.slot0.k_s = CharacterizationConstants.kS
-        self.slot0.k_v = CharacterizationConstants.kV
-        self.slot0.k_a = CharacterizationConstants.kA
-        self.slot0.k_p = CharacterizationConstants.kP
+slot0 = Slot0Configs()
+slot0.k_s = CharacterizationConstants.kS
+slot0.k_v = CharacterizationConstants.kV
+slot0.k_a = CharacterizationConstants.kA
