@@ -575,18 +575,17 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # %% [markdown]
 # ## 6 Use the gains: one loop, one move
 #
-# Now the gains go to work. Every 20 ms the robot program asks the profile for two setpoints, *now*
-# and *in the next loop*, and applies **feedforward + feedback**. For a velocity, in Java:
+# Every 20 ms the robot program asks the profile for two setpoints, *now* and *in the next loop*,
+# and applies **feedforward + feedback**. For a velocity, in Java:
 #
 # ```java
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
 # ```
 #
-# Our elevator shall rise by one meter. There the profile has a position and a velocity: the
-# feedforward takes velocities, the feedback takes positions.
+# Our elevator shall rise by one meter. Its feedforward takes velocities, its feedback positions.
 #
 # **Now you write it.** `one.now` and `one.after` are the two setpoints; each has a `position` and a
-# `velocity`. `one.position` is the measured position. Replace the dots, then run the cell below.
+# `velocity`. `one.position` is measured. Replace the dots, then run the cell below.
 
 
 # %%
@@ -609,8 +608,8 @@ print(mine.report)
 # ```
 # </details>
 #
-# This elevator has something that the model does not know: a rubber tube, and it sticks a little at
-# the start. We have three sets of gains:
+# The model does not know that a rubber tube pulls at this elevator, and that it sticks a little. We
+# have three sets of gains:
 #
 # - **guessed:** kV from the motor's free speed, kA and kG from the mass in CAD (17 kg; it is
 #   20), no kS;
@@ -685,18 +684,16 @@ Table(
 )
 
 # %% [markdown]
-# - **Guessed:** kG is too small, and so is kA; kS is missing. kP has to do their work.
-# - **Measured:** about three times better. But look at kS: nearly zero! The fit had no name for the
-#   tube, so the other gains carried it, wrongly.
-# - **Reconciled:** kS is right again. The gains alone do not help much, because the tube still
-#   pulls. Add **one more term**, the volts that hold the tube, and the error is a few millimeters:
-#   `+ kTubeRate * position + kTubePreload`.
+# - **Guessed:** kG and kA are too small, kS is missing.
+# - **Measured:** about three times better. But kS is nearly zero! The fit knows no tube, so its
+#   gains carry the tube, wrongly.
+# - **Reconciled:** kS is right again. Yet the tube still pulls. Add **one more term**, the volts
+#   that hold it, and two millimeters remain: `+ kTubeRate * position + kTubePreload`.
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` is a PIDController that makes the profile itself. Your feedforward still
-# belongs beside it. `calculate` first moves its setpoint one loop ahead, so keep the velocity from
-# before:
+# `ProfiledPIDController` makes the profile itself; the feedforward is still yours. Its `calculate`
+# first moves the setpoint one loop ahead, so keep the velocity from before:
 #
 # ```java
 # double v = pid.getSetpoint().velocity;
@@ -751,7 +748,8 @@ Table(
 )
 
 # %% [markdown]
-# The last row is the classic mistake: `SensorToMechanismRatio` is set, but the gains are per
+# ProfiledPIDController leads by about a centimeter, because its feedback aims one loop ahead. The
+# last row is the classic mistake: `SensorToMechanismRatio` is set, but the gains are per
 # rotation of the *rotor*. They are too small by the gear ratio. ([WPILib docs:
 # ProfiledPIDController](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/profiled-pidcontroller.html),
 # [CTRE docs: Motion Magic](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/device-specific/talonfx/motion-magic.html))
@@ -902,7 +900,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # | climber | optional | only if it must follow a profile; otherwise a high kP is enough |
 # | conveyor, indexer | usually not | on and off is enough |
 #
-# Some details:
+# <details><summary>Want to know more? Drivetrain, arm and elevator</summary>
 #
 # - **Drivetrain:** kS and kV do most of the work. From kA you also get the mass, and from a second
 #   kA, measured while turning on the spot, the moment of inertia (below).
@@ -911,6 +909,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # - **Elevator:** with its load. kA and kG change with the mass, kV does not.
 # - **Optional** means that it depends on the task on *your* robot. Either answer is right if you
 #   give the reason.
+# </details>
 #
 # If you have no room or time, WPILib's docs say that you can compute "reasonable estimates of kG,
 # kV, and kA", while kS "must be measured". For each row of the table, say what your robot would do
@@ -949,6 +948,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # > that is late on the slopes is beside its path in every curve.
 # </details>
 #
+# <details><summary>Want to know more? The moment of inertia, Choreo and AdvantageKit</summary>
+#
 # - **PathPlanner's moment of inertia** follows from two kA values: one measured while turning on
 #   the spot, one while driving straight. One kA gives the mass, the other the inertia:
 #
@@ -968,7 +969,11 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # Why does the formula work? Driving straight, the wheels accelerate the mass. Turning on the spot,
 # they accelerate the inertia, with the lever r. The motors are the same, so the ratio of the kA
-# values is the ratio of the loads. Check it in the simulation, with the modules of a square swerve:
+# values is the ratio of the loads.
+# </details>
+#
+# One number that PathPlanner asks for, the moment of inertia, follows from two kA values. Check the
+# formula with the modules of a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
@@ -1007,9 +1012,12 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > measure, one to measure again.
 # </details>
 #
+# <details><summary>Want to know more? Gains during a match</summary>
+#
 # Gains also change during a match. Copper that is 50 °C warmer has 20 % more resistance, so the
 # same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes
 # no gain of a loop in volts, but it can give only 10 V. kP corrects small changes.
+# </details>
 
 # %% [markdown]
 # ## 10 Your own robot
