@@ -1134,8 +1134,8 @@ quick
 #
 # **Exercise 10: from the analyzer to the robot**
 # ([exercises/exercise10/README.md](../exercises/exercise10/README.md)). You get the gains of your
-# own mechanism, and a code file to fill in. Sections 2 to 4 and 6 help. `grade watch exercise10`
-# grades each time you save the file.
+# own mechanism, and a code file to fill in: in the roboRIO or inside the motor controller, as your
+# robot has it. Sections 2 to 4 and 6 help. `grade watch exercise10` grades each time you save.
 #
 # ```
 # grade exercise10

@@ -306,6 +306,8 @@ def test_a_setting_with_the_wrong_gain_or_none_is_named(checked, place):
             "FeedForwardConfig f = new FeedForwardConfig(); f.svacr(C.kS, C.kV, C.kA, 4.0, 5.0);",
             {"kS": 1.0, "kV": 2.0, "kA": 3.0, "kCos": 4.0, "kCosRatio": 5.0},
         ),
+        ("java", "f.closedLoop.feedForward.kV(C.kV, ClosedLoopSlot.kSlot0);", {"kV": 2.0}),
+        ("java", "f.closedLoop.feedForward.kV(C.kV, ClosedLoopSlot.kSlot1);", {}),
         ("python", "cfg.slot0.k_v = C.kV", {"kV": 2.0}),
         ("python", "cfg.slot0.with_k_v(C.kV).with_k_s(C.kS)", {"kV": 2.0, "kS": 1.0}),
         ("python", "cfg.closedLoop.feedForward.sv(C.kS, C.kV)", {"kV": 2.0, "kS": 1.0}),

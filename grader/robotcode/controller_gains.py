@@ -24,6 +24,7 @@ FIELDS = {
 }
 LETTERS = {"s": "kS", "v": "kV", "a": "kA", "g": "kG", "c": "kCos", "r": "kCosRatio"}
 SEVERAL = ("sv", "sva", "svag", "svacr", "sg", "scr")  # FeedForwardConfig's methods for several
+OTHER_SLOTS = {"slot1", "slot2", "slot3"}  # a last argument that is a ClosedLoopSlot
 WITH = re.compile(r"with([A-Z]\w*)")
 
 
@@ -86,6 +87,8 @@ def _called(
             yield SLOT0, field, call.args[0]
         return
     if not call.args or not _is_feed_forward(target.owner, scope, names):
+        return
+    if enum_constant(last_name(call.args[-1])) in OTHER_SLOTS:
         return
     if name in FIELDS[FEED_FORWARD]:
         yield FEED_FORWARD, name, call.args[0]
