@@ -21,7 +21,7 @@
 # - turn a fit into constants that somebody else can read, with units;
 # - choose the feedforward class, and pass its arguments in the right order;
 # - recognize a wrong unit or a wrong argument order from what the robot does;
-# - say what kP can and cannot fix;
+# - write the loop that uses the gains, and say what kP can and cannot fix;
 # - decide which mechanisms to characterize, and when in the season.
 
 # %% [markdown]
@@ -58,9 +58,21 @@ from sim.plot import (
     plot_tracking_error,
     show_interactive,
 )
+from sim.reconcile import reconcile
 from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import CLASSES, ORDER, write_robot_code
 from sim.teaching.prediction import Prediction
+from sim.teaching.profile_loop import (
+    ONBOARD,
+    ElevatorFeedforward,
+    FollowedMove,
+    LoopInput,
+    PIDController,
+    TrapezoidProfile,
+    check_loop,
+    follow_in_closed_loop,
+    phoenix_volts,
+)
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
 log = simulate(shooter, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(8))
@@ -561,7 +573,189 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # 4000: kV would then be right for one speed and one battery only.
 
 # %% [markdown]
-# ## 6 An arm that droops
+# ## 6 Use the gains: one loop, one move
+#
+# Every 20 ms the robot program asks the profile for two setpoints, *now* and *in the next loop*,
+# and applies **feedforward + feedback**. For a velocity, in Java:
+#
+# ```java
+# setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
+# ```
+#
+# Our elevator shall rise by one meter. Its feedforward takes velocities, its feedback positions.
+#
+# **Now you write it.** `one.now` and `one.after` are the two setpoints; each has a `position` and a
+# `velocity`. `one.position` is measured. Replace the dots, then run the cell below.
+
+
+# %%
+def my_loop(ff, pid, one):
+    """Volts for one loop: feedforward plus feedback."""
+    return ...
+
+
+# %%
+mine = check_loop(my_loop)
+print(mine.report)
+
+# %% [markdown]
+# <details><summary>Solution</summary>
+#
+# ```python
+# def my_loop(ff, pid, one):
+#     forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
+#     return forward + pid.calculate(one.position, one.now.position)
+# ```
+# </details>
+#
+# The model does not know that a rubber tube pulls at this elevator, and that it sticks a little. We
+# have three sets of gains:
+#
+# - **guessed:** kV from the motor's free speed, kA and kG from the mass in CAD (17 kg; it is
+#   20), no kS;
+# - **measured:** `fit` of four tests;
+# - **reconciled:** `reconcile` of the same tests. It finds the tube, too (lesson 9 shows how).
+#
+# **Predict.** All three with kP = 5 V/m:
+
+# %%
+guess_move = Prediction(
+    "By how much is the worst error smaller with measured gains than with guessed ones?",
+    "about the same",
+    "about three times smaller",
+    "zero with measured gains",
+)
+guess_move
+
+# %%
+robot = elevator.hide("spring").hide("stribeck", 0.3)
+tests = simulate(robot, sim.Routine(ramp=1.0, step=4.5), rng=np.random.default_rng(8))
+story = reconcile(tests, type="elevator")
+free_speed = robot.motor.free_speed / robot.ratio * robot.radius  # [m/s]
+SETS = {
+    "guessed": replace(elevator, load=17.0).gains | {"kS": 0.0, "kV": 12 / free_speed},
+    "measured": fit(tests, type="elevator").gains,
+    "reconciled": story.model.gains,
+}
+tube = next(part.parameters for part in story.model.parts if part.effect == "spring")
+RISE = TrapezoidProfile(start=0.1, goal=1.1, max_velocity=1.2, max_acceleration=6.0)
+
+
+def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -> FollowedMove:
+    """The move with your loop; if asked, plus the volts that hold the tube."""
+    ff, pid = ElevatorFeedforward(*(gains[name] for name in ORDER["elevator"])), PIDController(kp)
+
+    def volts(one: LoopInput) -> float:
+        held = tube["rate"] * one.now.position + tube["preload"]
+        return mine.volts(ff, pid, one) + with_tube * held
+
+    return follow_in_closed_loop(robot, RISE, volts)
+
+
+moves = {name: rise(gains) for name, gains in SETS.items()}
+moves["reconciled + tube"] = rise(SETS["reconciled"], with_tube=True)
+some = next(iter(moves.values()))
+print(guess_move.reveal("about three times smaller"))
+plot_tracking_error(
+    some.time,
+    100 * some.target,
+    {name: 100 * move.position for name, move in moves.items()},
+    unit="cm",
+    quantity="position",
+    title="The same move, kP = 5 V/m",
+)
+
+# %%
+rows = []
+for name, move in moves.items():
+    gains = SETS.get(name, SETS["reconciled"])
+    again = rise(gains, kp=0.0, with_tube=name not in SETS)
+    rows.append(
+        (
+            name,
+            *(gains[gain] for gain in ORDER["elevator"]),
+            100 * again.worst_error,
+            100 * move.worst_error,
+        )
+    )
+Table(
+    ("gains", *ORDER["elevator"], "worst error [cm], kP = 0", "worst error [cm], kP = 5"),
+    tuple(rows),
+)
+
+# %% [markdown]
+# - **Guessed:** kG and kA are too small, kS is missing.
+# - **Measured:** about three times better. But kS is nearly zero! The fit knows no tube, so its
+#   gains carry the tube, wrongly.
+# - **Reconciled:** kS is right again. Yet the tube still pulls. Add **one more term**, the volts
+#   that hold it, and two millimeters remain: `+ kTubeRate * position + kTubePreload`.
+#
+# ### ProfiledPIDController and Motion Magic: the same sum
+#
+# `ProfiledPIDController` makes the profile itself; the feedforward is still yours. Its `calculate`
+# first moves the setpoint one loop ahead, so keep the velocity from before:
+#
+# ```java
+# double v = pid.getSetpoint().velocity;
+# double feedback = pid.calculate(measured, goal);
+# setVoltage(ff.calculateWithVelocities(v, pid.getSetpoint().velocity) + feedback);
+# ```
+#
+# **Motion Magic** does all of it inside the motor controller, a thousand times a second, with the
+# gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum.
+
+# %%
+DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
+per_drum = gains_per(SETS["reconciled"], factor=DRUM) | {"kP": 5.0 * DRUM}
+per_rotor = gains_per(SETS["reconciled"], factor=DRUM / robot.ratio) | {
+    "kP": 5 * DRUM / robot.ratio
+}
+
+
+def magic(slot0: dict[str, float]) -> FollowedMove:
+    """The move with Motion Magic; the tube's volts are the request's own feedforward."""
+
+    def volts(one: LoopInput) -> float:
+        held = tube["rate"] * one.now.position + tube["preload"]
+        return phoenix_volts(slot0, one, meters_per_rotation=DRUM) + held
+
+    return follow_in_closed_loop(robot, RISE, volts, period=ONBOARD)
+
+
+def profiled(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
+    """ProfiledPIDController: its feedback already looks at the next setpoint."""
+    forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
+    return forward + pid.calculate(one.position, one.after.position)
+
+
+ff = ElevatorFeedforward(*(SETS["reconciled"][name] for name in ORDER["elevator"]))
+with_pid = follow_in_closed_loop(
+    robot,
+    RISE,
+    lambda one: (
+        profiled(ff, PIDController(5.0), one) + tube["rate"] * one.now.position + tube["preload"]
+    ),
+)
+on_drum, on_rotor = magic(per_drum), magic(per_rotor)
+Table(
+    ("who follows the profile", "kV", "worst error [cm]"),
+    (
+        ("your loop, 20 ms", ff.kV, 100 * moves["reconciled + tube"].worst_error),
+        ("ProfiledPIDController, 20 ms", ff.kV, 100 * with_pid.worst_error),
+        ("Motion Magic, gains per turn of the drum", per_drum["kV"], on_drum.worst_error * 100),
+        ("Motion Magic, gains per turn of the rotor", per_rotor["kV"], on_rotor.worst_error * 100),
+    ),
+)
+
+# %% [markdown]
+# ProfiledPIDController leads by about a centimeter, because its feedback aims one loop ahead. The
+# last row is the classic mistake: `SensorToMechanismRatio` is set, but the gains are per
+# rotation of the *rotor*. They are too small by the gear ratio. ([WPILib docs:
+# ProfiledPIDController](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/profiled-pidcontroller.html),
+# [CTRE docs: Motion Magic](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/device-specific/talonfx/motion-magic.html))
+
+# %% [markdown]
+# ## 7 An arm that droops
 #
 # The same happens with gravity. Somebody characterized an arm **empty**. Now the arm is level and
 # holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for each radian
@@ -646,7 +840,7 @@ for kilograms in (elevator.load, 1.25 * elevator.load, 1.5 * elevator.load):
 Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(rows))
 
 # %% [markdown]
-# ## 7 Place three gain sets
+# ## 8 Place three gain sets
 #
 # You find three sets of gains, and somebody forgot to write down which mechanism they belong to.
 # One is from a **drivetrain**, one from an **elevator** and one from a **shooter**. kV and kA are
@@ -692,7 +886,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # the mechanism reacts: a heavy wheel takes its time.
 
 # %% [markdown]
-# ## 8 Which mechanisms, and when
+# ## 9 Which mechanisms, and when
 #
 # A test takes time and wears the robot. Ask: **what would be worse with gains that are 5 % off?**
 #
@@ -706,15 +900,16 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # | climber | optional | only if it must follow a profile; otherwise a high kP is enough |
 # | conveyor, indexer | usually not | on and off is enough |
 #
-# Some details:
+# <details><summary>Want to know more? Drivetrain, arm and elevator</summary>
 #
 # - **Drivetrain:** kS and kV do most of the work. From kA you also get the mass, and from a second
 #   kA, measured while turning on the spot, the moment of inertia (below).
-# - **Arm:** first without the game piece, then with it (section 6). For a light, short arm,
+# - **Arm:** first without the game piece, then with it (section 7). For a light, short arm,
 #   computed gains may be enough.
 # - **Elevator:** with its load. kA and kG change with the mass, kV does not.
 # - **Optional** means that it depends on the task on *your* robot. Either answer is right if you
 #   give the reason.
+# </details>
 #
 # If you have no room or time, WPILib's docs say that you can compute "reasonable estimates of kG,
 # kV, and kA", while kS "must be measured". For each row of the table, say what your robot would do
@@ -753,6 +948,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # > that is late on the slopes is beside its path in every curve.
 # </details>
 #
+# <details><summary>Want to know more? The moment of inertia, Choreo and AdvantageKit</summary>
+#
 # - **PathPlanner's moment of inertia** follows from two kA values: one measured while turning on
 #   the spot, one while driving straight. One kA gives the mass, the other the inertia:
 #
@@ -772,7 +969,11 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # Why does the formula work? Driving straight, the wheels accelerate the mass. Turning on the spot,
 # they accelerate the inertia, with the lever r. The motors are the same, so the ratio of the kA
-# values is the ratio of the loads. Check it in the simulation, with the modules of a square swerve:
+# values is the ratio of the loads.
+# </details>
+#
+# One number that PathPlanner asks for, the moment of inertia, follows from two kA values. Check the
+# formula with the modules of a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
@@ -811,12 +1012,15 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > measure, one to measure again.
 # </details>
 #
+# <details><summary>Want to know more? Gains during a match</summary>
+#
 # Gains also change during a match. Copper that is 50 °C warmer has 20 % more resistance, so the
 # same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes
 # no gain of a loop in volts, but it can give only 10 V. kP corrects small changes.
+# </details>
 
 # %% [markdown]
-# ## 9 Your own robot
+# ## 10 Your own robot
 #
 # 1. Fetch the log (lesson 5), look at it (lesson 6), inspect it: `sysid inspect my_log.wpilog`
 # 2. Fit it with its type, in the unit that your code uses:
@@ -849,7 +1053,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # from horizontal. If the gains cannot be right, the command writes no code and explains why.
 
 # %% [markdown]
-# ## 10 System check
+# ## 11 System check
 #
 # Before you enable with new gains, check all five:
 #
@@ -860,7 +1064,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # - [ ] kP is marked as a starting value and fits the output of its loop. The first try is with kP =
 #   0.
 #
-# ## 11 Knowledge check
+# ## 12 Knowledge check
 #
 # Click an answer to the first question; you get feedback at once.
 
@@ -926,19 +1130,19 @@ quick
 # </details>
 
 # %% [markdown]
-# ## 12 Practice
+# ## 13 Practice
 #
 # **Exercise 10: from the analyzer to the robot**
 # ([exercises/exercise10/README.md](../exercises/exercise10/README.md)). You get the gains of your
-# own mechanism, and a code file to fill in. Sections 2 to 4 help. `grade watch exercise10` grades
-# each time you save the file.
+# own mechanism, and a code file to fill in: in the roboRIO or inside the motor controller, as your
+# robot has it. Sections 2 to 4 and 6 help. `grade watch exercise10` grades each time you save.
 #
 # ```
 # grade exercise10
 # ```
 #
 # **Exercise 11: knowledge checks and the mechanism table**
-# ([exercises/exercise11/README.md](../exercises/exercise11/README.md)). Sections 5, 6 and 8 help,
+# ([exercises/exercise11/README.md](../exercises/exercise11/README.md)). Sections 5, 7 and 9 help,
 # and lesson 6 for the first check.
 #
 # ```

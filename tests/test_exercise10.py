@@ -110,6 +110,226 @@ def test_fifty_students_can_solve_it_from_what_they_are_told(checked, language):
         assert sum(one.points for one in found.values()) == 11
 
 
+def in_place(student, place, *, language="java", swap=None, kp=1.0, lacking=(), **scales):
+    """An answer with the gains inside a motor controller, worked out from what a learner reads.
+
+    Args:
+        student: whose numbers.
+        place: ``Slot0Configs`` or ``FeedForwardConfig``.
+        language: ``java`` or ``python``.
+        swap: setting -> setting that gets its number.
+        kp: by what kP is wrong.
+        lacking: settings that are left out.
+        scales: gain -> by what it is wrong.
+    """
+    given = tomllib.loads(OWN.module.told(OWN.module.draw(student)))
+    shown, robot, inside = (given[name] for name in ("analyzer", "robot", "motor_controller"))
+    size = SI[robot["units"]]
+    if place == "Slot0Configs":
+        size = 2 * math.pi * inside.get("radius", 1.0)
+    times = size / SI[shown["units"]]
+    symbol = "rot" if place == "Slot0Configs" else OWN.module.draw(student).symbol(used=True)
+    units = {"kS": "V", "kG": "V", "kV": f"V·s/{symbol}", "kA": f"V·s²/{symbol}"}
+    gains = {
+        name: shown[name] * (times if name in {"kV", "kA"} else 1.0) * scales.get(name, 1.0)
+        for name in units
+        if name in shown
+    }
+    feedback = kp * shown["kP"] * times / (1 if place == "Slot0Configs" else 12)
+    python, arm = language == "python", shown["analysis"] == "Arm"
+    end, mark = ("", "#") if python else (";", "//")
+    static = "" if python else "static final double "
+    rows = "".join(
+        f"    {static}{name} = {value:.6g}{end}  {mark} {units[name]}\n"
+        for name, value in gains.items()
+    )
+    rows += f"    {static}kP = {feedback:.6g}{end}  {mark} a first guess\n"
+    held = "CharacterizationConstants."
+    sources = {name: held + (swap or {}).get(name, name) for name in gains}
+    if place == "Slot0Configs":
+        calls = {
+            (f"with_k_{n[1].lower()}" if python else f"withK{n[1]}"): s for n, s in sources.items()
+        }
+        calls["with_k_p" if python else "withKP"] = f"{held}kP"
+        calls["with_gravity_type" if python else "withGravityType"] = "GravityTypeValue." + (
+            ("ARM_COSINE" if python else "Arm_Cosine")
+            if arm
+            else ("ELEVATOR_STATIC" if python else "Elevator_Static")
+        )
+    else:
+        calls = {("kCos" if arm and name == "kG" else name): s for name, s in sources.items()}
+        if arm:
+            calls["kCosRatio"] = f"{size / (2 * math.pi)}"
+    chain = "".join(f".{name}({value})" for name, value in calls.items() if name not in lacking)
+    spark = f"    config.closedLoop.p({held}kP){end}\n" if place == "FeedForwardConfig" else ""
+    slot0 = place == "Slot0Configs"
+    if python:
+        brought = "from phoenix6.configs import Slot0Configs\n"
+        brought += "from phoenix6.signals import GravityTypeValue\n"
+        if not slot0:
+            brought = "from rev import SparkMaxConfig\n"
+        maker = "" if slot0 else "config = SparkMaxConfig()\n"
+        made = f"({place}(){chain})" if slot0 else f"config.closedLoop.feedForward{chain}"
+        holder = f"class CharacterizationConstants:\n{rows}"
+        return f"{brought}\n{holder}\n{maker}configured = {made}\n{spark.strip()}\n"
+    imports = (
+        "import com.ctre.phoenix6.configs.Slot0Configs;\n"
+        "import com.ctre.phoenix6.signals.GravityTypeValue;\n"
+    )
+    if not slot0:
+        imports = (
+            "import com.revrobotics.spark.config.FeedForwardConfig;\n"
+            "import com.revrobotics.spark.config.SparkMaxConfig;\n"
+        )
+    config = "" if slot0 else "  SparkMaxConfig config = new SparkMaxConfig();\n"
+    body = "" if slot0 else f"  void configure() {{\n{spark}  }}\n"
+    return (
+        f"{imports}class A {{\n  static class CharacterizationConstants {{\n{rows}  }}\n{config}"
+        f"  {place} gains = new {place}(){chain};\n{body}}}\n"
+    )
+
+
+BOTH = ("Slot0Configs", "FeedForwardConfig")
+
+
+@pytest.mark.parametrize("place", BOTH)
+@pytest.mark.parametrize("language", ["java", "python"])
+def test_gains_inside_the_motor_controller_earn_everything_too(checked, language, place):
+    name = JAVA if language == "java" else PYTHON
+    for student in CLASS:
+        found = checked(in_place(student, place, language=language), student=student, name=name)
+
+        wrong = {one.id: (one.seen, one.hint) for one in found.values() if one.status != "passed"}
+        assert (student, wrong) == (student, {})
+        assert sum(one.points for one in found.values()) == 11
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+@pytest.mark.parametrize(
+    ("factor", "says"),
+    [
+        ("rotor", "per rotation of the motor's rotor"),
+        ("radians", "Slot0Configs counts rotations of the mechanism"),
+        ("geared", "multiplied by the gear ratio"),
+        ("coded", "Slot0Configs counts rotations of the mechanism"),
+    ],
+)
+def test_another_rotation_than_the_mechanisms_is_named(checked, kind, factor, says):
+    student = of(kind=kind, used_in="Radians") if kind == "shooter" else of(kind=kind)
+    variant = OWN.module.draw(student)
+    inside = variant.held_by("Slot0Configs")
+    factors = {
+        "rotor": 1 / variant.ratio,
+        "radians": 1 / (2 * math.pi),
+        "geared": variant.ratio,
+        "coded": variant.needed("kV") / inside.needed("kV"),
+    }
+    text = in_place(student, "Slot0Configs", kV=factors[factor])
+    found = checked(text, student=student)
+    # A constant in the unit of the code is right; where it goes, it is not.
+    check = found["kv"] if found["kv"].status == "failed" else found["conversion"]
+
+    assert check.status == "failed"
+    assert check.misconception == "M-UNITS"
+    assert says in f"{check.seen} {check.hint}"
+
+
+def test_the_diameter_in_place_of_the_radius_is_named(checked):
+    student = of(kind="elevator")
+    found = checked(in_place(student, "Slot0Configs", kV=2.0), student=student)["kv"]
+
+    assert "did you take the diameter" in found.hint
+
+
+@pytest.mark.parametrize(
+    ("kind", "place", "old", "new", "says"),
+    [
+        ("arm", BOTH[0], ".withGravityType(GravityTypeValue.Arm_Cosine)", "", "is not set"),
+        ("arm", BOTH[0], "Arm_Cosine", "Elevator_Static", "GravityType is Elevator_Static"),
+        ("elevator", BOTH[0], "Elevator_Static", "Arm_Cosine", "the same at every height"),
+        (
+            "turret",
+            BOTH[0],
+            ".withGravityType(GravityTypeValue.Elevator_Static)",
+            ".withStaticFeedforwardSign(StaticFeedforwardSignValue.UseClosedLoopSign)",
+            "UseVelocitySign, which is the default",
+        ),
+        ("arm", BOTH[1], "kCos(", "kG(", "An arm's kG goes into kCos"),
+        ("arm", BOTH[1], ".kCosRatio(0.15915494309189535)", "", "has no kCosRatio"),
+        ("arm", BOTH[1], "0.15915494309189535", "1.0", "kCosRatio = 1.0"),
+        ("elevator", BOTH[1], ".kG(", ".kCos(", "kCos is for arms"),
+    ],
+)
+def test_gravity_and_the_sign_of_ks_are_settings_too(checked, kind, place, old, new, says):  # noqa: PLR0917 - a row of the table
+    student = of(kind=kind)
+    text = in_place(student, place)
+    assert old in text
+    found = checked(text.replace(old, new), student=student)["feedforward"]
+
+    assert found.status == "failed"
+    assert says in f"{found.seen} {found.hint}"
+
+
+@pytest.mark.parametrize("place", BOTH)
+@pytest.mark.parametrize("kind", ["elevator", "shooter"])
+def test_the_loop_in_the_motor_controller_has_an_output_of_its_own(checked, kind, place):
+    student = of(kind=kind)
+    wrong = 1 / 12 if place == "Slot0Configs" else 12.0
+    found = checked(in_place(student, place, kp=wrong), student=student)["kp"]
+
+    assert (found.status, found.points) == ("failed", 0.5)
+    assert found.misconception == "M-DUTY"
+
+
+@pytest.mark.parametrize("place", BOTH)
+def test_a_setting_with_the_wrong_gain_or_none_is_named(checked, place):
+    student = of(kind="elevator")
+    swapped = checked(in_place(student, place, swap={"kV": "kA", "kA": "kV"}), student=student)
+    without = checked(in_place(student, place, lacking=("withKG", "kG")), student=student)
+
+    assert f"kA is where {place} expects kV" in swapped["order"].hint
+    assert swapped["order"].misconception == "M-ARGORDER"
+    assert "has no kG" in without["order"].seen
+
+
+@pytest.mark.parametrize(
+    ("language", "body", "wanted"),
+    [
+        ("java", "config.Slot0.kV = C.kV; config.Slot0.kS = C.kS;", {"kS": 1.0, "kV": 2.0}),
+        ("java", "var s = new Slot0Configs(); s.kV = C.kV; s.withKS(1);", {"kS": 1.0, "kV": 2.0}),
+        ("java", "config.Slot0.withKV(C.kV).withKA(C.kA);", {"kV": 2.0, "kA": 3.0}),
+        ("java", "var s = new Slot1Configs().withKV(C.kV);", {}),
+        ("java", "config.closedLoop.feedForward.sv(C.kS, C.kV);", {"kS": 1.0, "kV": 2.0}),
+        ("java", "f.svacr(C.kS, C.kV, C.kA, 4.0, 5.0);", {}),
+        (
+            "java",
+            "FeedForwardConfig f = new FeedForwardConfig(); f.svacr(C.kS, C.kV, C.kA, 4.0, 5.0);",
+            {"kS": 1.0, "kV": 2.0, "kA": 3.0, "kCos": 4.0, "kCosRatio": 5.0},
+        ),
+        ("java", "f.closedLoop.feedForward.kV(C.kV, ClosedLoopSlot.kSlot0);", {"kV": 2.0}),
+        ("java", "f.closedLoop.feedForward.kV(C.kV, ClosedLoopSlot.kSlot1);", {}),
+        ("python", "cfg.slot0.k_v = C.kV", {"kV": 2.0}),
+        ("python", "cfg.slot0.with_k_v(C.kV).with_k_s(C.kS)", {"kV": 2.0, "kS": 1.0}),
+        ("python", "cfg.closedLoop.feedForward.sv(C.kS, C.kV)", {"kV": 2.0, "kS": 1.0}),
+        ("python", "C.kV = 7", {}),
+    ],
+)  # fmt: skip
+def test_a_configuration_is_read_as_teams_write_it(tmp_path, language, body, wanted):
+    name = JAVA if language == "java" else PYTHON
+    text = (
+        f"class A {{ static class C {{ static final double kS = 1, kV = 2, kA = 3; }}\n"
+        f"  void configure() {{ {body} }} }}\n"
+        if language == "java"
+        else f"class C:\n    kS = 1\n    kV = 2\n    kA = 3\n\ndef configure(cfg):\n    {body}\n"
+    )
+    (tmp_path / name).write_text(text, "utf-8")
+    found = gains_of(tmp_path / name).feedforwards
+
+    assert [{k: a.value for k, a in one.arguments.items()} for one in found] == (
+        [wanted] if wanted else []
+    )
+
+
 @pytest.fixture
 def turret():
     """One learner's numbers: a turret, shown in rotations, coded in radians, with volts."""

@@ -14,5 +14,6 @@ public class ExampleMechanism extends SubsystemBase {
   }
 
   // TODO: 2. The feedforward, made from these constants. Use the class that fits your mechanism.
-  //       given.toml gives the unit of its velocities under [robot].
+  //       given.toml gives the unit of its velocities under [robot]. Or put the gains into the
+  //       motor controller: new Slot0Configs() (Phoenix 6) or new FeedForwardConfig() (REVLib).
 }

@@ -15,8 +15,8 @@ from grader.sysid_routine_checks import check_compiles
 from sim.core.errors import UnreadableFile
 
 from .drawn import draw
-from .handed import check_order, feedforward_of
-from .key import FULL, Variant, near
+from .handed import check_choices, check_order, feedforward_of, place_of
+from .key import FEED_FORWARD, FULL, PLACES, SLOT0, Variant, near
 from .outcome import outcome
 from .said import judged
 from .slips import constant_slip, feedback_slip, handed_slip
@@ -36,7 +36,7 @@ class Code:
     """What the checks look at."""
 
     facts: DeployFacts
-    variant: Variant
+    variant: Variant  # with the gains where this code puts them
 
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:
@@ -74,7 +74,28 @@ units = "{variant.shown_in}"
 [robot]  # what your code needs
 units = "{variant.used_in}"  # it measures, and asks for, velocities in {used}/s
 loop_output = {output}
-"""
+
+[motor_controller]  # only if you put the gains there, and not into a feedforward class
+{_controller(variant)}"""
+
+
+def _controller(variant: Variant) -> str:
+    """What a learner gets to know of the motor controller."""
+    thing = {"drivetrain": "wheel", "elevator": "drum"}.get(variant.kind, variant.kind)
+    used = variant.symbol(used=True)
+    radius = f"radius = {variant.radius:g}  # [m] of the {thing}\n" if variant.radius else ""
+    rows = (
+        (SLOT0, f"rotations of the {thing}: SensorToMechanismRatio is set", "volts"),
+        (FEED_FORWARD, f"{used}: both conversion factors are set", "duty cycle"),
+    )
+    tables = "".join(
+        f'{name} = {{ counts = "{counts}", loop_output = "{output}" }}\n'
+        for name, counts, output in rows
+    )
+    return (
+        f"gear_ratio = {variant.ratio:g}  # turns of the motor for one turn of the {thing}\n"
+        f"{radius}{tables}"
+    )
 
 
 def read(path: Path, *, student: str) -> Code:
@@ -92,7 +113,7 @@ def read(path: Path, *, student: str) -> Code:
             where=f"{path}, line {first.line}",
             advice="Fix that line first: code with a mistake like this does not compile.",
         )
-    return Code(facts, draw(student))
+    return Code(facts, draw(student).held_by(place_of(facts)))
 
 
 def consequence(code: Code) -> Consequence | None:
@@ -158,10 +179,7 @@ def _valued(gain: str, code: Code) -> None:
 
 def _right(constant: GainConstant, variant: Variant) -> bool:
     """Whether a constant is the analyzer's number, or the one the robot needs."""
-    value, gain = constant.value, constant.gain
-    return value is not None and (
-        near(value, variant.shown[gain]) or near(value, variant.needed(gain))
-    )
+    return constant.value is not None and variant.accepts(constant.gain, constant.value)
 
 
 def _constant(gain: str, code: Code) -> GainConstant:
@@ -209,9 +227,7 @@ def units(code: Code) -> None:
 
 def _unit_told(one: GainConstant, code: Code) -> bool | None:
     """Whether a gain's unit is told; where the number itself is not right, either will do."""
-    used = one.value is not None and near(one.value, code.variant.needed(one.gain))
-    either = (True, False) if not _right(one, code.variant) else (used,)
-    units_ = [code.variant.unit(one.gain, used=way) for way in either]
+    units_ = code.variant.units_of(one.gain, one.value)
     beside = {judged(one.comment, unit, name=one.name) for unit in units_}
     if True in beside or (beside == {False} and any(judged(code.facts.general, u) for u in units_)):
         return True
@@ -220,9 +236,11 @@ def _unit_told(one: GainConstant, code: Code) -> bool | None:
 
 @check(points=1)
 def feedforward(code: Code) -> str:
-    """The feedforward is of the class that fits the mechanism."""
+    """The feedforward is of the class, or has the settings, that fit the mechanism."""
     one = feedforward_of(code.facts, code.variant)
     if one.kind == code.variant.made:
+        if one.kind in PLACES:
+            check_choices(one, code.variant)
         check_compiles(code.facts.compile_errors, language=code.facts.language)
         return READ_ONLY[code.facts.language].partition(":")[0] + "."
     gravity = code.variant.analysis != "Simple" and one.kind == "SimpleMotorFeedforward"

@@ -1,11 +1,12 @@
 """A mechanism for each learner, and what the analyzer showed of it; a conversion is always due."""
 
+from dataclasses import replace
 from itertools import combinations
 from typing import TYPE_CHECKING
 
 from grader.variant import make_student_rng
 
-from .key import FULL, UNITS, Variant, near
+from .key import FULL, LENGTHS, PLACES, SLOT0, UNITS, Variant, near
 
 if TYPE_CHECKING:
     import numpy as np
@@ -24,6 +25,7 @@ APART = 0.15  # [share] any two numbers differ by more, so that each is known by
 SLIPS = (FULL, 60.0)  # no gain may pass for another that is off by one of these
 ALIKE = 0.05
 DIGITS = 4
+GEARED = 1.5  # our shooter's wheel turns once for so many turns of the motor, not one to one
 MOST_DRAWS = 2000
 
 
@@ -33,7 +35,8 @@ def draw(student: str) -> Variant:
     kind = tuple(KINDS)[int(rng.integers(len(KINDS)))]
     for _ in range(MOST_DRAWS):
         variant = _drawn(kind, rng)
-        if _clear(variant):
+        places = [variant.held_by(place) for place in ("", *PLACES)]
+        if all(map(_clear, places)) and _geared(variant.held_by(SLOT0)):
             return variant
     raise RuntimeError(f"no clear numbers for {student!r}")
 
@@ -44,11 +47,29 @@ def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
 
     analysis, pairs = KINDS[kind]
     shown_in, used_in = pairs[int(rng.integers(len(pairs)))]
-    found = gains_per(MECHANISMS[kind].draw(rng).gains, factor=UNITS[shown_in][1])
+    made = MECHANISMS[kind].draw(rng)
+    if kind == "shooter":
+        made = replace(made, ratio=made.ratio * GEARED)
+    found = gains_per(made.gains, factor=UNITS[shown_in][1])
     found["kP"] = found["kV"] * rng.uniform(*KP)
     names = ("kS", *(("kG",) if "kG" in found else ()), "kV", "kA", "kP")
     shown = {name: float(f"{found[name]:.{DIGITS}g}") for name in names}
-    return Variant(kind, analysis, shown, shown_in, used_in, bool(rng.integers(2)))
+    return Variant(
+        kind,
+        analysis,
+        shown,
+        shown_in,
+        used_in,
+        bool(rng.integers(2)),
+        ratio=float(f"{made.ratio:.3g}"),
+        radius=float(f"{made.radius:.3g}") if shown_in in LENGTHS else 0.0,
+    )
+
+
+def _geared(variant: Variant) -> bool:
+    """Whether a rotation of the rotor is no radian and none of the analyzer's units."""
+    others = (UNITS["Rotations"][1], variant.times, 1.0 / variant.times, 1.0)
+    return not any(near(variant.ratio, one, share=APART) for one in others)
 
 
 def _clear(variant: Variant) -> bool:
@@ -66,6 +87,13 @@ def _clear(variant: Variant) -> bool:
         near(ratio * size, slip, share=ALIKE) for size in (1, times, 1 / times) for slip in SLIPS
     ):
         return False
+    for gain in ("kV", "kA"):  # converted twice or the wrong way round, or a duty cycle
+        others_ = [name for name in variant.gains if name != gain]
+        known = [value for name in others_ for value in (variant.shown[name], variant.needed(name))]
+        wrong = (times * times, 1.0 / times, 1.0 / FULL, times / FULL)
+        slips = [variant.shown[gain] * size for size in wrong]
+        if any(near(slip, value, share=ALIKE) for slip in slips for value in known):
+            return False
     groups = [*({value} for value in volts), *others]
     return all(
         abs(one - other) > APART * max(one, other)

@@ -5,7 +5,7 @@ import re
 from grader.check import NotReachedError, WrongAnswer
 from grader.robotcode.gain_constants import Argument, DeployFacts, Feedforward
 
-from .key import Variant, near
+from .key import FEED_FORWARD, PLACES, SLOT0, Variant, near
 
 
 def feedforward_of(facts: DeployFacts, variant: Variant) -> Feedforward:
@@ -20,10 +20,76 @@ def feedforward_of(facts: DeployFacts, variant: Variant) -> Feedforward:
     if not facts.feedforwards:
         raise WrongAnswer(
             "no feedforward is made",
-            hint="Make one of WPILib's three, and pass your constants to it.",
+            hint="Make one of WPILib's three, and pass your constants to it. Or put them into the "
+            f"motor controller: {SLOT0} (Phoenix 6) or {FEED_FORWARD} (REVLib).",
         )
-    right = [one for one in facts.feedforwards if one.kind == variant.made]
+    right = [one for one in facts.feedforwards if one.kind in {variant.made, *PLACES}]
     return (right or [*facts.feedforwards])[0]
+
+
+def place_of(facts: DeployFacts) -> str:
+    """The class of the motor controller that holds the gains; empty if WPILib's class does."""
+    kinds = [one.kind for one in facts.feedforwards]
+    inside = [kind for kind in kinds if kind in PLACES]
+    return inside[0] if inside and len(inside) == len(kinds) else ""
+
+
+def check_choices(one: Feedforward, variant: Variant) -> None:
+    """Whether gravity and the sign of kS are set for this mechanism in its motor controller.
+
+    Raises:
+        WrongAnswer: one is not.
+    """
+    arm = variant.analysis == "Arm"
+    if one.kind == FEED_FORWARD:
+        _check_spark(one, arm=arm, variant=variant)
+        return
+    gravity = one.choices.get("GravityType", "elevatorstatic")  # Phoenix 6's default
+    if arm and gravity != "armcosine":
+        given = one.choices.get("GravityType")
+        raise WrongAnswer(
+            f"GravityType is {'Elevator_Static' if given else 'not set'} in {SLOT0}, "
+            f"line {one.line}",
+            hint="Without Arm_Cosine the motor controller adds kG at every angle as if the arm "
+            "were level. (Elevator_Static is the default.)",
+        )
+    if variant.analysis == "Elevator" and gravity == "armcosine":
+        raise WrongAnswer(
+            f"GravityType is Arm_Cosine in {SLOT0}, line {one.line}",
+            hint="An elevator weighs the same at every height: use Elevator_Static.",
+        )
+    if one.choices.get("StaticFeedforwardSign", "usevelocitysign") != "usevelocitysign":
+        raise WrongAnswer(
+            f"StaticFeedforwardSign is UseClosedLoopSign in {SLOT0}, line {one.line}",
+            hint="Then kS follows the sign of the error and may shake around the target. Your "
+            "mechanism follows a velocity: use UseVelocitySign, which is the default.",
+        )
+
+
+def _check_spark(one: Feedforward, *, arm: bool, variant: Variant) -> None:
+    """Whether a Spark gets gravity in the way that fits the mechanism."""
+    at = f"{FEED_FORWARD} in line {one.line}"
+    if arm and "kG" in one.arguments:
+        raise WrongAnswer(
+            f"{at} gets kG",
+            hint="A Spark adds kG at every angle. An arm's kG goes into kCos.",
+        )
+    if variant.analysis == "Elevator" and "kCos" in one.arguments:
+        raise WrongAnswer(
+            f"{at} gets kCos",
+            hint="kCos is for arms. An elevator weighs the same at every height: use kG.",
+        )
+    if not arm:
+        return
+    ratio = one.arguments.get("kCosRatio")
+    wanted = variant.turns_per_unit
+    if ratio is None or ratio.value is None or not near(ratio.value, wanted):
+        raise WrongAnswer(
+            f"{at} has {'no kCosRatio' if ratio is None else f'kCosRatio = {ratio.text}'}",
+            hint="kCosRatio turns the encoder's position into rotations of the arm, of which the "
+            "Spark takes the cosine. How many rotations is one of your units?",
+            misconception="" if ratio is None else "M-UNITS",
+        )
 
 
 def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, points: float) -> None:
@@ -32,21 +98,24 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
     Raises:
         WrongAnswer: one does not, or is left out, or cannot be told.
     """
-    places = _places(one)
-    found = {place: _gain(arg, facts, variant) for place, arg in one.arguments.items()}
+    places = _places(one, variant)
+    found = {
+        GRAVITY.get(place, place): _gain(arg, facts, variant)
+        for place, arg in one.arguments.items()
+        if place != "kCosRatio"
+    }
     at = f"{re.sub(r'[A-Za-z_.]+[.](?=k)', '', one.text)} in line {one.line}"
     for place, gain in found.items():
         if gain and gain != place:
             raise WrongAnswer(
                 at,
-                hint=f"{gain} is where {one.kind} expects {place}. Check the order of its "
-                "arguments.",
+                hint=f"{gain} is where {one.kind} expects {place}. {_look(one)}",
                 misconception="M-ARGORDER",
             )
     for place, gain in found.items():
         if not gain:
             raise WrongAnswer(
-                f"the grader cannot see which gain {one.arguments[place].text} is, "
+                f"the grader cannot see which gain {_given(one, place).text} is, "
                 f"in line {one.line}",
                 hint="Pass the constants by their names.",
             )
@@ -62,9 +131,25 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
         )
 
 
-def _places(one: Feedforward) -> tuple[str, ...]:
+GRAVITY = {"kCos": "kG"}  # what a Spark calls an arm's kG
+
+
+def _places(one: Feedforward, variant: Variant) -> tuple[str, ...]:
+    if one.kind in PLACES:
+        return variant.gains
     simple = one.kind == "SimpleMotorFeedforward"
     return ("kS", "kV", "kA") if simple else ("kS", "kG", "kV", "kA")
+
+
+def _given(one: Feedforward, place: str) -> Argument:
+    """What a place is given, by the name that its class has for it."""
+    return one.arguments.get(place) or one.arguments["kCos"]
+
+
+def _look(one: Feedforward) -> str:
+    if one.kind in PLACES:
+        return "Give each setting the constant of its own name."
+    return "Check the order of its arguments."
 
 
 def _gain(arg: Argument, facts: DeployFacts, variant: Variant) -> str:

@@ -1,7 +1,11 @@
-"""What a learner is given, and what the robot needs: gains in two units, and a loop's output."""
+"""What a learner is given, and what the robot needs: gains in two units, and a loop's output.
+
+The gains may go into WPILib's feedforward class in the roboRIO, or into the motor controller. Each
+place counts in a unit of its own and has a loop with an output of its own (``Variant.held_by``).
+"""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 NEAR = 0.02  # [share] arithmetic, three digits: within 2 % or not
 FULL = 12.0  # [V] what a duty cycle of 1 stands for
@@ -13,6 +17,8 @@ UNITS = {  # name as SysId has it -> symbol, and how many meters or radians one 
     "Rotations": ("rot", 6.283185307179586),
     "Degrees": ("deg", 0.017453292519943295),
 }
+SCALED = ("kV", "kA")  # the feedforward's gains with a velocity in their unit
+LENGTHS = ("Meters", "Feet", "Inches")
 CLASSES = {
     "Simple": "SimpleMotorFeedforward",
     "Elevator": "ElevatorFeedforward",
@@ -23,6 +29,10 @@ ORDER = {  # class -> what it takes, in order
     "ElevatorFeedforward": ("kS", "kG", "kV", "kA"),
     "ArmFeedforward": ("kS", "kG", "kV", "kA"),
 }
+
+
+SLOT0, FEED_FORWARD = "Slot0Configs", "FeedForwardConfig"
+PLACES = (SLOT0, FEED_FORWARD)  # of the gains inside a motor controller
 
 
 @dataclass(frozen=True)
@@ -36,6 +46,10 @@ class Variant:
         shown_in: the unit of position they are made for: ``Rotations``.
         used_in: the one that the robot's code counts in.
         duty: whether the velocity loop puts out a duty cycle, and not volts.
+        ratio: turns of the motor for one turn of the mechanism.
+        radius: [m] of wheel or drum; 0 of what turns.
+        place: the class of the motor controller that holds the gains; empty in the roboRIO.
+        coded_in: the unit that the robot's code counts in, whatever the place counts in.
     """
 
     kind: str
@@ -44,28 +58,84 @@ class Variant:
     shown_in: str
     used_in: str
     duty: bool
+    ratio: float = 1.0
+    radius: float = 0.0
+    place: str = ""
+    coded_in: str = ""
+
+    def held_by(self, kind: str) -> "Variant":
+        """The same mechanism with its gains where a class puts them.
+
+        Phoenix 6 counts rotations of the mechanism and puts out volts. A Spark counts in the unit
+        of its conversion factors, here the code's, and its kP gives a duty cycle.
+
+        Args:
+            kind: ``Slot0Configs``, ``FeedForwardConfig``, or a class of WPILib.
+        """
+        if kind == SLOT0:
+            return replace(self, place=kind, coded_in=self.used_in, used_in="Rotations", duty=False)
+        if kind == FEED_FORWARD:
+            return replace(self, place=kind, coded_in=self.used_in, duty=True)
+        return self
 
     @property
     def gains(self) -> tuple[str, ...]:
         """The feedforward's gains, in its order."""
-        return ORDER[self.made]
+        return ORDER[CLASSES[self.analysis]]
 
     @property
     def made(self) -> str:
-        """The feedforward's class."""
-        return CLASSES[self.analysis]
+        """The class that takes the gains."""
+        return self.place or CLASSES[self.analysis]
 
     @property
     def times(self) -> float:
-        """What a gain per velocity is multiplied with to fit the robot's unit."""
-        return UNITS[self.used_in][1] / UNITS[self.shown_in][1]
+        """What a gain per velocity is multiplied with to fit the unit of the place."""
+        return self.times_to(self.used_in)
+
+    def times_to(self, unit: str) -> float:
+        """What a gain per velocity is multiplied with to be one per another unit.
+
+        Args:
+            unit: as SysId has it: ``Meters``.
+        """
+        turns = self.radius if unit == "Rotations" and self.shown_in in LENGTHS else 1.0
+        return turns * UNITS[unit][1] / UNITS[self.shown_in][1]
 
     def needed(self, gain: str) -> float:
         """A gain as the robot needs it."""
         value = self.shown[gain]
-        if gain in {"kV", "kA", "kP"}:
+        if gain in SCALED or gain == "kP":
             value *= self.times
         return value / FULL if gain == "kP" and self.duty else value
+
+    @property
+    def turns_per_unit(self) -> float:
+        """[rot] of the mechanism in one of the units that a Spark's encoder counts."""
+        return UNITS[self.used_in][1] / UNITS["Rotations"][1]
+
+    def accepts(self, gain: str, value: float) -> bool:
+        """Whether a constant is the analyzer's number, or one in a unit of this robot."""
+        if near(value, self.shown[gain]) or near(value, self.needed(gain)):
+            return True
+        return gain in SCALED and near(value, self.coded(gain))
+
+    def coded(self, gain: str) -> float:
+        """The gain kV or kA in the unit that the robot's code counts in."""
+        return self.shown[gain] * self.times_to(self.coded_in or self.used_in)
+
+    @property
+    def coded_symbol(self) -> str:
+        """The unit of position that the robot's code counts in."""
+        return UNITS[self.coded_in or self.used_in][0]
+
+    @property
+    def counting(self) -> str:
+        """What counts, and in which unit: a clause to begin a sentence with."""
+        if self.place == SLOT0:
+            return f"{SLOT0} counts rotations of the mechanism"
+        who = "Your encoder counts in" if self.place else "Your code uses"
+        return f"{who} {self.symbol(used=True)}"
 
     def symbol(self, *, used: bool) -> str:
         """The unit of position: the robot's, or the analyzer's."""
@@ -73,7 +143,26 @@ class Variant:
 
     def unit(self, gain: str, *, used: bool) -> str:
         """The unit of a gain, of the robot's kind or as the analyzer shows it."""
-        return {"kV": "V·s/{}", "kA": "V·s²/{}"}.get(gain, "V").format(self.symbol(used=used))
+        return self._unit(gain, self.used_in if used else self.shown_in)
+
+    def units_of(self, gain: str, value: float | None) -> list[str]:
+        """The units that a gain of this value may have; any of this robot's if it is none of it.
+
+        Args:
+            gain: ``kV``.
+            value: what a learner wrote.
+        """
+        sizes = dict.fromkeys((self.used_in, self.coded_in or self.used_in, self.shown_in))
+        fitting = [
+            self._unit(gain, one)
+            for one in sizes
+            if value is not None
+            and near(value, self.shown[gain] * (self.times_to(one) if gain in SCALED else 1.0))
+        ]
+        return fitting or [self._unit(gain, one) for one in sizes]
+
+    def _unit(self, gain: str, position: str) -> str:
+        return {"kV": "V·s/{}", "kA": "V·s²/{}"}.get(gain, "V").format(UNITS[position][0])
 
 
 def near(value: float, wanted: float, *, share: float = NEAR) -> bool:

@@ -8,14 +8,14 @@ from grader.consequence import Consequence, follow_profiles
 from grader.robotcode.gain_constants import DeployFacts, Feedforward
 
 from .handed import feedforward_of
-from .key import CLASSES, Variant, near
+from .key import CLASSES, PLACES, SCALED, Variant, near
 
 if TYPE_CHECKING:
     from sim.feedback import Plant
     from sim.feedback.profile import Profile
 
 TYPES = {made: analysis.lower() for analysis, made in CLASSES.items()}
-PLACES = {"arm": "angle", "elevator": "height", "shooter": ""}  # what a position is called
+POSITIONS = {"arm": "angle", "elevator": "height", "shooter": ""}  # what a position is called
 ROOM = {"arm": (-0.8, 1.6), "elevator": (0.0, 1.3)}  # [rad from level, m]
 START = {"arm": 0.0, "elevator": 0.5}
 SPEED = {"arm": 1.0, "elevator": 0.5}  # [rad/s, m/s]
@@ -31,37 +31,57 @@ def outcome(facts: DeployFacts, variant: Variant) -> Consequence | None:
         one = feedforward_of(facts, variant)
     except (WrongAnswer, NotReachedError):
         return None
-    gains = _gains(one)
+    gains = _gains(one, variant)
     if gains is None or _right(one, gains, variant):
         return None
-    truth = {name: variant.needed(name) for name in variant.gains}
-    plant, believed = Plant(variant.analysis.lower(), truth), Plant(TYPES[one.kind], gains)
+    truth = {name: _in_code(name, variant.needed(name), variant) for name in variant.gains}
+    plant, believed = Plant(variant.analysis.lower(), truth), Plant(_type(one), gains)
     followed = follow_profile(
         plant,
         believed,
         _profile(plant, variant.kind),
         name=variant.kind,
-        symbol=variant.symbol(used=True),
-        place=PLACES.get(variant.kind, "way"),
+        symbol=variant.coded_symbol,
+        place=POSITIONS.get(variant.kind, "way"),
         stops=ROOM.get(variant.kind, INFINITE),
     )
     return follow_profiles([followed])
 
 
-def _gains(one: Feedforward) -> dict[str, float] | None:
+def _type(one: Feedforward) -> str:
+    """How it takes gravity: ``simple``, ``elevator`` or ``arm``."""
+    if one.kind in TYPES:
+        return TYPES[one.kind]
+    if "kCos" in one.arguments or one.choices.get("GravityType") == "armcosine":
+        return "arm"
+    return "elevator" if "kG" in one.arguments else "simple"
+
+
+def _in_code(name: str, value: float, variant: Variant) -> float:
+    """A gain of the place in the unit that the robot's code counts in."""
+    return value * variant.coded(name) / variant.needed(name) if name in SCALED else value
+
+
+def _gains(one: Feedforward, variant: Variant) -> dict[str, float] | None:
     """Place -> number; what is left out counts as 0. None where a number cannot be told."""
     values = [argument.value for argument in one.arguments.values()]
-    if one.spread or one.kind not in TYPES or not all(v is not None for v in values):
+    known = one.kind in TYPES or one.kind in PLACES
+    if one.spread or not known or not all(v is not None for v in values):
         return None
-    given = {name: argument.value or 0.0 for name, argument in one.arguments.items()}
+    given = {
+        "kG" if name == "kCos" else name: _in_code(name, argument.value or 0.0, variant)
+        for name, argument in one.arguments.items()
+        if name != "kCosRatio"
+    }
     gains = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | given
     return gains if given and all(map(math.isfinite, gains.values())) else None
 
 
 def _right(one: Feedforward, gains: dict[str, float], variant: Variant) -> bool:
     """Whether it is the feedforward that the mechanism needs."""
-    return one.kind == variant.made and all(
-        near(gains.get(name, 0.0), variant.needed(name)) for name in variant.gains
+    return _type(one) == variant.analysis.lower() and all(
+        near(gains.get(name, 0.0), _in_code(name, variant.needed(name), variant))
+        for name in variant.gains
     )
 
 

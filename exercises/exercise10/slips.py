@@ -2,10 +2,11 @@
 
 from grader.wrong_number import WrongNumber
 
-from .key import FULL, Variant, near
+from .key import FULL, SLOT0, Variant, near
 
 ROUNDED = 0.10  # [share] what rounding to one digit may take away
 MINUTE = 60.0
+TURN = 6.283185307179586  # [rad]
 
 
 def constant_slip(value: float, gain: str, variant: Variant, *, text: str) -> WrongNumber:
@@ -29,13 +30,36 @@ Way = tuple[tuple[float, ...], WrongNumber]  # what a number may be, and what it
 def _known(value: float, gain: str, variant: Variant, *, text: str) -> WrongNumber | None:
     if value == 0:
         return INTEGER if "/" in text else None
-    return _first(value, [*_others(gain, variant), *_scaled(gain, variant)])
+    ways = [*_others(gain, variant), *_scaled(gain, variant)]
+    return _first(value, [*_in_rotations(gain, variant), *ways])
 
 
 def _first(value: float, ways: list[Way]) -> WrongNumber | None:
     """The first slip that would give a number."""
     found = (slip for sizes, slip in ways if any(near(value, size) for size in sizes))
     return next(found, None)
+
+
+def _in_rotations(gain: str, variant: Variant) -> list[Way]:
+    """Another rotation than the mechanism's, or no rotation, where Slot0Configs counts them."""
+    if variant.place != SLOT0 or gain in {"kS", "kG"}:
+        return []
+    needed, ratio = variant.needed(gain), variant.ratio
+    rotor = (
+        "per rotation of the motor's rotor. SensorToMechanismRatio is set, so "
+        f"{variant.counting}, and this is {ratio:g} times too small"
+    )
+    turned = f"multiplied by the gear ratio, but {variant.counting} already"
+    radians = f"per radian. {variant.counting}, and one rotation is 2π radians"
+    diameter = "twice what it should be: did you take the diameter of the wheel or drum for radius?"
+    ways = [
+        ((needed / TURN,), WrongNumber("radians", radians, "M-UNITS")),
+        ((needed / ratio,), WrongNumber("rotor", rotor, "M-UNITS")),
+        ((needed * ratio,), WrongNumber("geared-twice", turned, "M-UNITS")),
+    ]
+    if variant.radius:
+        ways.append(((2.0 * needed, 2.0 * variant.coded(gain)), WrongNumber("diameter", diameter)))
+    return ways
 
 
 def _others(gain: str, variant: Variant) -> list[Way]:
@@ -80,12 +104,15 @@ def _times(sizes: tuple[float, ...], factor: float) -> tuple[float, ...]:
 def handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
     """Why what a feedforward is given does not fit the robot's unit."""
     shown, times = variant.shown[gain], variant.times
-    used, given = variant.symbol(used=True), variant.symbol(used=False)
+    given = variant.symbol(used=False)
+    if variant.place == SLOT0 and near(value, variant.coded(gain)) and not near(value, shown):
+        says = f"in the unit of your code, {variant.coded_symbol}. {variant.counting}: convert it"
+        return WrongNumber("coded", says, "M-UNITS")
     if near(value, shown):
         factor = max(times, 1 / times)
         way = "large" if times < 1 else "small"
         says = (
-            f"as the analyzer shows it, for {given}. Your code uses {used}: its voltage will be "
+            f"as the analyzer shows it, for {given}. {variant.counting}: its voltage will be "
             f"{factor:.3g} times too {way}"
         )
         return WrongNumber("unconverted", says, "M-UNITS")
@@ -99,10 +126,10 @@ def handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
 def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
     """Why a kP does not fit the robot's loop."""
     shown, times, needed = variant.shown["kP"], variant.times, variant.needed("kP")
-    used, given = variant.symbol(used=True), variant.symbol(used=False)
+    given, code = variant.symbol(used=False), variant.counting
     output = "a duty cycle, where 1 is 12 V" if variant.duty else "volts"
     also = f", and your loop outputs {output}" if variant.duty else ""
-    unmodified = f"as the analyzer shows it, for {given}. Your code uses {used}{also}"
+    unmodified = f"as the analyzer shows it, for {given}. {code}{also}"
     right, still = "the unit is right, the output is not", f"still for {given}"
     ways = [
         ((shown,), WrongNumber("unmodified", unmodified, "M-UNITS")),
@@ -120,13 +147,14 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
         ),
         (
             (shown / FULL,),
-            WrongNumber("unit", f"{still}, but your code uses {used}", "M-UNITS"),
+            WrongNumber("unit", f"{still}, but {_low(code)}", "M-UNITS"),
         ),
         (
             (shown / times, shown / times / FULL),
             WrongNumber("turned", "the unit is converted in the wrong direction", "M-UNITS"),
         ),
     ]
+    ways = [*_in_rotations("kP", variant), *ways]
     found = INTEGER if value == 0 and "/" in text else _first(value, ways)
     if found is None and near(value, needed, share=ROUNDED):
         found = WrongNumber("rounded", "close, but rounded too much. Keep three digits or more")
@@ -137,3 +165,8 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
             "your own fit"
         ),
     )
+
+
+def _low(name: str) -> str:
+    """A name inside a sentence: ``your code``, but ``Slot0Configs``."""
+    return name.replace("Your", "your")

@@ -9,6 +9,7 @@ from grader.robotcode.closure import BoundNode, definitions, resolve_bound
 from grader.robotcode.comments import Comment, comments, comments_near
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
+from grader.robotcode.controller_gains import GainSetting, find_gain_settings
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
@@ -68,14 +69,16 @@ class Argument:
 
 @dataclass(frozen=True)
 class Feedforward:
-    """A feedforward that is made.
+    """A feedforward that is made, or configured in a motor controller.
 
     Args:
-        kind: its class, without what Python adds: ``SimpleMotorFeedforward``.
+        kind: its class, without what Python adds: ``SimpleMotorFeedforward``; ``Slot0Configs`` or
+            ``FeedForwardConfig`` inside a motor controller.
         arguments: parameter -> what it is given, where it is given anything.
         text: the call.
         line: its line, from 1.
         spread: whether it gets more from a list that cannot be read.
+        choices: setting -> constant without its season's dress: ``GravityType`` -> ``armcosine``.
     """
 
     kind: str
@@ -83,6 +86,7 @@ class Feedforward:
     text: str = ""
     line: int = 0
     spread: bool = False
+    choices: dict[str, str] = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True)
@@ -145,7 +149,8 @@ class _Reader:
         main = self._names.main
         every = list(walk(main.body, Scope(main)))
         calls = [(node, scope) for node, scope in every if isinstance(node, Call)]
-        made = list(self._feedforwards(calls))
+        settings = list(find_gain_settings(every, self._names))
+        made = [*self._feedforwards(calls), *self._in_controllers(settings)]
         modules = dict.fromkeys((main, *self._others(calls)))
         found = [one for module in modules for one in self._constants(module)]
         found.sort(key=lambda one: (not HOLDER.search(one.holder), len(one.name)))
@@ -163,7 +168,7 @@ class _Reader:
             constants=tuple(sorted(first.values(), key=lambda one: one.line)),
             general=_around(holder, comments(module)),
             feedforwards=tuple(made),
-            feedback=self._feedback(calls),
+            feedback=self._feedback(calls) or self._feedback_field(settings),
             compile_errors=compile_errors(self._names),
         )
 
@@ -208,6 +213,33 @@ class _Reader:
                 word: self._argument(node, scope) for word, node in given.items() if word in words
             }
             yield Feedforward(kind, arguments, call.place.text, call.place.line, spread=call.spread)
+
+    def _in_controllers(self, settings: list[GainSetting]) -> Iterator[Feedforward]:
+        """What each motor controller's configuration is given, as one feedforward."""
+        for kind in dict.fromkeys(one.kind for one in settings):
+            mine = sorted(
+                (one for one in settings if one.kind == kind),
+                key=lambda one: one.value.place.start,  # a chain is met from its end
+            )
+            given = {
+                one.name: self._argument(one.value, one.scope)
+                for one in mine
+                if not one.choice and one.name != "kP"
+            }
+            if given:
+                yield Feedforward(
+                    kind,
+                    given,
+                    kind,
+                    mine[0].line,
+                    choices={one.name: one.choice for one in mine if one.choice},
+                )
+
+    def _feedback_field(self, settings: list[GainSetting]) -> Argument | None:
+        """What ``slot0.kP = …`` is given."""
+        return next(
+            (self._argument(one.value, one.scope) for one in settings if one.name == "kP"), None
+        )
 
     def _argument(self, node: Node, scope: Scope) -> Argument:
         value = self._value(node, scope)

@@ -52,6 +52,74 @@ def other_output(text: str) -> str:
     return re.sub(r"(kP = \S+ \* CONVERSION)", r"\1 / 12", text)
 
 
+def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], str]:
+    """Put the gains into Phoenix 6's Slot0Configs, kV and kA times a scale, in Java or Python.
+
+    Args:
+        scale: of the analyzer's number; TURN and GEARS are those of the solution's note.
+        sign: of kS, as Java has it.
+    """
+
+    def make(text: str) -> str:
+        java = "new SimpleMotor" in text or "new Elevator" in text or "new Arm" in text
+        arm = "ArmFeedforward(" in text
+        note = re.search(r"times ([\d.]+) in place of CONVERSION. Gears ([\d.]+):1", text)
+        if note is None:
+            raise ValueError("the solution no longer says what Slot0Configs would take")
+        times = scale.replace("TURN", note[1]).replace("GEARS", note[2])
+        settings = [
+            f"{_with(gain, java=java)}({HELD}{gain}{_scaled(gain, times)})"
+            for gain in re.findall(rf"{re.escape(HELD)}(k\w)", text)
+        ]
+        gravity = "Arm_Cosine" if arm else "Elevator_Static"
+        for name, value in (("GravityType", gravity), ("StaticFeedforwardSign", sign)):
+            settings.append(
+                f"with{name}({name}Value.{value})"
+                if java
+                else f"with_{_snake(name)}({name}Value.{_snake(value).upper()})"
+            )
+        return _instead(text, f"{'new ' * java}Slot0Configs()." + ".".join(settings))
+
+    return make
+
+
+def in_spark(order: dict[str, str]) -> Callable[[str], str]:
+    """Put the gains into REVLib's FeedForwardConfig.
+
+    Args:
+        order: setting -> the gain that it gets.
+    """
+
+    def make(text: str) -> str:
+        chain = ".".join(f"{name}({HELD}{gain})" for name, gain in order.items())
+        return _instead(text, f"{'new ' * ('new ' in text)}FeedForwardConfig().{chain}")
+
+    return make
+
+
+HELD = "CharacterizationConstants."
+
+
+def _with(gain: str, *, java: bool) -> str:
+    return f"withK{gain[1]}" if java else f"with_k_{gain[1].lower()}"
+
+
+def _scaled(gain: str, scale: str) -> str:
+    return f" / {HELD}CONVERSION * {scale}" if gain in {"kV", "kA"} else ""
+
+
+def _snake(name: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+
+
+def _instead(text: str, made: str) -> str:
+    """The text with something else in place of WPILib's feedforward."""
+    found = re.search(rf"(new )?{CLASS}\w*\((?=Char)[^)]*\)", text)
+    if found is None:
+        raise ValueError("the solution makes no feedforward")
+    return text[: found.start()] + made + text[found.end() :]
+
+
 SWAPPED = replace_text((".kV, CharacterizationConstants.kA", ".kA, CharacterizationConstants.kV"))
 
 MISTAKES = (
@@ -134,6 +202,37 @@ MISTAKES = (
         changed(r"^.*self\.feedforward = .*\n", "        pass\n"),
         "feedforward",
         "no feedforward is made",
+    ),
+    Mistake(
+        "Slot0Configs with gains per rotation of the rotor",
+        JAVA,
+        in_slot0("TURN / GEARS"),
+        "conversion",
+        "per rotation of the motor's rotor",
+        "M-UNITS",
+    ),
+    Mistake(
+        "Slot0Configs with gains per radian",
+        PYTHON,
+        in_slot0("TURN / (2 * 3.14159265)"),
+        "conversion",
+        "Slot0Configs counts rotations of the mechanism",
+        "M-UNITS",
+    ),
+    Mistake(
+        "kS by the sign of the error",
+        JAVA,
+        in_slot0("TURN", sign="UseClosedLoopSign"),
+        "feedforward",
+        "Then kS follows the sign of the error",
+    ),
+    Mistake(
+        "kV and kA exchanged in a Spark",
+        PYTHON,
+        in_spark({"kS": "kS", "kV": "kA", "kA": "kV"}),
+        "order",
+        "kA is where FeedForwardConfig expects kV",
+        "M-ARGORDER",
     ),
     Mistake("no units", JAVA, changed(r" // V.*$", ""), "units", "no unit of kS"),
     Mistake("no units, Python", PYTHON, changed(r"  # V·s/.*$", ""), "units", "no unit of kV"),

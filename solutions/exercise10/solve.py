@@ -1,5 +1,9 @@
-"""Exercise 10, answered in both languages: gains as shown, times what their unit asks for."""
+"""Exercise 10, answered in both languages: gains as shown, times what their unit asks for.
 
+The gains go into WPILib's class; a comment says what Slot0Configs would take for CONVERSION.
+"""
+
+import math
 import tomllib
 from pathlib import Path
 
@@ -43,20 +47,25 @@ def solve(exercise: Path, data: Path) -> dict[str, str]:
     duty = robot["loop_output"] == "duty cycle"
     loop = f"{shown['kP']:g} * CONVERSION{' / 12' if duty else ''}"
     rows.append(("kP", loop, "the analyzer's suggestion: start here, then tune"))
+    inside = given["motor_controller"]
+    turn = 2.0 * math.pi * inside.get("radius", 1.0) / SIZES[shown["units"]][1]
+    note = (
+        f"Slot0Configs: times {turn:.8g} in place of CONVERSION. Gears {inside['gear_ratio']:g}:1."
+    )
     java = (exercise / "ExampleMechanism.java").read_text(encoding="utf-8")
     python = (exercise / "example_mechanism.py").read_text(encoding="utf-8")
     return {
-        "ExampleMechanism.java": in_java(java, rows, made, gains),
-        "example_mechanism.py": in_python(python, rows, made, gains),
+        "ExampleMechanism.java": in_java(java, rows, made, gains, note=note),
+        "example_mechanism.py": in_python(python, rows, made, gains, note=note),
     }
 
 
 Row = tuple[str, str, str]  # name, value, comment
 
 
-def in_java(text: str, rows: list[Row], made: str, gains: tuple[str, ...]) -> str:
+def in_java(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, note: str) -> str:
     """Fill in the Java file."""
-    constants = "".join(
+    constants = f"    // {note}\n" + "".join(
         f"    public static final double {name} = {value}; // {said}\n"
         for name, value, said in rows
     )
@@ -65,9 +74,11 @@ def in_java(text: str, rows: list[Row], made: str, gains: tuple[str, ...]) -> st
     return _filled(text, constants, field, mark="//")
 
 
-def in_python(text: str, rows: list[Row], made: str, gains: tuple[str, ...]) -> str:
+def in_python(text: str, rows: list[Row], made: str, gains: tuple[str, ...], *, note: str) -> str:
     """Fill in the Python file."""
-    constants = "".join(f"    {name} = {value}  # {said}\n" for name, value, said in rows)
+    constants = f"    # {note}\n" + "".join(
+        f"    {name} = {value}  # {said}\n" for name, value, said in rows
+    )
     arguments = ", ".join(f"CharacterizationConstants.{gain}" for gain in gains)
     kind = f"{made}Radians" if made.startswith("Simple") else made
     if "V·s/m" in constants and made.startswith("Simple"):

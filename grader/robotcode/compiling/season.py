@@ -55,12 +55,15 @@ PACKAGES = {
     "com.ctre.phoenix6.configs": (
         "TalonFXConfiguration FeedbackConfigs MotorOutputConfigs Slot0Configs CurrentLimitsConfigs"
     ),
+    "com.ctre.phoenix6.signals": "GravityTypeValue StaticFeedforwardSignValue",
     "com.ctre.phoenix6": "SignalLogger StatusSignal BaseStatusSignal CANBus StatusCode",
     "com.revrobotics": "RelativeEncoder AbsoluteEncoder REVLibError",
     "com.revrobotics.spark": (
         "SparkMax SparkFlex SparkBase SparkLowLevel SparkClosedLoopController SparkRelativeEncoder"
     ),
-    "com.revrobotics.spark.config": "SparkMaxConfig SparkFlexConfig SparkBaseConfig EncoderConfig",
+    "com.revrobotics.spark.config": (
+        "SparkMaxConfig SparkFlexConfig SparkBaseConfig EncoderConfig FeedForwardConfig"
+    ),
     "java.util.function": "DoubleSupplier BooleanSupplier Supplier Consumer DoubleConsumer",
 }
 HOME = {name: package for package, names in PACKAGES.items() for name in names.split()}
@@ -93,6 +96,7 @@ CLASSES = frozenset(HOME) | frozenset(MODULE_OF)
 METHODS = frozenset(
     {
         *(*COMMANDS, *SIGNALS, *PYTHON_WORDS, "motor", "setControl", "getValueAsDouble"),
+        *("withStaticFeedforwardSign", "withGravityType"),
         *("getMotorVoltage", "getSupplyVoltage", "getDutyCycle", "getStatorCurrent", "getValue"),
         *("getAppliedOutput", "getBusVoltage", "getEncoder", "configure", "getConfigurator"),
         *("quasistatic", "dynamic", "onFalse", "whileFalse", "toggleOnTrue", "negate"),

@@ -1,0 +1,366 @@
+"""A motion profile that a mechanism follows in closed loop, with the controllers of WPILib.
+
+    volts = ff.calculateWithVelocities(now.velocity, after.velocity)
+            + pid.calculate(position, now.position)
+
+The controllers have the names, the order of arguments and the arithmetic of WPILib 2026.2.2
+(``ElevatorFeedforward``, ``PIDController``, ``TrapezoidProfile``), so that a learner's loop is the
+robot's loop. The mechanism is the bench's, with its hidden effects, battery and stops.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from sim.bench.mechanism import Mechanism
+from sim.bench.simulate import power_path_arrays
+from sim.core.errors import BadRequest
+from sim.core.log import Array
+from sim.physics.engine import State as Body
+from sim.physics.engine import simulate_run
+
+LOOP = 0.02  # [s] of the robot program
+ONBOARD = 0.001  # [s] of a loop inside Phoenix 6's motor controllers
+BATTERY = 12.0  # [V] the most that a controller asks for
+STILL = 0.5  # [s] that a move is watched after its profile has ended
+MASSLESS = 1e-9  # [V·s²/unit] below this kA WPILib takes the next velocity alone
+
+
+@dataclass(frozen=True)
+class Setpoint:
+    """What a profile asks for at one moment.
+
+    Args:
+        position: [m or rad].
+        velocity: [m/s or rad/s].
+    """
+
+    position: float
+    velocity: float
+
+
+@dataclass(frozen=True)
+class TrapezoidProfile:
+    """A move from rest to rest: speed up, hold the speed, slow down.
+
+    Args:
+        start: [m or rad].
+        goal: [m or rad].
+        max_velocity: [m/s or rad/s].
+        max_acceleration: [m/s² or rad/s²].
+
+    Raises:
+        BadRequest: a limit that is not above zero, or no way to go.
+    """
+
+    start: float
+    goal: float
+    max_velocity: float
+    max_acceleration: float
+
+    def __post_init__(self) -> None:
+        limits = (self.max_velocity, self.max_acceleration)
+        if not all(math.isfinite(one) and one > 0.0 for one in limits):
+            raise BadRequest("a limit of the profile is not above zero", advice="Choose another.")
+        if not math.isfinite(self.goal - self.start) or self.goal == self.start:
+            raise BadRequest("a profile that goes nowhere", advice="Choose another goal.")
+
+    @property
+    def top_speed(self) -> float:
+        """[m/s or rad/s] reached on the way; less than allowed where the way is short."""
+        way = abs(self.goal - self.start)
+        return min(self.max_velocity, math.sqrt(way * self.max_acceleration))
+
+    @property
+    def duration(self) -> float:
+        """[s]."""
+        return abs(self.goal - self.start) / self.top_speed + self.top_speed / self.max_acceleration
+
+    def calculate(self, time: float) -> Setpoint:
+        """The setpoint at a time [s] since the start."""
+        sign = math.copysign(1.0, self.goal - self.start)
+        if time >= self.duration:
+            return Setpoint(self.goal, 0.0)
+        rising = self.top_speed / self.max_acceleration
+        time, left = max(time, 0.0), self.duration - max(time, 0.0)
+        if left < rising:  # slowing down is speeding up, seen from the end
+            way = self.max_acceleration * left * left / 2.0
+            return Setpoint(self.goal - sign * way, sign * self.max_acceleration * left)
+        fast = max(time - rising, 0.0)
+        slow = min(time, rising)
+        way = self.max_acceleration * slow * slow / 2.0 + self.top_speed * fast
+        return Setpoint(self.start + sign * way, sign * self.max_acceleration * slow)
+
+
+@dataclass(frozen=True)
+class ElevatorFeedforward:
+    """WPILib's class of that name; with kG = 0 it is ``SimpleMotorFeedforward``.
+
+    Args:
+        kS: [V].
+        kG: [V].
+        kV: [V·s/unit].
+        kA: [V·s²/unit].
+        period: [s] between the two velocities.
+    """
+
+    kS: float  # noqa: N815 - WPILib's name
+    kG: float  # noqa: N815 - the same
+    kV: float  # noqa: N815 - the same
+    kA: float  # noqa: N815 - the same
+    period: float = LOOP
+
+    def calculateWithVelocities(self, current: float, following: float) -> float:  # noqa: N802 - WPILib's name
+        """[V] that bring the mechanism from one velocity to the next in a period.
+
+        kS gets the sign of the current velocity: from rest there is none in the first loop.
+        """
+        if self.kA < MASSLESS:
+            return self.kS * _sign(following) + self.kG + self.kV * following
+        kept = math.exp(-self.kV / self.kA * self.period)
+        per_volt = (1.0 - kept) / self.kV if self.kV > 0.0 else self.period / self.kA
+        needed = (following - kept * current) / per_volt
+        return self.kS * _sign(current) + self.kG + needed
+
+
+@dataclass
+class PIDController:
+    """WPILib's class of that name.
+
+    Args:
+        kP: [V per unit of error].
+        kI: [V per unit of error and second].
+        kD: [V·s per unit of error].
+        period: [s] of the loop.
+    """
+
+    kP: float  # noqa: N815 - WPILib's name
+    kI: float = 0.0  # noqa: N815 - the same
+    kD: float = 0.0  # noqa: N815 - the same
+    period: float = LOOP
+
+    def __post_init__(self) -> None:
+        self._total, self._last = 0.0, 0.0
+
+    def calculate(self, measurement: float, setpoint: float) -> float:
+        """[V] for the error of one loop: first what is measured, then what is wanted."""
+        error = setpoint - measurement
+        change = (error - self._last) / self.period  # in the first loop from zero, as WPILib's
+        self._last = error
+        if self.kI:
+            most = 1.0 / abs(self.kI)  # WPILib's limit: the integral adds at most one volt
+            self._total = min(max(self._total + error * self.period, -most), most)
+        return self.kP * error + self.kI * self._total + self.kD * change
+
+
+@dataclass(frozen=True)
+class LoopInput:
+    """What a controller knows in one loop.
+
+    Args:
+        now: what the profile asks for now.
+        after: what it asks for in the next loop.
+        position: [m or rad] measured.
+        velocity: [m/s or rad/s] measured.
+    """
+
+    now: Setpoint
+    after: Setpoint
+    position: float
+    velocity: float
+
+
+@dataclass(frozen=True, eq=False)
+class FollowedMove:
+    """A move as it went, loop by loop.
+
+    Args:
+        time: (n,) [s].
+        target: (n,) [m or rad] asked for.
+        position: (n,) [m or rad] reached.
+        voltage: (n,) [V] asked for from each time on.
+    """
+
+    time: Array
+    target: Array
+    position: Array
+    voltage: Array
+
+    @property
+    def error(self) -> Array:
+        """(n,) [m or rad] target minus position: above zero where it is late on the way up."""
+        return self.target - self.position
+
+    @property
+    def worst_error(self) -> float:
+        """[m or rad] the largest error, without its sign."""
+        return float(np.abs(self.error).max())
+
+
+def follow_in_closed_loop(
+    mechanism: Mechanism,
+    profile: TrapezoidProfile,
+    volts: Callable[[LoopInput], object],
+    *,
+    period: float = LOOP,
+) -> FollowedMove:
+    """Let a mechanism follow a profile, from rest, and watch it for half a second more.
+
+    Args:
+        mechanism: the bench's, with its hidden effects, between its stops.
+        profile: what is asked for.
+        volts: the controller, called once each loop; its answer is held until the next.
+        period: [s] of the loop: ``LOOP`` in a robot program, ``ONBOARD`` in a motor controller.
+
+    Raises:
+        BadRequest: the controller answers with no finite number.
+    """
+    model, wires = mechanism.model, power_path_arrays(mechanism)
+    body = Body.cold_at(profile.start)
+    count = math.ceil((profile.duration + STILL) / period)
+    position, velocity, asked = [profile.start], [0.0], []
+    for loop in range(count):
+        now, after = profile.calculate(loop * period), profile.calculate((loop + 1) * period)
+        answer = volts(LoopInput(now, after, position[-1], velocity[-1]))
+        if not isinstance(answer, int | float | np.number) or not math.isfinite(answer):
+            raise BadRequest(
+                f"the loop answers {answer!r} in place of volts", advice="Return one number."
+            )
+        asked.append(min(max(float(answer), -BATTERY), BATTERY))
+        track = simulate_run(
+            model,
+            time=period * np.array([loop, loop + 1.0]),
+            voltage=np.full(2, asked[-1]),
+            state=body,
+            wires=wires,
+        )
+        position.append(float(track.position[-1]))
+        velocity.append(float(track.seen[-1]))
+    time = period * np.arange(count, dtype=np.float64)
+    target = np.array([profile.calculate(t).position for t in time.tolist()])
+    return FollowedMove(time, target, np.array(position[:-1]), np.array(asked))
+
+
+Loop = Callable[[ElevatorFeedforward, PIDController, LoopInput], float]
+
+EXAMPLE = LoopInput(Setpoint(0.4, 0.8), Setpoint(0.418, 0.92), 0.37, 0.74)  # no two numbers alike
+CLOSE = 1e-9  # [share] what rounding may change
+RIGHT = "Your loop: right."
+OURS = " The next cells use our loop until then."
+
+
+@dataclass(frozen=True)
+class CheckedLoop:
+    """A learner's loop, and what was found.
+
+    Args:
+        volts: the learner's loop where it is right, ours where it is not.
+        report: one line.
+    """
+
+    volts: Loop
+    report: str
+
+
+def feedforward_and_feedback(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
+    """[V] of the loop that lesson 8 asks for."""
+    forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
+    return forward + pid.calculate(one.position, one.now.position)
+
+
+def check_loop(mine: Callable[..., object]) -> CheckedLoop:
+    """Check a learner's loop on one moment of a move; ``...`` is an empty gap.
+
+    Args:
+        mine: feedforward, feedback and what is known in a loop -> [V].
+    """
+    try:
+        answer = mine(*_controllers(), EXAMPLE)
+        if answer is ... or answer is None:
+            said = "Your loop: still empty. Put your answer in place of the three dots."
+            return CheckedLoop(feedforward_and_feedback, said + OURS)
+        found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
+    except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
+        said = f"Your loop: it stops with an error: {error}."
+        return CheckedLoop(feedforward_and_feedback, said + OURS)
+    wanted = feedforward_and_feedback(*_controllers(), EXAMPLE)
+    if math.isclose(found, wanted, rel_tol=CLOSE):
+        return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
+    hint = next(
+        (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
+        "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
+    )
+    return CheckedLoop(feedforward_and_feedback, f"Your loop: not yet. {hint}{OURS}")
+
+
+def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
+    """A feedforward and a feedback, both new: a PID controller remembers the last error."""
+    return ElevatorFeedforward(0.25, 2.0, 4.5, 0.2), PIDController(7.0)
+
+
+def _wrong_loops() -> list[tuple[float, str]]:
+    """[V] of loops that learners write, and what to say to each."""
+    ff, pid = _controllers()
+    now, after, measured = EXAMPLE.now, EXAMPLE.after, EXAMPLE.position
+    forward = ff.calculateWithVelocities(now.velocity, after.velocity)
+    feedback = pid.calculate(measured, now.position)
+    acceleration = (after.velocity - now.velocity) / ff.period
+    return [
+        (forward, "The feedback is missing: add pid.calculate(measured, wanted)."),
+        (feedback, "The feedforward is missing: add ff.calculateWithVelocities(…)."),
+        (
+            forward - feedback,
+            (
+                "pid.calculate takes the measurement first, then what is wanted. Turned around, "
+                "it pushes away from the target."
+            ),
+        ),
+        (
+            ff.calculateWithVelocities(now.velocity, now.velocity) + feedback,
+            (
+                "The same velocity twice means no acceleration, so kA does nothing. The second one "
+                "is the velocity of the next loop."
+            ),
+        ),
+        (
+            ff.calculateWithVelocities(now.velocity, acceleration) + feedback,
+            "The second argument is a velocity, not an acceleration.",
+        ),
+        (
+            ff.calculateWithVelocities(now.position, after.position) + feedback,
+            "The feedforward needs velocities, not positions.",
+        ),
+        (
+            ff.calculateWithVelocities(EXAMPLE.velocity, after.velocity) + feedback,
+            "The feedforward looks at what you want, never at what is measured.",
+        ),
+        (
+            forward + pid.kP * (now.velocity - EXAMPLE.velocity),
+            "This loop controls a position: pid.calculate needs positions.",
+        ),
+    ]
+
+
+def phoenix_volts(
+    gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
+) -> float:
+    """[V] of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
+
+    Args:
+        gains: kS and kG [V], kV [V per rot/s], kA [V per rot/s²], kP [V per rot], all per rotation
+            of the mechanism.
+        one: the profile and the measurement, in meters.
+        meters_per_rotation: [m] that one rotation of the mechanism moves.
+    """
+    velocity = one.now.velocity / meters_per_rotation
+    acceleration = (one.after.velocity - one.now.velocity) / ONBOARD / meters_per_rotation
+    error = (one.now.position - one.position) / meters_per_rotation
+    forward = gains["kS"] * _sign(velocity) + gains["kV"] * velocity + gains["kA"] * acceleration
+    return forward + gains["kG"] + gains["kP"] * error
+
+
+def _sign(value: float) -> float:
+    """Java's ``Math.signum``."""
+    return float((value > 0.0) - (value < 0.0))

@@ -1,0 +1,247 @@
+"""A profile in closed loop: WPILib's arithmetic, a known answer, and a learner's own loop."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sim.bench.mechanisms import MECHANISMS
+from sim.core.errors import BadRequest
+from sim.core.units import gains_per
+from sim.teaching.profile_loop import (
+    LOOP,
+    ONBOARD,
+    RIGHT,
+    ElevatorFeedforward,
+    PIDController,
+    TrapezoidProfile,
+    check_loop,
+    feedforward_and_feedback,
+    follow_in_closed_loop,
+    phoenix_volts,
+)
+
+LIFT = MECHANISMS["elevator"]
+SMOOTH = replace(LIFT, friction=0.0)
+RISE = TrapezoidProfile(start=0.1, goal=1.1, max_velocity=1.2, max_acceleration=6.0)
+# Every leg lasts whole loops of 20 ms: 0.2 s, 0.6 s, 0.2 s.
+ROUND = TrapezoidProfile(start=0.1, goal=1.06, max_velocity=1.2, max_acceleration=6.0)
+
+
+def error(gains, *, robot=LIFT, kp=0.0, profile=RISE):
+    """[cm] the worst error of a move with these gains."""
+    ff = ElevatorFeedforward(*(gains[name] for name in ("kS", "kG", "kV", "kA")))
+    pid = PIDController(kp)
+    move = follow_in_closed_loop(robot, profile, lambda one: feedforward_and_feedback(ff, pid, one))
+    return 100.0 * move.worst_error
+
+
+def test_true_gains_and_nothing_hidden_leave_no_error():
+    onboard = follow_in_closed_loop(
+        SMOOTH,
+        RISE,
+        lambda one: phoenix_volts({**SMOOTH.gains, "kP": 0.0}, one, meters_per_rotation=1.0),
+        period=ONBOARD,
+    )
+
+    half_a_loop = 0.5 * ONBOARD * RISE.max_velocity  # [m] kV·v is that of the loop's beginning
+    assert onboard.worst_error == pytest.approx(half_a_loop, rel=0.01)
+    # In between, the speed under a constant voltage is no straight line: it is ahead of one by
+    # a·T²/12·(kV/kA) on average, and a·t is the top speed when the first leg ends.
+    bend = LOOP**2 / 12.0 * SMOOTH.gains["kV"] / SMOOTH.gains["kA"] * ROUND.max_velocity
+    assert error(SMOOTH.gains, robot=SMOOTH, profile=ROUND) == pytest.approx(100 * bend, rel=0.01)
+    assert error(LIFT.gains) < 0.2  # [cm] and from rest there is one loop without kS
+
+
+@pytest.mark.parametrize(
+    ("changes", "least"),
+    [({"kG": 0.9}, 2.0), ({"kV": 1.1}, 5.0), ({"kA": 1.5}, 2.0), ({"kS": 0.0}, 3.0)],
+)
+def test_each_wrong_gain_leaves_more_and_kp_makes_it_smaller(changes, least):
+    wrong = {name: value * changes.get(name, 1.0) for name, value in LIFT.gains.items()}
+    alone, helped = error(wrong), error(wrong, kp=20.0)
+
+    assert alone > least > 10.0 * error(LIFT.gains)
+    assert helped < 0.7 * alone
+
+
+def test_a_missing_kg_leaves_the_droop_that_the_arithmetic_says():
+    kp = 20.0
+    wrong = {**SMOOTH.gains, "kG": SMOOTH.gains["kG"] - 0.4}
+    ff = ElevatorFeedforward(*(wrong[name] for name in ("kS", "kG", "kV", "kA")))
+    slow = TrapezoidProfile(start=0.1, goal=0.3, max_velocity=0.1, max_acceleration=1.0)
+    pid = PIDController(kp)
+    move = follow_in_closed_loop(SMOOTH, slow, lambda one: feedforward_and_feedback(ff, pid, one))
+
+    assert move.error[-1] == pytest.approx(0.4 / kp, rel=0.03)  # missing kG ÷ kP
+
+
+def test_a_hidden_spring_is_in_the_error_until_its_volts_are_added():
+    robot = LIFT.hide("spring")
+    (spring,) = (part.parameters for part in robot.hidden)
+    ff = ElevatorFeedforward(*(LIFT.gains[name] for name in ("kS", "kG", "kV", "kA")))
+    pid = PIDController(0.0)
+    with_spring = follow_in_closed_loop(
+        robot,
+        RISE,
+        lambda one: (
+            feedforward_and_feedback(ff, pid, one)
+            + spring["rate"] * one.now.position
+            + spring["preload"]
+        ),
+    )
+
+    assert error(LIFT.gains, robot=robot) > 1.0
+    assert 100.0 * with_spring.worst_error < 0.3
+
+
+def test_gains_per_rotor_rotation_leave_nearly_the_whole_way():
+    drum = 2.0 * math.pi * LIFT.radius
+
+    def worst(meters):
+        gains = gains_per(LIFT.gains, factor=meters) | {"kP": 5.0 * meters}
+        move = follow_in_closed_loop(
+            LIFT, RISE, lambda one: phoenix_volts(gains, one, meters_per_rotation=drum),
+            period=ONBOARD,
+        )  # fmt: skip
+        return move.worst_error
+
+    assert worst(drum) < 0.001  # [m]
+    assert worst(drum / LIFT.ratio) > 0.3
+
+
+@given(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0), st.floats(0.1, 3.0), st.floats(0.2, 20.0))
+def test_a_profile_keeps_its_limits_and_arrives(start, goal, speed, push):
+    if abs(goal - start) < 1e-3:
+        return
+    profile = TrapezoidProfile(start, goal, speed, push)
+    times = [profile.duration * k / 200 for k in range(201)]
+    points = [profile.calculate(t) for t in times]
+    step = profile.duration / 200
+
+    assert points[0].position == pytest.approx(start)
+    assert points[-1].position == pytest.approx(goal)
+    assert points[-1].velocity == pytest.approx(0.0)
+    for before, after in pairwise(points):
+        assert abs(after.velocity) <= speed * (1 + 1e-9)
+        assert abs(after.velocity - before.velocity) <= push * step * (1 + 1e-6) + 1e-9
+        way = 0.5 * step * (before.velocity + after.velocity)
+        assert after.position - before.position == pytest.approx(way, abs=push * step**2)
+
+
+@given(st.floats(-2.0, 2.0), st.floats(-2.0, 2.0))
+def test_the_feedforward_is_wpilibs(now, after):
+    wpi = pytest.importorskip("wpimath.controller", reason="needs the extra robot")
+    for gains in ((0.25, 2.0, 4.5, 0.2), (0.1, 0.0, 2.5, 0.0)):
+        theirs = wpi.ElevatorFeedforward(*gains).calculate(now, after)
+
+        assert ElevatorFeedforward(*gains).calculateWithVelocities(now, after) == pytest.approx(
+            theirs, rel=1e-9, abs=1e-9
+        )
+
+
+def test_from_rest_the_first_loop_has_no_ks():
+    ff, bare = (ElevatorFeedforward(ks, 2.0, 4.5, 0.2) for ks in (0.25, 0.0))
+
+    assert ff.calculateWithVelocities(0.0, 0.1) == bare.calculateWithVelocities(0.0, 0.1)
+    assert ff.calculateWithVelocities(0.1, 0.2) == pytest.approx(
+        0.25 + bare.calculateWithVelocities(0.1, 0.2)
+    )
+
+
+def test_the_feedback_is_wpilibs():
+    wpi = pytest.importorskip("wpimath.controller", reason="needs the extra robot")
+    mine, theirs = PIDController(3.0, 0.7, 0.05), wpi.PIDController(3.0, 0.7, 0.05)
+    for loop in range(200):
+        measured, wanted = math.sin(0.1 * loop), 1.0 + 0.01 * loop
+
+        assert mine.calculate(measured, wanted) == pytest.approx(theirs.calculate(measured, wanted))
+
+
+@pytest.mark.parametrize(
+    ("mine", "says"),
+    [
+        (feedforward_and_feedback, RIGHT),
+        (lambda *_: ..., "still empty"),
+        (lambda *_: None, "still empty"),
+        (lambda *_: nothing, "stops with an error: name 'nothing'"),  # noqa: F821 - meant
+        (
+            lambda ff, _, one: ff.calculateWithVelocities(one.now.velocity, one.after.velocity),
+            "The feedback is missing",
+        ),
+        (
+            lambda _, pid, one: pid.calculate(one.position, one.now.position),
+            "The feedforward is missing",
+        ),
+        (
+            lambda ff, pid, one: (
+                ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
+                + pid.calculate(one.now.position, one.position)
+            ),
+            "takes the measurement first",
+        ),
+        (
+            lambda ff, pid, one: (
+                ff.calculateWithVelocities(one.now.velocity, one.now.velocity)
+                + pid.calculate(one.position, one.now.position)
+            ),
+            "kA does nothing",
+        ),
+        (
+            lambda ff, pid, one: (
+                ff.calculateWithVelocities(
+                    one.now.velocity, (one.after.velocity - one.now.velocity) / 0.02
+                )
+                + pid.calculate(one.position, one.now.position)
+            ),
+            "not an acceleration",
+        ),
+        (
+            lambda ff, pid, one: (
+                ff.calculateWithVelocities(one.now.position, one.after.position)
+                + pid.calculate(one.position, one.now.position)
+            ),
+            "needs velocities",
+        ),
+        (
+            lambda ff, pid, one: (
+                ff.calculateWithVelocities(one.velocity, one.after.velocity)
+                + pid.calculate(one.position, one.now.position)
+            ),
+            "never at what is measured",
+        ),
+        (
+            lambda ff, pid, one: (
+                ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
+                + pid.calculate(one.velocity, one.now.velocity)
+            ),
+            "controls a position",
+        ),
+        (lambda *_: 1.0, "Add two things"),
+    ],
+)
+def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
+    found = check_loop(mine)
+
+    assert says in found.report
+    assert found.volts is (mine if says == RIGHT else feedforward_and_feedback)
+
+
+@pytest.mark.parametrize("volts", [lambda _: math.nan, lambda _: ..., lambda _: "12"])
+def test_a_loop_that_answers_with_no_number_is_told_so(volts):
+    with pytest.raises(BadRequest, match="in place of volts"):
+        follow_in_closed_loop(LIFT, RISE, volts)
+
+
+@pytest.mark.parametrize("limits", [(0.0, 1.0), (1.0, -1.0), (math.nan, 1.0)])
+def test_a_profile_without_limits_is_refused(limits):
+    with pytest.raises(BadRequest, match="not above zero"):
+        TrapezoidProfile(0.0, 1.0, *limits)
+
+
+def test_a_profile_that_goes_nowhere_is_refused():
+    with pytest.raises(BadRequest, match="goes nowhere"):
+        TrapezoidProfile(0.5, 0.5, 1.0, 1.0)
