@@ -1,0 +1,126 @@
+"""Compiles robot code with javac, against stubs of the library classes that it uses.
+
+The stubs in ``java_stubs/`` are signatures without bodies, one file a class, and each names its
+source. ``season2026`` has WPILib, Phoenix 6, REVLib and AdvantageKit. ``season2027`` has the WPILib
+classes that changed with it; the others are those of 2026 under their new packages.
+"""
+
+import re
+import shutil
+import subprocess
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+STUBS = Path(__file__).with_name("java_stubs")
+MOVED_IN_2027 = {  # packages of which nothing else changed that the stubs have
+    "edu.wpi.first.units": "org.wpilib.units",
+    "edu.wpi.first.math": "org.wpilib.math",
+    "edu.wpi.first.wpilibj2.command": "org.wpilib.command2",
+    "edu.wpi.first.wpilibj.motorcontrol": "org.wpilib.hardware.motor",
+}
+VENDORS = ("com.ctre", "com.revrobotics", "org.littletonrobotics")  # ... which keep theirs
+RENAMED_IN_2027 = {  # what WPILib's MotorController wants of every motor controller
+    "void set(double speed)": "void setThrottle(double throttle)",
+    "double get()": "double getThrottle()",
+}
+LEFT_OUT_IN_2027 = ("button", "sysid", "motorcontrol")  # folders that season2027 has of its own
+TIME = 300.0  # [s] for all programs, on a busy machine
+
+
+@dataclass(frozen=True)
+class JavaProgram:
+    """Java files that are compiled together.
+
+    Args:
+        files: its source files.
+        season: whose classes it is compiled against.
+    """
+
+    files: tuple[Path, ...]
+    season: int = 2026
+
+
+@dataclass(frozen=True)
+class JavaError:
+    """One error of javac."""
+
+    file: Path
+    line: int
+    message: str
+
+
+def find_java() -> tuple[str, str]:
+    """The programs java and javac of one JDK; skips the test where there is none."""
+    compiler = shutil.which("javac")
+    if compiler is None:
+        pytest.skip("no javac on PATH: install a JDK, version 17 or newer")
+    home = Path(compiler).resolve().parent
+    return shutil.which("java", path=str(home)) or pytest.skip("no java beside javac"), compiler
+
+
+def write_stubs(folder: Path) -> None:
+    """Write the stubs of each season into ``folder/season2026`` and ``folder/season2027``."""
+    shutil.copytree(STUBS / "season2026", folder / "season2026")
+    newer = folder / "season2027"
+    for path in sorted((STUBS / "season2026").rglob("*.java")):
+        package = ".".join(path.relative_to(STUBS / "season2026").parts[:-1])
+        own = package.startswith("edu.wpi") and package.endswith(LEFT_OUT_IN_2027)
+        if own or not package.startswith((*MOVED_IN_2027, *VENDORS)):
+            continue
+        text = path.read_text(encoding="utf-8")
+        for old, new in (MOVED_IN_2027 | RENAMED_IN_2027).items():
+            text = text.replace(old, new)
+        home = re.search(r"^package ([\w.]+);", text, re.MULTILINE)
+        assert home, path
+        place = newer.joinpath(*home[1].split("."), path.name)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text, encoding="utf-8")
+    shutil.copytree(STUBS / "season2027", newer, dirs_exist_ok=True)
+
+
+def compile_java(programs: Iterable[JavaProgram], folder: Path) -> list[list[JavaError]]:
+    """Compile programs, each for itself, in one Java process.
+
+    Args:
+        programs: what to compile.
+        folder: an empty folder for the stubs and their classes.
+
+    Returns:
+        The errors of each program, in the order of the programs.
+    """
+    java, _ = find_java()
+    write_stubs(folder)
+    given = list(programs)
+    rows = [
+        "\t".join(map(str, (folder / f"season{one.season}", *one.files))) + "\n" for one in given
+    ]
+    done = subprocess.run(
+        [java, "-XX:TieredStopAtLevel=1", str(STUBS / "CompileEach.java")],
+        input="".join(rows),
+        capture_output=True,
+        encoding="utf-8",
+        timeout=TIME,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    found: list[list[JavaError]] = [[] for _ in given]
+    for row in done.stdout.splitlines():
+        number, file, line, message = row.split("\t")
+        found[int(number)].append(JavaError(Path(file), int(line), message))
+    return found
+
+
+def compile_text(
+    texts: Sequence[tuple[str, str]], folder: Path, *, season: int = 2026
+) -> list[list[JavaError]]:
+    """Compile texts, each for itself; each comes with the name of its file."""
+    programs = []
+    for number, (name, text) in enumerate(texts):
+        path = folder / f"text{number}" / name
+        path.parent.mkdir(parents=True)
+        path.write_text(text, encoding="utf-8")
+        programs.append(JavaProgram((path,), season))
+    return compile_java(programs, folder)

@@ -1,0 +1,264 @@
+"""Robot code that the course shows, and what javac says of it: against stubs, in one Java process.
+
+Where javac and the grader's own compile check disagree on a file of the corpus, the table
+``DISAGREED`` says why. A file that javac takes and the grader refuses has no place in it.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from authored import load
+from java_compiler import STUBS, JavaError, JavaProgram, compile_java
+from test_robot_code_snippet import found
+
+from grader.robotcode import read
+from grader.robotcode.bindings import bindings_of
+from sim.report.robot_code_snippet import write_robot_code
+
+ROOT = Path(__file__).resolve().parents[1]
+CORPUS = Path(__file__).with_name("robotcode")
+V3 = "commands_v3"  # the corpus folder that is compiled against WPILib 2027
+
+# A lesson's block that is no whole file, by a line it contains, and what a file of it looks like.
+IMPORTS = """package frc.robot;
+
+import static edu.wpi.first.units.Units.*;
+
+import com.ctre.phoenix6.hardware.TalonFX;
+import edu.wpi.first.units.measure.Voltage;
+import edu.wpi.first.wpilibj.DriverStation;
+import edu.wpi.first.wpilibj2.command.Command;
+import edu.wpi.first.wpilibj2.command.SubsystemBase;
+import edu.wpi.first.wpilibj2.command.button.CommandXboxController;
+import edu.wpi.first.wpilibj2.command.button.Trigger;
+import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine;
+import edu.wpi.first.wpilibj2.command.sysid.SysIdRoutine.Direction;
+"""
+TESTS = """
+  public Command sysIdQuasistatic(Direction direction) {
+    return m_routine.quasistatic(direction);
+  }
+
+  public Command sysIdDynamic(Direction direction) {
+    return m_routine.dynamic(direction);
+  }
+"""
+FRAMES = {
+    "new ElevatorFeedforward(": "package frc.robot;\n\n"
+    "import edu.wpi.first.math.controller.ElevatorFeedforward;\n\nclass Elevator {\n@block}\n",
+    "m_sysIdController.a()": IMPORTS
+    + """
+class Container {
+  private final CommandXboxController m_sysIdController = new CommandXboxController(2);
+  private final Drive m_drive = new Drive();
+
+  Container() {
+@block  }
+}
+
+class Drive extends SubsystemBase {
+  private final SysIdRoutine m_routine = null;
+"""
+    + TESTS
+    + "}\n",
+    "m_leader.set(voltage": IMPORTS
+    + """
+class Shooter extends SubsystemBase {
+  private final TalonFX m_leader = new TalonFX(1);
+  private Voltage m_lastRequest = Volts.zero();
+
+@block"""
+    + TESTS
+    + """
+  static class Container {
+    private final CommandXboxController m_driver = new CommandXboxController(0);
+    private final Shooter m_shooter = new Shooter();
+
+    Container() {
+@rest    }
+  }
+}
+""",
+}
+SPLIT = "// in RobotContainer\n"  # in a block: what follows stands in another class
+
+SHOOTER = {"kS": 0.2, "kV": 2.0, "kA": 0.3, "kP": 1.0}
+GIVEN = """[analyzer]
+analysis = "{analysis}"
+units = "Rotations"
+kS = 0.2
+kG = 0.4
+kV = 2.0
+kA = 0.3
+kP = 1.5
+
+[robot]
+units = "Radians"
+loop_output = "duty cycle"
+"""
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """Everything that was compiled, and what javac said of it."""
+
+    programs: dict[str, JavaProgram]
+    errors: dict[str, list[JavaError]]
+
+    def of_file(self, path: Path) -> list[JavaError]:
+        """The errors in one file."""
+        return [one for errors in self.errors.values() for one in errors if one.file == path]
+
+
+def texts() -> Iterator[tuple[str, int, dict[str, str]]]:
+    """What stands in no file of its own: name, season, and file names with their texts."""
+    blocks = re.findall(
+        r"^```java\n(.*?)^```",
+        "".join(
+            re.sub(r"^# ?", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+            for path in sorted((ROOT / "lessons").glob("*.py"))
+        ),
+        re.MULTILINE | re.DOTALL,
+    )
+    for number, block in enumerate(blocks):
+        if block.startswith("package"):
+            (name,) = re.findall(r"^public class (\w+)", block, re.MULTILINE)
+            yield f"lesson block {number}", 2026, {f"{name}.java": block}
+            continue
+        (frame,) = (frame for holds, frame in FRAMES.items() if holds in block)
+        first, _, rest = block.partition(SPLIT)
+        text = frame.replace("@block", first).replace("@rest", rest)
+        yield f"lesson block {number}", 2026, {"Framed.java": text}
+
+    practice = load(ROOT / "solutions" / "practice" / "solve.py")
+    files = practice.fill_in_code(ROOT / "exercises" / "practice", SHOOTER, "m")
+    yield (
+        "answer to practice",
+        2026,
+        {name: text for name, text in files.items() if name.endswith(".java")},
+    )
+    for season in (2026, 2027):
+        for type_ in ("simple", "elevator", "arm"):
+            text = write_robot_code(found(type_), language="java", season=season, name="left drive")
+            (call,) = re.findall(r"^\s*// Volts: (.*)$", text, re.MULTILINE)
+            use = (
+                "class Use {\n  double volts(double angle, double velocity, double nextVelocity) {\n"
+                f"    return LeftDriveGains.{call};\n  }}\n}}\n"
+            )
+            named = {"LeftDriveGains.java": text, "Use.java": use}
+            yield f"sysid fit --paste java, {type_}, {season}", season, named
+
+
+def collect(folder: Path) -> dict[str, JavaProgram]:
+    """Every program to compile, by its name; texts are written into ``folder``."""
+    programs: dict[str, JavaProgram] = {}
+    exercise10 = load(ROOT / "solutions" / "exercise10" / "solve.py")
+    more = []
+    for analysis in ("Simple", "Elevator", "Arm"):
+        data = folder / "given" / analysis
+        data.mkdir(parents=True)
+        (data / "given.toml").write_text(GIVEN.format(analysis=analysis), encoding="utf-8")
+        answer = exercise10.solve(ROOT / "exercises" / "exercise10", data)["ExampleMechanism.java"]
+        named = {"ExampleMechanism.java": answer}
+        more.append((f"answer to exercise10, {analysis}", 2026, named))
+    more += [(name, 2026, {file: text}) for name, (file, text) in planted().items()]
+    for number, (name, season, files) in enumerate((*texts(), *more)):
+        place = folder / f"text{number}"
+        place.mkdir()
+        for file, text in files.items():
+            (place / file).write_text(text, encoding="utf-8")
+        programs[name] = JavaProgram(tuple(sorted(place.iterdir())), season)
+    for top in ("solutions", "exercises"):
+        for path in sorted((ROOT / top).glob("*/*.java")):
+            together = sorted(path.parent.glob("*.java")) if path.parent.name == "practice" else ()
+            name = path.relative_to(ROOT).as_posix()
+            programs[name] = JavaProgram(tuple(together) or (path,))
+    return programs | corpus_programs()
+
+
+def corpus_programs() -> dict[str, JavaProgram]:
+    """The corpus: files that belong together as one program, all others each for itself."""
+    programs = {}
+    for path in sorted(CORPUS.rglob("*.java")):
+        relative = path.relative_to(CORPUS)
+        if relative.parts[0] == "broken":
+            continue
+        text = path.read_text(encoding="utf-8")
+        season = 2027 if "org.wpilib." in text else 2026
+        group = next((one for one in TOGETHER if relative.as_posix().startswith(f"{one}/")), "")
+        files = sorted((CORPUS / group).rglob("*.java")) if group else [path]
+        programs[group or relative.as_posix()] = JavaProgram(tuple(files), season)
+    return programs
+
+
+TOGETHER = ("advantagekit", "swerve/advantagekit", "team", "teams", "wpilib/split")
+
+
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory) -> Compiled:
+    folder = tmp_path_factory.mktemp("java")
+    programs = collect(folder)
+    stubs = folder / "stubs"
+    stubs.mkdir()
+    found = compile_java(programs.values(), stubs)
+    return Compiled(programs, dict(zip(programs, found, strict=True)))
+
+
+def test_every_stub_names_its_source():
+    for path in STUBS.rglob("season*/**/*.java"):
+        first = path.read_text(encoding="utf-8").split("\n")[0]
+        assert re.fullmatch(r"// Signatures of [\w ]+.*: \S+\.(java|html)", first), path
+
+
+def test_all_robot_code_that_the_course_shows_compiles(compiled):
+    shown = {
+        name: errors
+        for name, errors in compiled.errors.items()
+        if not name.startswith("planted") and compiled.programs[name].files[0] not in in_corpus()
+    }
+
+    assert {name: errors for name, errors in shown.items() if errors} == {}
+    assert sum(name.startswith("lesson") for name in shown) == 4
+    assert sum(name.startswith("answer") for name in shown) == 4
+    assert sum(name.startswith(("solutions", "exercises")) for name in shown) == 7
+
+
+def in_corpus() -> set[Path]:
+    return {*CORPUS.rglob("*.java")}
+
+
+def planted() -> dict[str, tuple[str, str]]:
+    """The right answer to exercise 4 with one mistake each: name -> file name, text."""
+    right = (ROOT / "solutions" / "exercise4" / "ExampleSubsystem.java").read_text(encoding="utf-8")
+    made = {}
+    for mistake, (old, new) in MISTAKES.items():
+        assert old in right, mistake
+        made[f"planted: {mistake}"] = ("ExampleSubsystem.java", right.replace(old, new, 1))
+    return made
+
+
+MISTAKES = {
+    "a misspelt method": (".linearVelocity(", ".linearVelosity("),
+    "a missing import": ("import com.ctre.phoenix6.hardware.TalonFX;\n", ""),
+    "a wrong type of argument": ("Volts.of(3.5)", "Seconds.of(3.5)"),
+    "a number where a measure is wanted": ("Volts.of(3.5)", "3.5"),
+    "an argument too few": ("this::drive, this::record, this)", "this::drive, this::record)"),
+    "a signal where a number is wanted": (
+        "Volts.of(m_left.getMotorVoltage().getValueAsDouble())",
+        "Volts.of(m_left.getMotorVoltage())",
+    ),
+    "a ramp without its time": ("Volts.of(0.5).per(Second)", "Volts.of(0.5)"),
+    "an argument too many": ("voltage.in(Volts));", "voltage.in(Volts), 0);"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_javac_and_the_grader_refuse_a_planted_mistake(compiled, mistake):
+    name = f"planted: {mistake}"
+    (file,) = compiled.programs[name].files
+
+    assert compiled.errors[name]
+    assert read(file).compile_errors
