@@ -6,12 +6,15 @@ from collections.abc import Iterator
 from grader.robotcode.button_vocabulary import MODES_OF
 from grader.robotcode.compiling.java_types import type_errors
 from grader.robotcode.compiling.season import (
+    DIRECTIONS_OF_2027,
     HOME,
     INHERITED,
     METHODS,
     MODES_OF_2027,
     MOTORS_OF_2027,
+    PACKAGES_OF,
     PLAIN,
+    PWM_MOTORS,
     SEASON,
     import_season,
     name_misspelled,
@@ -69,6 +72,9 @@ BLANK_FINAL = re.compile(
 OWN_BODY = re.compile(  # a class without a name, which may change what any method does
     r"\bnew\s+(?P<type>[A-Z]\w*)\s*\([^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)*\)\s*\{"
 )
+# A team's package may begin as a library's: com.team254, org.example.
+LIBRARIES = (*SEASON, *PACKAGES_OF)
+GENERATED = "AutoLogged"  # how the classes end that AdvantageKit writes when it is compiled
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
@@ -84,8 +90,11 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     yield from _constructors(names)
     yield from _never_set(names)
     every = list(walk(module.body, Scope(module)))
-    if import_season(module.imports) == OLD_SEASON:
+    season = import_season(module.imports)
+    if season == OLD_SEASON:
         yield from _names_of_2027(every, names)
+    elif season:
+        yield from _names_before_2027(every, names)
     open_ = any(one.name == "*" and not _static(one) for one in module.imports)
     declared = {node.name for node, _ in every if isinstance(node, Class)}
     defined = frozenset(node.name for node, _ in every if isinstance(node, Function))
@@ -100,7 +109,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             yield ParseProblem(f"nothing declares {target.name}", line)
         for name in _types(node):
             if not open_ and not _is_type(name, declared, scope, names):
-                yield _undeclared(name, line)
+                yield _undeclared(name, scope, line)
         method = node in targets and not getattr(node, "name", "")[:1].isupper()
         if isinstance(node, Name) and name_is_value(node) and not method:
             yield from _variable(node, declared, scope, names, open_=open_)
@@ -119,6 +128,27 @@ def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Itera
             old = (MODES_OF_2027 | MOTORS_OF_2027)[node.name]
             said = f"{node.name} is a name of WPILib 2027, and your imports are older"
             yield ParseProblem(f"{said}. Did you mean {old}?", node.place.line, old)
+
+
+def _names_before_2027(
+    every: list[tuple[Node, Scope]], names: SymbolTable
+) -> Iterator[ParseProblem]:
+    """Names that WPILib 2027 no longer has, in a program that imports its packages."""
+    of_motor = {old: new for new, old in MOTORS_OF_2027.items()}
+    of_direction = {old: new for new, old in DIRECTIONS_OF_2027.items()}
+    for node, scope in every:
+        if not isinstance(node, Member):
+            continue
+        new = ""
+        if node.name in of_motor:
+            type_ = simple_type_name(type_of(node.owner, scope, names))
+            if type_ in PWM_MOTORS and names.named(type_, scope) is None:
+                new = of_motor[node.name]
+        elif last_name(node.owner) == "Direction":
+            new = of_direction.get(node.name, "")
+        if new:
+            said = f"WPILib 2027 has no {node.name} here. Did you mean {new}?"
+            yield ParseProblem(said, node.place.line, new)
 
 
 def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
@@ -191,6 +221,7 @@ def _replaced(names: SymbolTable) -> Iterator[ParseProblem]:
         if (
             known
             and one.path.startswith(f"{team}.")
+            and not one.path.startswith(LIBRARIES)
             and names.named(name, Scope(names.main)) is None
         ):
             lines = enumerate(text.split("\n"), 1)
@@ -221,6 +252,8 @@ def _types(node: Node) -> Iterator[str]:
 def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) -> bool:
     if name in declared or name in LANG or any(one.name == name for one in scope.module.imports):
         return True
+    if name.endswith(GENERATED):
+        return True
     source = scope.module.source.decode("utf-8", errors="replace")
     if re.search(rf"(?<=\.){name}\b", source) and any(
         one.name == "*" or one.name[:1].isupper() for one in scope.module.imports
@@ -231,7 +264,11 @@ def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) ->
     return names.named(name, scope) is not None
 
 
-def _undeclared(name: str, line: int) -> ParseProblem:
+def _undeclared(name: str, scope: Scope, line: int) -> ParseProblem:
+    # WPILib 2027 moved its classes: the packages that HOME knows are those before it.
+    moved = import_season(scope.module.imports) > OLD_SEASON
+    if moved and HOME.get(name, "").startswith("edu.wpi."):
+        return ParseProblem(f"{name} is not imported", line)
     if name in HOME:
         return ParseProblem(f"{name} is not imported: import {HOME[name]}.{name};", line)
     meant = suggest_name(name, HOME)
@@ -255,7 +292,7 @@ def _variable(
             yield ParseProblem(f"the unit {name} is not imported", node.place.line)
     elif name[:1].isupper() and not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
         if not open_ and not _is_type(name, declared, scope, names):
-            yield _undeclared(name, node.place.line)
+            yield _undeclared(name, scope, node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
         yield ParseProblem(f"nothing declares {name}", node.place.line)
 
