@@ -12,16 +12,17 @@ from pathlib import Path
 import pytest
 from authored import load
 from java_compiler import STUBS, JavaError, JavaProgram, compile_java
+from test_commands_v3 import BINDINGS, RIGHT
 from test_robot_code_snippet import found
 
-from grader.robotcode import read
-from grader.robotcode.bindings import bindings_of
+from grader.robotcode.compiling import compile_errors
+from grader.robotcode.facts import ParseProblem
+from grader.robotcode.files import Files
+from grader.robotcode.symbol_table import SymbolTable
 from sim.report.robot_code_snippet import write_robot_code
 
 ROOT = Path(__file__).resolve().parents[1]
 CORPUS = Path(__file__).with_name("robotcode")
-V3 = "commands_v3"  # the corpus folder that is compiled against WPILib 2027
-
 # A lesson's block that is no whole file, by a line it contains, and what a file of it looks like.
 IMPORTS = """package frc.robot;
 
@@ -164,6 +165,10 @@ def collect(folder: Path) -> dict[str, JavaProgram]:
         answer = exercise10.solve(ROOT / "exercises" / "exercise10", data)["ExampleMechanism.java"]
         named = {"ExampleMechanism.java": answer}
         more.append((f"answer to exercise10, {analysis}", 2026, named))
+    more += [
+        (f"v3, {style}", 2027, {"ExampleSubsystem.java": text}) for style, text in RIGHT.items()
+    ]
+    more.append(("v3, buttons", 2027, {"RobotContainer.java": BINDINGS}))
     more += [(name, 2026, {file: text}) for name, (file, text) in planted().items()]
     for number, (name, season, files) in enumerate((*texts(), *more)):
         place = folder / f"text{number}"
@@ -194,6 +199,26 @@ def corpus_programs() -> dict[str, JavaProgram]:
     return programs
 
 
+# Files of the corpus that javac refuses and the grader does not, because what they lack is out of
+# sight for it: what javac misses, and why.
+OUT_OF_SIGHT = {
+    "PhoenixElevator.java": "MotorAlignmentValue",  # Phoenix 6 of 2025, where it was a boolean
+    "advantagekit/subsystems/flywheel/Flywheel.java": "AutoLogged",  # written by AdvantageKit
+    "advantagekit/subsystems/flywheel/FlywheelIO.java": "AutoLog",  # ... from this annotation
+    "advantagekit/subsystems/flywheel/Logged.java": "AutoLogged",
+    "phoenix/CommandSwerveDrivetrain.java": "TunerConstants",  # written by CTRE's generator
+    "phoenix/OldTalon.java": "com.ctre.phoenix.motorcontrol",  # Phoenix 5
+    "rev/CanShooter2024.java": "CANSpark",  # WPILib and REVLib of 2024
+    "swerve/ctre/SwerveRotation.java": "TunerConstants",
+    "swerve/ctre/SwerveSteer.java": "TunerConstants",
+    "swerve/ctre/SwerveTranslation2024.java": "phoenix6.mechanisms",  # Phoenix 6 of 2024
+    "swerve/ctre_season_2027/SwerveStraight2027.java": "TunerConstants",
+    "swerve/yagsl/CenteredModules.java": "swervelib",  # YAGSL
+    "swerve/yagsl/SwerveSubsystem.java": "swervelib",
+    "wpilib/Season2027Drive.java": "getDutyCycle",  # getThrottle, in an early alpha
+    "wpilib/ThirdPartyFactory.java": "swervelib",
+    "wpilib/WrongSubsystem.java": "frc.robot.subsystems",  # a class of the same robot
+}
 TOGETHER = ("advantagekit", "swerve/advantagekit", "team", "teams", "wpilib/split")
 
 
@@ -207,6 +232,38 @@ def compiled(tmp_path_factory) -> Compiled:
     return Compiled(programs, dict(zip(programs, found, strict=True)))
 
 
+@pytest.fixture(scope="module")
+def judged(compiled) -> dict[str, tuple[list[JavaError], tuple[ParseProblem, ...]]]:
+    """Files of the corpus that are whole: name -> what javac and what the grader says."""
+    return {
+        path.relative_to(CORPUS).as_posix(): (compiled.of_file(path), graders_errors(path))
+        for program in corpus_programs().values()
+        for path in program.files
+        if re.search(r"^package ", path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+
+
+def test_the_grader_refuses_no_file_that_javac_takes(judged):
+    assert len(judged) > 70
+    assert sum(not javac for javac, _ in judged.values()) >= 49
+    assert {name: grader for name, (javac, grader) in judged.items() if grader and not javac} == {}
+
+
+def test_the_grader_takes_no_file_that_javac_refuses_but_for_what_is_out_of_its_sight(judged):
+    taken = {name: javac for name, (javac, grader) in judged.items() if javac and not grader}
+
+    assert sorted(taken) == sorted(OUT_OF_SIGHT)
+    for name, errors in taken.items():
+        assert OUT_OF_SIGHT[name] in errors[0].message, errors[0]
+
+
+def test_right_answers_with_commands_v3_compile(compiled):
+    found = {name: errors for name, errors in compiled.errors.items() if name.startswith("v3")}
+
+    assert len(found) >= 20
+    assert {name: errors for name, errors in found.items() if errors} == {}
+
+
 def test_every_stub_names_its_source():
     for path in STUBS.rglob("season*/**/*.java"):
         first = path.read_text(encoding="utf-8").split("\n")[0]
@@ -217,7 +274,7 @@ def test_all_robot_code_that_the_course_shows_compiles(compiled):
     shown = {
         name: errors
         for name, errors in compiled.errors.items()
-        if not name.startswith("planted") and compiled.programs[name].files[0] not in in_corpus()
+        if not name.startswith(("planted", "v3")) and compiled.programs[name].files[0] not in in_corpus()
     }
 
     assert {name: errors for name, errors in shown.items() if errors} == {}
@@ -251,6 +308,7 @@ MISTAKES = {
         "Volts.of(m_left.getMotorVoltage())",
     ),
     "a ramp without its time": ("Volts.of(0.5).per(Second)", "Volts.of(0.5)"),
+    "a class as an interface": ("extends SubsystemBase", "implements SubsystemBase"),
     "an argument too many": ("voltage.in(Volts));", "voltage.in(Volts), 0);"),
 }
 
@@ -261,4 +319,9 @@ def test_javac_and_the_grader_refuse_a_planted_mistake(compiled, mistake):
     (file,) = compiled.programs[name].files
 
     assert compiled.errors[name]
-    assert read(file).compile_errors
+    assert graders_errors(file)
+
+
+def graders_errors(path: Path) -> tuple[ParseProblem, ...]:
+    """What the grader's own compile check says of a file, whatever the file holds."""
+    return compile_errors(SymbolTable(Files(path)))

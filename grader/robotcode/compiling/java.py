@@ -59,6 +59,8 @@ LANG = frozenset(
         *("InterruptedException", "StackOverflowError", "CharSequence"),
     }
 )
+SUBSYSTEM_CLASSES = frozenset({"SubsystemBase", "Mechanism"})
+SUBSYSTEM_INTERFACES = frozenset({"Subsystem"})
 CONSTRUCTOR = re.compile(
     r"^[ \t]*(?:public|protected|private)\s+(?P<name>[A-Z]\w*)\s*\([^;{}]*\)\s*"
     r"(?:throws\s[\w\s,.]+)?\{",
@@ -90,6 +92,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     yield from _constructors(names)
     yield from _never_set(names)
     every = list(walk(module.body, Scope(module)))
+    yield from _inheritance(every, names)
     season = import_season(module.imports)
     if season == OLD_SEASON:
         yield from _names_of_2027(every, names)
@@ -159,6 +162,28 @@ def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
         if public and isinstance(node, Class) and suggest_name(node.name, frozenset({stem})):
             said = f"the class is {node.name}, and its file {stem}: both need one name"
             yield ParseProblem(said, node.place.line)
+
+
+def _inheritance(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator[ParseProblem]:
+    """Classes of the command library that are implemented, and its interfaces that are extended."""
+    for node, scope in every:
+        if not isinstance(node, Class):
+            continue
+        head = node.place.text.partition("{")[0]
+        extended, _, implemented = head.partition("implements")
+        for word, kinds, instead in (
+            (implemented, SUBSYSTEM_CLASSES, "extends"),
+            (extended.partition("extends")[2], SUBSYSTEM_INTERFACES, "implements"),
+        ):
+            for base in re.findall(r"\w+", re.sub(r"<.*>", "", word)):
+                brought = any(
+                    one.name == base and one.path.startswith(LIBRARIES)
+                    for one in scope.module.imports
+                )
+                if base in kinds and brought and names.named(base, scope) is None:
+                    kind = "a class" if instead == "extends" else "an interface"
+                    said = f"{base} is {kind}: write {instead} {base}"
+                    yield ParseProblem(said, node.place.line)
 
 
 def _constructors(names: SymbolTable) -> Iterator[ParseProblem]:
