@@ -8,7 +8,7 @@ classes that changed with it; the others are those of 2026 under their new packa
 import re
 import shutil
 import subprocess
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +26,9 @@ RENAMED_IN_2027 = {  # what WPILib's MotorController wants of every motor contro
     "void set(double speed)": "void setThrottle(double throttle)",
     "double get()": "double getThrottle()",
 }
+GONE_IN_2027 = re.compile(r"  public \w+\(int deviceId, String canbus\) \{\}\n\n")  # Phoenix 6
 LEFT_OUT_IN_2027 = ("button", "sysid", "motorcontrol")  # folders that season2027 has of its own
+OLDEST = 17  # the JDK of WPILib 2026
 TIME = 300.0  # [s] for all programs, on a busy machine
 
 
@@ -52,13 +54,21 @@ class JavaError:
     message: str
 
 
-def find_java() -> tuple[str, str]:
-    """The programs java and javac of one JDK; skips the test where there is none."""
+def find_java() -> str:
+    """The program java of a JDK that is new enough; skips the test where there is none."""
     compiler = shutil.which("javac")
     if compiler is None:
-        pytest.skip("no javac on PATH: install a JDK, version 17 or newer")
-    home = Path(compiler).resolve().parent
-    return shutil.which("java", path=str(home)) or pytest.skip("no java beside javac"), compiler
+        pytest.skip(f"no javac on PATH: install a JDK, version {OLDEST} or newer")
+    # macOS has a javac without a JDK, which says so and fails.
+    asked = subprocess.run(
+        [compiler, "-version"], capture_output=True, encoding="utf-8", timeout=TIME, check=False
+    )
+    version = re.search(r"javac (\d+)", asked.stdout)
+    if asked.returncode or version is None or int(version[1]) < OLDEST:
+        said = (asked.stdout + asked.stderr).strip() or "nothing"
+        pytest.skip(f"javac -version says {said!r}: install a JDK, version {OLDEST} or newer")
+    java = shutil.which("java", path=str(Path(compiler).resolve().parent)) or shutil.which("java")
+    return java or pytest.skip("no java beside javac")
 
 
 def write_stubs(folder: Path) -> None:
@@ -70,7 +80,7 @@ def write_stubs(folder: Path) -> None:
         own = package.startswith("edu.wpi") and package.endswith(LEFT_OUT_IN_2027)
         if own or not package.startswith((*MOVED_IN_2027, *VENDORS)):
             continue
-        text = path.read_text(encoding="utf-8")
+        text = GONE_IN_2027.sub("", path.read_text(encoding="utf-8"))
         for old, new in (MOVED_IN_2027 | RENAMED_IN_2027).items():
             text = text.replace(old, new)
         home = re.search(r"^package ([\w.]+);", text, re.MULTILINE)
@@ -91,7 +101,7 @@ def compile_java(programs: Iterable[JavaProgram], folder: Path) -> list[list[Jav
     Returns:
         The errors of each program, in the order of the programs.
     """
-    java, _ = find_java()
+    java = find_java()
     write_stubs(folder)
     given = list(programs)
     rows = [
@@ -108,19 +118,6 @@ def compile_java(programs: Iterable[JavaProgram], folder: Path) -> list[list[Jav
     assert done.returncode == 0, done.stderr
     found: list[list[JavaError]] = [[] for _ in given]
     for row in done.stdout.splitlines():
-        number, file, line, message = row.split("\t")
+        number, file, line, message = row.split("\t", 3)
         found[int(number)].append(JavaError(Path(file), int(line), message))
     return found
-
-
-def compile_text(
-    texts: Sequence[tuple[str, str]], folder: Path, *, season: int = 2026
-) -> list[list[JavaError]]:
-    """Compile texts, each for itself; each comes with the name of its file."""
-    programs = []
-    for number, (name, text) in enumerate(texts):
-        path = folder / f"text{number}" / name
-        path.parent.mkdir(parents=True)
-        path.write_text(text, encoding="utf-8")
-        programs.append(JavaProgram((path,), season))
-    return compile_java(programs, folder)

@@ -1,10 +1,13 @@
-"""Robot code that the course shows, and what javac says of it: against stubs, in one Java process.
+"""Robot code that the course shows: javac compiles it against stubs, RobotPy runs it in simulation.
 
 Where javac and the grader's own compile check disagree on a file of the corpus, the table
 ``DISAGREED`` says why. A file that javac takes and the grader refuses has no place in it.
 """
 
+import math
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,9 +15,12 @@ from pathlib import Path
 import pytest
 from authored import load
 from java_compiler import STUBS, JavaError, JavaProgram, compile_java
+from robot_mistakes import needs_robot
 from test_commands_v3 import BINDINGS, RIGHT
 from test_robot_code_snippet import found
 
+from grader.robotcode import bench
+from grader.robotcode.bench import RunOutcome
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
@@ -84,6 +90,12 @@ class Shooter extends SubsystemBase {
 }
 """,
 }
+USE = """class Use {{
+  double volts(double angle, double velocity, double nextVelocity) {{
+    return LeftDriveGains.{call};
+  }}
+}}
+"""
 SPLIT = "// in RobotContainer\n"  # in a block: what follows stands in another class
 
 SHOOTER = {"kS": 0.2, "kV": 2.0, "kA": 0.3, "kP": 1.0}
@@ -145,11 +157,7 @@ def texts() -> Iterator[tuple[str, int, dict[str, str]]]:
         for type_ in ("simple", "elevator", "arm"):
             text = write_robot_code(found(type_), language="java", season=season, name="left drive")
             (call,) = re.findall(r"^\s*// Volts: (.*)$", text, re.MULTILINE)
-            use = (
-                "class Use {\n  double volts(double angle, double velocity, double nextVelocity) {\n"
-                f"    return LeftDriveGains.{call};\n  }}\n}}\n"
-            )
-            named = {"LeftDriveGains.java": text, "Use.java": use}
+            named = {"LeftDriveGains.java": text, "Use.java": USE.format(call=call)}
             yield f"sysid fit --paste java, {type_}, {season}", season, named
 
 
@@ -271,20 +279,17 @@ def test_every_stub_names_its_source():
 
 
 def test_all_robot_code_that_the_course_shows_compiles(compiled):
+    corpus = corpus_programs()
     shown = {
         name: errors
         for name, errors in compiled.errors.items()
-        if not name.startswith(("planted", "v3")) and compiled.programs[name].files[0] not in in_corpus()
+        if not name.startswith(("planted", "v3")) and name not in corpus
     }
 
     assert {name: errors for name, errors in shown.items() if errors} == {}
     assert sum(name.startswith("lesson") for name in shown) == 4
     assert sum(name.startswith("answer") for name in shown) == 4
     assert sum(name.startswith(("solutions", "exercises")) for name in shown) == 7
-
-
-def in_corpus() -> set[Path]:
-    return {*CORPUS.rglob("*.java")}
 
 
 def planted() -> dict[str, tuple[str, str]]:
@@ -325,3 +330,45 @@ def test_javac_and_the_grader_refuse_a_planted_mistake(compiled, mistake):
 def graders_errors(path: Path) -> tuple[ParseProblem, ...]:
     """What the grader's own compile check says of a file, whatever the file holds."""
     return compile_errors(SymbolTable(Files(path)))
+
+
+@needs_robot
+def test_the_python_of_the_answer_to_practice_runs_in_simulation(tmp_path):
+    practice = load(ROOT / "solutions" / "practice" / "solve.py")
+    files = practice.fill_in_code(ROOT / "exercises" / "practice", SHOOTER, "m")
+    for name, text in files.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+
+    ran = bench.run(tmp_path / "example_subsystem.py", "ExampleSubsystem")
+    pressed = bench.press(tmp_path / "robotcontainer.py", "RobotContainer")
+
+    assert ran.outcome is RunOutcome.RAN, ran.said
+    assert pressed.outcome is RunOutcome.RAN, pressed.said
+    tests = {one.tests for one in pressed.presses if one.test_mode}
+    assert tests == {
+        (f"{test}-{direction}",)
+        for test in ("quasistatic", "dynamic")
+        for direction in ("forward", "reverse")
+    }
+    assert not any(one.tests for one in pressed.presses if not one.test_mode)
+
+
+@needs_robot
+@pytest.mark.parametrize("analysis", ["Simple", "Elevator", "Arm"])
+def test_the_python_of_the_answer_to_exercise_10_runs_with_wpilib(tmp_path, analysis):
+    solve = load(ROOT / "solutions" / "exercise10" / "solve.py").solve
+    (tmp_path / "given.toml").write_text(GIVEN.format(analysis=analysis), encoding="utf-8")
+    text = solve(ROOT / "exercises" / "exercise10", tmp_path)["example_mechanism.py"]
+    arguments = "0.0, 2.0, 2.0" if analysis == "Arm" else "2.0, 2.0"
+    use = f"print(ExampleMechanism().feedforward.calculate({arguments}))\n"
+    program = tmp_path / "example_mechanism.py"
+    program.write_text(f"{text}\n\n{use}", encoding="utf-8")
+
+    done = subprocess.run(
+        [sys.executable, str(program)], capture_output=True, encoding="utf-8", check=False
+    )
+
+    assert done.returncode == 0, done.stderr
+    gravity = 0.0 if analysis == "Simple" else 0.4
+    kv = 2.0 / (2 * math.pi)  # shown in rotations, used in radians
+    assert float(done.stdout.split()[-1]) == pytest.approx(0.2 + gravity + kv * 2.0)

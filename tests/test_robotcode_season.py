@@ -78,9 +78,11 @@ def test_a_name_that_2027_no_longer_has_is_a_compile_error_there_alone(tmp_path,
     new, old = GONE[gone]
     assert new in JAVA
     of_2027 = JAVA.replace(new, old)
-    of_2026 = of_2027.replace("org.wpilib.command2", "edu.wpi.first.wpilibj2.command").replace(
-        "org.wpilib.hardware.motor", "edu.wpi.first.wpilibj.motorcontrol"
-    ).replace("org.wpilib.system", "edu.wpi.first.wpilibj")
+    of_2026 = (
+        of_2027.replace("org.wpilib.command2", "edu.wpi.first.wpilibj2.command")
+        .replace("org.wpilib.hardware.motor", "edu.wpi.first.wpilibj.motorcontrol")
+        .replace("org.wpilib.system", "edu.wpi.first.wpilibj")
+    )
     found = {}
     for season, text in ((2027, of_2027), (2026, of_2026.replace("org.wpilib", "edu.wpi.first"))):
         path = tmp_path / str(season) / "Wheel.java"
@@ -90,6 +92,31 @@ def test_a_name_that_2027_no_longer_has_is_a_compile_error_there_alone(tmp_path,
         found[season] = f"WPILib 2027 has no {gone} here. Did you mean" in said
 
     assert found == {2027: True, 2026: False}
+
+
+@pytest.mark.parametrize(("package", "refused"), [("org.wpilib", True), ("edu.wpi.first", False)])
+def test_a_can_bus_by_its_name_is_a_compile_error_in_2027(tmp_path, package, refused):
+    path = tmp_path / "Lift.java"
+    path.write_text(
+        f"""package frc.robot;
+import {package}.units.measure.Voltage;
+import com.ctre.phoenix6.hardware.TalonFX;
+import com.ctre.phoenix6.CANBus;
+import {"org.wpilib.command2" if refused else "edu.wpi.first.wpilibj2.command"}.sysid.SysIdRoutine;
+
+public class Lift {{
+  private final TalonFX m_named = new TalonFX(1, "canivore");
+  private final TalonFX m_right = new TalonFX(2, new CANBus("canivore"));
+  private final SysIdRoutine m_routine = new SysIdRoutine(null, null);
+}}
+""",
+        "utf-8",
+    )
+
+    found = [(one.line, one.message) for one in read(path).compile_errors]
+
+    said = "for WPILib 2027, TalonFX takes a CANBus, and no text: new CANBus(...)"
+    assert found == ([(8, said)] if refused else [])
 
 
 @pytest.mark.parametrize(

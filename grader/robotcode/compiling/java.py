@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from grader.robotcode.button_vocabulary import MODES_OF
 from grader.robotcode.compiling.java_types import type_errors
 from grader.robotcode.compiling.season import (
+    CAN_DEVICES,
     DIRECTIONS_OF_2027,
     HOME,
     INHERITED,
@@ -34,10 +35,12 @@ from grader.robotcode.ir import (
     Node,
     Reference,
     Self,
+    Text,
 )
 from grader.robotcode.name_resolution import (
     called_functions,
     class_of,
+    constructed_class,
     last_name,
     methods,
     simple_type_name,
@@ -140,6 +143,12 @@ def _names_before_2027(
     of_motor = {old: new for new, old in MOTORS_OF_2027.items()}
     of_direction = {old: new for new, old in DIRECTIONS_OF_2027.items()}
     for node, scope in every:
+        if isinstance(node, Call) and isinstance(dict(enumerate(node.args)).get(1), Text):
+            made = constructed_class(node, scope, names)
+            if made in CAN_DEVICES:
+                # Phoenix 6, 25.90.0-alpha-2: the constructor that takes the bus as text is removed.
+                said = f"for WPILib 2027, {made} takes a CANBus, and no text: new CANBus(...)"
+                yield ParseProblem(said, node.place.line)
         if not isinstance(node, Member):
             continue
         new = ""

@@ -68,6 +68,7 @@ PACKAGES = {
 PWM_MOTORS = frozenset(  # WPILib's own motor controllers, whose methods WPILib alone names
     f"MotorController {PACKAGES['edu.wpi.first.wpilibj.motorcontrol']}".split()
 )
+CAN_DEVICES = frozenset(PACKAGES["com.ctre.phoenix6.hardware"].split())
 HOME = {name: package for package, names in PACKAGES.items() for name in names.split()}
 SEASON = ("edu.wpi.", "com.ctre.", "com.revrobotics", "java.util.function")
 MODULES = {  # RobotPy: the modules each name may be imported from
