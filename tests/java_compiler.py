@@ -18,6 +18,7 @@ STUBS = Path(__file__).with_name("java_stubs")
 MOVED_IN_2027 = {  # packages of which nothing else changed that the stubs have
     "edu.wpi.first.units": "org.wpilib.units",
     "edu.wpi.first.math": "org.wpilib.math",
+    "edu.wpi.first.wpilibj.event": "org.wpilib.event",
     "edu.wpi.first.wpilibj2.command": "org.wpilib.command2",
     "edu.wpi.first.wpilibj.motorcontrol": "org.wpilib.hardware.motor",
 }

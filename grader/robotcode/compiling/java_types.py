@@ -134,9 +134,12 @@ def _argument(
 def _one_argument(
     call: Call, target: Member, scope: Scope, names: SymbolTable
 ) -> Iterator[ParseProblem]:
-    """Methods that take one argument, and are given none or several."""
+    """Methods that take one argument, and are given none or several; methods of a number."""
     name = target.name
-    if len(call.args) == 1 or isinstance(target, Reference):
+    if isinstance(target.owner, Number):
+        said = f"a plain number has no {name}(): a unit makes a measure of it, as in Volts.of(0.5)"
+        yield ParseProblem(said, target.place.line)
+    if len(call.args) == 1:
         return
     takes = name in WANTED and _logs(target)
     takes |= name == "of" and bool(measure_of_unit(last_name(target.owner)))
@@ -146,7 +149,7 @@ def _one_argument(
         _, type_ = device_of(target.owner, scope, names)
         takes |= type_ in HOME and is_motor(type_) and names.named(type_, scope) is None
     if takes:
-        said = f"{name}() takes one argument, and here are {len(call.args)}"
+        said = f"{name}() takes one argument, and gets {len(call.args)}"
         yield ParseProblem(said, target.place.line)
 
 
@@ -160,8 +163,13 @@ def _routine_part(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Pars
         counts = COUNT_OF_V3_CONFIG
     if len(call.args) not in counts:
         wanted = " or ".join(map(str, counts))
-        yield ParseProblem(f"{part} takes {wanted} arguments, and here are {len(call.args)}", line)
+        yield ParseProblem(f"{part} takes {wanted} arguments, and gets {len(call.args)}", line)
         return
+    if part in MECHANISMS:
+        for given, what in zip(call.args, ("drive", "log"), strict=False):
+            if isinstance(given, Self):
+                said = f"the {what} callback has to be a method or a lambda, and this is the object"
+                yield ParseProblem(said, given.place.line)
     if part not in {"Config", "useDataLog"}:
         return
     for given, (what, wanted) in zip(call.args, CONFIG_TYPES, strict=False):

@@ -5,6 +5,7 @@ package com.ctre.phoenix6.hardware;
 import com.ctre.phoenix6.CANBus;
 import com.ctre.phoenix6.StatusCode;
 import com.ctre.phoenix6.StatusSignal;
+import com.ctre.phoenix6.configs.TalonFXConfigurator;
 import com.ctre.phoenix6.controls.ControlRequest;
 import edu.wpi.first.units.measure.Angle;
 import edu.wpi.first.units.measure.AngularVelocity;
@@ -32,6 +33,8 @@ public class TalonFX implements MotorController {
   public native void disable();
 
   public native void stopMotor();
+
+  public native TalonFXConfigurator getConfigurator();
 
   public native int getDeviceID();
 

@@ -12,6 +12,10 @@ public class Trigger implements BooleanSupplier {
 
   public native Trigger whileTrue(Command command);
 
+  public native Trigger onFalse(Command command);
+
+  public native Trigger whileFalse(Command command);
+
   public native boolean getAsBoolean();
 
   public native Trigger and(BooleanSupplier trigger);

@@ -17,8 +17,6 @@ public interface Angle extends Measure<AngleUnit> {
 
   Angle div(double divisor);
 
-  Angle divide(double divisor);
-
   MutAngle mutableCopy();
 
   AngularVelocity per(TimeUnit period);

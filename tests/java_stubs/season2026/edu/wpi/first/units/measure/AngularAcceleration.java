@@ -15,6 +15,4 @@ public interface AngularAcceleration extends Measure<AngularAccelerationUnit> {
   AngularAcceleration times(double multiplier);
 
   AngularAcceleration div(double divisor);
-
-  AngularAcceleration divide(double divisor);
 }

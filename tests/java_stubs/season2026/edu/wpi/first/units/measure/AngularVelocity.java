@@ -17,8 +17,6 @@ public interface AngularVelocity extends Measure<AngularVelocityUnit> {
 
   AngularVelocity div(double divisor);
 
-  AngularVelocity divide(double divisor);
-
   MutAngularVelocity mutableCopy();
 
   AngularAcceleration per(TimeUnit period);

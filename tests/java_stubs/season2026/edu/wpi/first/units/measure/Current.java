@@ -15,6 +15,4 @@ public interface Current extends Measure<CurrentUnit> {
   Current times(double multiplier);
 
   Current div(double divisor);
-
-  Current divide(double divisor);
 }

@@ -17,8 +17,6 @@ public interface Distance extends Measure<DistanceUnit> {
 
   Distance div(double divisor);
 
-  Distance divide(double divisor);
-
   MutDistance mutableCopy();
 
   LinearVelocity per(TimeUnit period);

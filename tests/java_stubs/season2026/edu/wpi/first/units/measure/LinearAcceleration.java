@@ -15,6 +15,4 @@ public interface LinearAcceleration extends Measure<LinearAccelerationUnit> {
   LinearAcceleration times(double multiplier);
 
   LinearAcceleration div(double divisor);
-
-  LinearAcceleration divide(double divisor);
 }

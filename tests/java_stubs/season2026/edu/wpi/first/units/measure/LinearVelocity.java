@@ -17,8 +17,6 @@ public interface LinearVelocity extends Measure<LinearVelocityUnit> {
 
   LinearVelocity div(double divisor);
 
-  LinearVelocity divide(double divisor);
-
   MutLinearVelocity mutableCopy();
 
   LinearAcceleration per(TimeUnit period);

@@ -16,7 +16,5 @@ public interface Time extends Measure<TimeUnit> {
 
   Time div(double divisor);
 
-  Time divide(double divisor);
-
   double in(TimeUnit unit);
 }

@@ -17,8 +17,6 @@ public interface Voltage extends Measure<VoltageUnit> {
 
   Voltage div(double divisor);
 
-  Voltage divide(double divisor);
-
   MutVoltage mutableCopy();
 
   Velocity<VoltageUnit> per(TimeUnit period);

@@ -15,4 +15,12 @@ public abstract class Command {
   public native Command withName(String name);
 
   public native Command until(BooleanSupplier condition);
+
+  public native Command unless(BooleanSupplier condition);
+
+  public native Command onlyIf(BooleanSupplier condition);
+
+  public native Command onlyWhile(BooleanSupplier condition);
+
+  public native Command raceWith(Command... parallel);
 }

@@ -14,6 +14,12 @@ public class Trigger implements BooleanSupplier {
 
   public native Trigger toggleOnTrue(Command command);
 
+  public native Trigger onFalse(Command command);
+
+  public native Trigger whileFalse(Command command);
+
+  public native Trigger debounce(double seconds);
+
   public native boolean getAsBoolean();
 
   public native Trigger and(BooleanSupplier trigger);
