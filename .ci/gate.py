@@ -38,7 +38,7 @@ def main() -> None:
     started = time.monotonic()
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")  # a Windows console may lack a sign
-    browser()
+    needed_programs()
     with tempfile.TemporaryDirectory(prefix="gate-") as folder:
         environment = fresh_environment(Path(folder) / "env")
         start, test = commands()
@@ -170,17 +170,32 @@ def serves(address: str) -> bool:
         return False
 
 
-def browser() -> None:
-    """Install Chromium for the browser tests where the machine allows it; they skip without."""
-    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
+def needed_programs() -> None:
+    """Install what tests need beside Python, where the machine allows it; they skip without."""
+    install_program(
+        ("chromium", "chromium-browser", "google-chrome", "chrome"),
+        package="chromium",
+        tests="browser tests",
+    )
+    install_program(("javac",), package="default-jdk-headless", tests="tests that compile Java")
+
+
+def install_program(names: tuple[str, ...], *, package: str, tests: str) -> None:
+    """Install a program with apt, if it is not there.
+
+    Args:
+        names: what the program may be called.
+        package: the Debian package that has it.
+        tests: which tests are skipped without it.
+    """
     if any(map(shutil.which, names)):
         return
     apt = shutil.which("apt-get")
     if not apt or os.geteuid() != 0:
-        say("no Chromium here and no way to install one: browser tests will be skipped")
+        say(f"no {names[0]} here and no way to install one: {tests} will be skipped")
         return
-    say("installing Chromium for the browser tests")
-    for step in ("update -q", "install -q -y --no-install-recommends chromium"):
+    say(f"installing {package} for {tests}")
+    for step in ("update -q", f"install -q -y --no-install-recommends {package}"):
         subprocess.run(
             [apt, *step.split()],
             check=True,

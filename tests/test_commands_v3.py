@@ -103,7 +103,6 @@ NESTED = (
 )
 RIGHT = {  # style -> the program
     "as its documentation has it": program(),
-    "an interface": program(base="implements Mechanism"),
     "all four numbers": program(config=f"new SysIdRoutine.Config({THREE}, null)"),
     "a state consumer": program(
         config=f"new SysIdRoutine.Config({THREE}, state -> System.out.println(state))"
@@ -203,6 +202,9 @@ WRONG = {  # what is wrong -> the program, the check that fails, and what it say
         program().replace("m_left.setVoltage(voltage.in(Volts))", DUTY),
         "open-loop",
         "m_left",
+    ),
+    "a class as an interface": (
+        program(base="implements Mechanism"), "assembled", "Mechanism is a class: write extends"
     ),
     "another mechanism": (
         program(

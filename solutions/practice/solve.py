@@ -91,7 +91,13 @@ def fill_in_code(exercise: Path, gains: dict[str, float], symbol: str) -> dict[s
             buttons_python[1],
         ),
     }
-    return {name: _filled(exercise / name, several) for name, several in parts.items()}
+    filled = {name: _filled(exercise / name, several) for name, several in parts.items()}
+    brought = (
+        "from commands2.button import CommandXboxController\n"  # what the bindings need beside it
+    )
+    more = f"import wpilib\n{brought}from commands2.sysid import SysIdRoutine\n"
+    filled["robotcontainer.py"] = filled["robotcontainer.py"].replace(brought, more)
+    return filled
 
 
 def _answers(folder: str, name: str) -> list[str]:

@@ -6,12 +6,16 @@ from collections.abc import Iterator
 from grader.robotcode.button_vocabulary import MODES_OF
 from grader.robotcode.compiling.java_types import type_errors
 from grader.robotcode.compiling.season import (
+    CAN_DEVICES,
+    DIRECTIONS_OF_2027,
     HOME,
     INHERITED,
     METHODS,
     MODES_OF_2027,
     MOTORS_OF_2027,
+    PACKAGES_OF,
     PLAIN,
+    PWM_MOTORS,
     SEASON,
     import_season,
     name_misspelled,
@@ -31,10 +35,12 @@ from grader.robotcode.ir import (
     Node,
     Reference,
     Self,
+    Text,
 )
 from grader.robotcode.name_resolution import (
     called_functions,
     class_of,
+    constructed_class,
     last_name,
     methods,
     simple_type_name,
@@ -56,6 +62,8 @@ LANG = frozenset(
         *("InterruptedException", "StackOverflowError", "CharSequence"),
     }
 )
+SUBSYSTEM_CLASSES = frozenset({"SubsystemBase", "Mechanism"})
+SUBSYSTEM_INTERFACES = frozenset({"Subsystem"})
 CONSTRUCTOR = re.compile(
     r"^[ \t]*(?:public|protected|private)\s+(?P<name>[A-Z]\w*)\s*\([^;{}]*\)\s*"
     r"(?:throws\s[\w\s,.]+)?\{",
@@ -69,6 +77,9 @@ BLANK_FINAL = re.compile(
 OWN_BODY = re.compile(  # a class without a name, which may change what any method does
     r"\bnew\s+(?P<type>[A-Z]\w*)\s*\([^;{}()]*(?:\([^;{}()]*\)[^;{}()]*)*\)\s*\{"
 )
+# A team's package may begin as a library's: com.team254, org.example.
+LIBRARIES = (*SEASON, *PACKAGES_OF)
+GENERATED = "AutoLogged"  # how the classes end that AdvantageKit writes when it is compiled
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
@@ -84,8 +95,12 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     yield from _constructors(names)
     yield from _never_set(names)
     every = list(walk(module.body, Scope(module)))
-    if import_season(module.imports) == OLD_SEASON:
+    yield from _inheritance(every, names)
+    season = import_season(module.imports)
+    if season == OLD_SEASON:
         yield from _names_of_2027(every, names)
+    elif season:
+        yield from _names_before_2027(every, names)
     open_ = any(one.name == "*" and not _static(one) for one in module.imports)
     declared = {node.name for node, _ in every if isinstance(node, Class)}
     defined = frozenset(node.name for node, _ in every if isinstance(node, Function))
@@ -100,7 +115,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             yield ParseProblem(f"{target.name} is not declared", line)
         for name in _types(node):
             if not open_ and not _is_type(name, declared, scope, names):
-                yield _undeclared(name, line)
+                yield _undeclared(name, scope, line)
         method = node in targets and not getattr(node, "name", "")[:1].isupper()
         if isinstance(node, Name) and name_is_value(node) and not method:
             yield from _variable(node, declared, scope, names, open_=open_)
@@ -121,6 +136,33 @@ def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Itera
             yield ParseProblem(f"{said}. Did you mean {old}?", node.place.line, old)
 
 
+def _names_before_2027(
+    every: list[tuple[Node, Scope]], names: SymbolTable
+) -> Iterator[ParseProblem]:
+    """Names that WPILib 2027 no longer has, in a program that imports its packages."""
+    of_motor = {old: new for new, old in MOTORS_OF_2027.items()}
+    of_direction = {old: new for new, old in DIRECTIONS_OF_2027.items()}
+    for node, scope in every:
+        if isinstance(node, Call) and isinstance(dict(enumerate(node.args)).get(1), Text):
+            made = constructed_class(node, scope, names)
+            if made in CAN_DEVICES:
+                # Phoenix 6, 25.90.0-alpha-2: the constructor that takes the bus as text is removed.
+                said = f"for WPILib 2027, {made} takes a CANBus, and no text: new CANBus(...)"
+                yield ParseProblem(said, node.place.line)
+        if not isinstance(node, Member):
+            continue
+        new = ""
+        if node.name in of_motor:
+            type_ = simple_type_name(type_of(node.owner, scope, names))
+            if type_ in PWM_MOTORS and names.named(type_, scope) is None:
+                new = of_motor[node.name]
+        elif last_name(node.owner) == "Direction":
+            new = of_direction.get(node.name, "")
+        if new:
+            said = f"WPILib 2027 has no {node.name} here. Did you mean {new}?"
+            yield ParseProblem(said, node.place.line, new)
+
+
 def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
     """A public class whose name is nearly its file's: Java wants both to be the same."""
     stem = names.main.path.stem
@@ -129,6 +171,28 @@ def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
         if public and isinstance(node, Class) and suggest_name(node.name, frozenset({stem})):
             said = f"the class is called {node.name}, and its file {stem}: give both the same name"
             yield ParseProblem(said, node.place.line)
+
+
+def _inheritance(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator[ParseProblem]:
+    """Classes of the command library that are implemented, and its interfaces that are extended."""
+    for node, scope in every:
+        if not isinstance(node, Class):
+            continue
+        head = node.place.text.partition("{")[0]
+        extended, _, implemented = head.partition("implements")
+        for word, kinds, instead in (
+            (implemented, SUBSYSTEM_CLASSES, "extends"),
+            (extended.partition("extends")[2], SUBSYSTEM_INTERFACES, "implements"),
+        ):
+            for base in re.findall(r"\w+", re.sub(r"<.*>", "", word)):
+                brought = any(
+                    one.name == base and one.path.startswith(LIBRARIES)
+                    for one in scope.module.imports
+                )
+                if base in kinds and brought and names.named(base, scope) is None:
+                    kind = "a class" if instead == "extends" else "an interface"
+                    said = f"{base} is {kind}: write {instead} {base}"
+                    yield ParseProblem(said, node.place.line)
 
 
 def _constructors(names: SymbolTable) -> Iterator[ParseProblem]:
@@ -191,6 +255,7 @@ def _replaced(names: SymbolTable) -> Iterator[ParseProblem]:
         if (
             known
             and one.path.startswith(f"{team}.")
+            and not one.path.startswith(LIBRARIES)
             and names.named(name, Scope(names.main)) is None
         ):
             lines = enumerate(text.split("\n"), 1)
@@ -221,6 +286,8 @@ def _types(node: Node) -> Iterator[str]:
 def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) -> bool:
     if name in declared or name in LANG or any(one.name == name for one in scope.module.imports):
         return True
+    if name.endswith(GENERATED):
+        return True
     source = scope.module.source.decode("utf-8", errors="replace")
     if re.search(rf"(?<=\.){name}\b", source) and any(
         one.name == "*" or one.name[:1].isupper() for one in scope.module.imports
@@ -231,7 +298,11 @@ def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) ->
     return names.named(name, scope) is not None
 
 
-def _undeclared(name: str, line: int) -> ParseProblem:
+def _undeclared(name: str, scope: Scope, line: int) -> ParseProblem:
+    # WPILib 2027 moved its classes: the packages that HOME knows are those before it.
+    moved = import_season(scope.module.imports) > OLD_SEASON
+    if moved and HOME.get(name, "").startswith("edu.wpi."):
+        return ParseProblem(f"{name} is not imported", line)
     if name in HOME:
         return ParseProblem(f"{name} is not imported: import {HOME[name]}.{name};", line)
     meant = suggest_name(name, HOME)
@@ -255,7 +326,7 @@ def _variable(
             yield ParseProblem(f"the unit {name} is not imported", node.place.line)
     elif name[:1].isupper() and not re.fullmatch(r"[A-Z][A-Z0-9_]*", name):
         if not open_ and not _is_type(name, declared, scope, names):
-            yield _undeclared(name, node.place.line)
+            yield _undeclared(name, scope, node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
         yield ParseProblem(f"{name} is not declared", node.place.line)
 

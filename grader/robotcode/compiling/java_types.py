@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 
+from grader.robotcode.compiling.season import HOME, PACKAGES_OF
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Call,
@@ -28,7 +29,14 @@ from grader.robotcode.name_resolution import (
 from grader.robotcode.readings import device_of, quantity_of
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import MECHANISMS, ROTATIONS, UNITS, is_motor
+from grader.robotcode.vocabulary import (
+    COMMANDS_V3,
+    CONFIG_FACTORIES,
+    MECHANISMS,
+    ROTATIONS,
+    UNITS,
+    is_motor,
+)
 
 DEEPEST = 12
 NUMBER, SIGNAL = "double", "StatusSignal"
@@ -45,6 +53,20 @@ WANTED = {  # of the methods of WPILib's MotorLog
 MEASURES = frozenset(WANTED.values()) | {"Time"}
 VALUES = {"position": "Angle", "velocity": "AngularVelocity", "voltage": "Voltage"}
 PARAMETERS = ({"Voltage", "Measure", ""}, {"SysIdRoutineLog", ""})  # of the two callbacks
+COUNTS = {  # how many arguments the parts of a SysIdRoutine take
+    "SysIdRoutine": (2,),
+    "Config": (0, 3, 4),
+    "Mechanism": (3, 4),
+    "SysIdMechanism": (3, 4),
+    "useDataLog": (3,),
+    "defaults": (0,),
+}
+COUNT_OF_V3_CONFIG = (4,)  # its shorter forms are useDataLog and defaults
+CONFIG_TYPES = (  # of the first arguments of Config: what each is, and its type
+    ("the ramp rate", "voltage per time, as in Volts.of(0.5).per(Second)"),
+    ("the step", "Voltage"),
+    ("the timeout", "Time"),
+)
 NUMBERS = frozenset({"double", "float", "int", "long", "Double", "Float", "Integer"})
 MAKES = frozenset({"of", "ofBaseUnits", "mutable", "one", "zero"})
 ARITHMETIC = frozenset({"+", "-", "*", "/", "%"})
@@ -62,8 +84,11 @@ def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         if not isinstance(node, Call):
             continue
         name = last_name(node.target)
+        if isinstance(node.target, Member):
+            yield from _one_argument(node, node.target, scope, names)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
+        yield from _routine_part(node, scope, names)
         if constructed_class(node, scope, names) in MECHANISMS:
             yield from _callbacks(node, scope, names)
 
@@ -106,6 +131,71 @@ def _argument(
         yield ParseProblem(f"a {owner} cannot be given in {last_name(call.args[0])}", line)
     if name == "setVoltage" and given in {SIGNAL, *MEASURES} - {"Voltage"}:
         yield ParseProblem(f"setVoltage() takes volts, and this is a {given}", line)
+
+
+def _one_argument(
+    call: Call, target: Member, scope: Scope, names: SymbolTable
+) -> Iterator[ParseProblem]:
+    """Methods that take one argument, and are given none or several; methods of a number."""
+    name = target.name
+    if isinstance(target.owner, Number):
+        said = f"a plain number has no {name}(): a unit makes a measure of it, as in Volts.of(0.5)"
+        yield ParseProblem(said, target.place.line)
+    if len(call.args) == 1:
+        return
+    takes = name in WANTED and _logs(target)
+    takes |= name == "of" and bool(measure_of_unit(last_name(target.owner)))
+    if name == "in":
+        takes |= type_of_expression(target.owner, scope, names) in MEASURES
+    elif name == "setVoltage":
+        _, type_ = device_of(target.owner, scope, names)
+        takes |= type_ in HOME and is_motor(type_) and names.named(type_, scope) is None
+    if takes:
+        said = f"{name}() takes one argument, and gets {len(call.args)}"
+        yield ParseProblem(said, target.place.line)
+
+
+def _routine_part(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
+    """Arguments of WPILib's SysIdRoutine, its Config and its Mechanism: how many, and which."""
+    part = _part_of_routine(call, scope)
+    if part not in COUNTS:
+        return
+    counts, line = COUNTS[part], call.place.line
+    if part == "Config" and any(one.path.startswith(COMMANDS_V3) for one in scope.module.imports):
+        counts = COUNT_OF_V3_CONFIG
+    if len(call.args) not in counts:
+        wanted = " or ".join(map(str, counts))
+        yield ParseProblem(f"{part} takes {wanted} arguments, and gets {len(call.args)}", line)
+        return
+    if part in MECHANISMS:
+        for given, what in zip(call.args, ("drive", "log"), strict=False):
+            if isinstance(given, Self):
+                said = f"the {what} callback has to be a method or a lambda, and this is the object"
+                yield ParseProblem(said, given.place.line)
+    if part not in {"Config", "useDataLog"}:
+        return
+    for given, (what, wanted) in zip(call.args, CONFIG_TYPES, strict=False):
+        type_ = type_of_expression(given, scope, names)
+        if type_ and type_ != wanted:
+            is_ = {NUMBER: "a plain number", SIGNAL: "a signal"}.get(type_, f"a {type_}")
+            yield ParseProblem(f"{what} has to be a {wanted}, and this is {is_}", given.place.line)
+
+
+def _part_of_routine(call: Call, scope: Scope) -> str:
+    """What a call makes of WPILib's SysIdRoutine: ``Config``, ``useDataLog``; empty if nothing."""
+    target = call.target
+    outer = target
+    while isinstance(outer, Member):
+        outer = outer.owner
+    path = next((one.path for one in scope.module.imports if one.name == last_name(outer)), "")
+    ours = path.startswith(tuple(PACKAGES_OF)) and ".sysid.SysIdRoutine" in path
+    name = last_name(target)
+    owner = last_name(target.owner) if isinstance(target, Member) else ""
+    if not ours or not isinstance(outer, Name):
+        return ""
+    if name in CONFIG_FACTORIES:
+        return name if owner == "Config" or path.endswith(f".Config.{name}") else ""
+    return name if owner in {"", "SysIdRoutine"} and name[:1].isupper() else ""
 
 
 def _logs(target: Member) -> bool:

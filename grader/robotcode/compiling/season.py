@@ -15,6 +15,8 @@ from grader.robotcode.vocabulary import COMMANDS, PYTHON_WORDS, SIGNALS
 PACKAGES_OF = {"edu.wpi.first.": 2026, "org.wpilib.": 2027}
 MODES_OF_2027 = {"utility": "test", "isUtility": "isTest", "isUtilityEnabled": "isTestEnabled"}
 MOTORS_OF_2027 = {"setThrottle": "set", "getThrottle": "get"}
+# ... and of SysIdRoutine.Direction. Modes are left to exercise 5, which knows the early alphas.
+DIRECTIONS_OF_2027 = {"FORWARD": "kForward", "REVERSE": "kReverse"}
 
 NEARLY = 0.84  # how much of two names has to agree, from 0 to 1
 SHORTEST = 4  # letters of a name that is compared
@@ -66,6 +68,10 @@ PACKAGES = {
     ),
     "java.util.function": "DoubleSupplier BooleanSupplier Supplier Consumer DoubleConsumer",
 }
+PWM_MOTORS = frozenset(  # WPILib's own motor controllers, whose methods WPILib alone names
+    f"MotorController {PACKAGES['edu.wpi.first.wpilibj.motorcontrol']}".split()
+)
+CAN_DEVICES = frozenset(PACKAGES["com.ctre.phoenix6.hardware"].split())
 HOME = {name: package for package, names in PACKAGES.items() for name in names.split()}
 SEASON = ("edu.wpi.", "com.ctre.", "com.revrobotics", "java.util.function")
 MODULES = {  # RobotPy: the modules each name may be imported from
@@ -103,6 +109,8 @@ METHODS = frozenset(
         *("getLeftY", "getRightY", "getLeftX", "getRightX", "leftBumper", "rightBumper"),
         *("calculate", "stopMotor", "runEnd", "startEnd", "getBatteryVoltage", "getHID"),
         *("setPosition", "getRaw", "positionConversionFactor", "velocityConversionFactor"),
+        *("named", "withAutomaticName", "withPriority", "whenCanceled", "whenExited", "until"),
+        *("executing", "requiring", "noRequirements", "park", "waitUntil", "fork", "await"),
     }
 )
 INHERITED = frozenset(  # what a subsystem, a command or a robot brings along

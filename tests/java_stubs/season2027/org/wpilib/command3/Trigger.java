@@ -1,0 +1,25 @@
+// Signatures of allwpilib main, commit 10171e2f (WPILib 2027, not released): commandsv3/src/main/java/org/wpilib/command3/Trigger.java
+
+package org.wpilib.command3;
+
+import java.util.function.BooleanSupplier;
+
+public class Trigger implements BooleanSupplier {
+  public Trigger(BooleanSupplier condition) {}
+
+  public native Trigger onTrue(Command command);
+
+  public native Trigger whileTrue(Command command);
+
+  public native Trigger onFalse(Command command);
+
+  public native Trigger whileFalse(Command command);
+
+  public native boolean getAsBoolean();
+
+  public native Trigger and(BooleanSupplier trigger);
+
+  public native Trigger or(BooleanSupplier trigger);
+
+  public native Trigger negate();
+}
