@@ -575,8 +575,9 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # %% [markdown]
 # ## 6 Use the gains: one loop, one move
 #
-# Every 20 ms the robot program asks the profile for two setpoints, *now* and *in the next loop*,
-# and applies **feedforward + feedback**. For a velocity, in Java:
+# A *setpoint* is what the profile wants at one moment. Every 20 ms the robot program asks for two
+# of them, *now* and *in the next loop*, and applies **feedforward + feedback**. For a velocity, in
+# Java:
 #
 # ```java
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));

@@ -578,9 +578,11 @@ def test_a_name_stands_for_a_gain_or_for_none(name, gain):
     assert gain_of(name) == gain
 
 
+@pytest.mark.parametrize("place", ["", *BOTH])
 @pytest.mark.parametrize("name", [JAVA, PYTHON])
-def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name):
-    text = written("ann", language="java" if name == JAVA else "python")
+def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name, place):
+    language = "java" if name == JAVA else "python"
+    text = in_place("ann", place, language=language) if place else written("ann", language=language)
     path = tmp_path / name
     for found in [*re.finditer(r"\w+|[^\w\s]", text)][1::3]:
         for broken in (text[: found.start()] + text[found.end() :], text[: found.start()]):
