@@ -87,9 +87,8 @@ Table(
 )
 
 # %% [markdown]
-# *One standard error* shows how far noise alone may have moved a number. Here it is tiny, because
-# the fit also uses the position, which has little noise. But it does not include what the model
-# leaves out. On a robot that is far more (lesson 9): trust two or three digits.
+# *One standard error* shows how far noise alone may have moved a number. It does not include what
+# the model leaves out. On a robot that is far more (lesson 9): trust two or three digits.
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
@@ -575,8 +574,9 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # %% [markdown]
 # ## 6 Use the gains: one loop, one move
 #
-# Every 20 ms the robot program asks the profile for two setpoints, *now* and *in the next loop*,
-# and applies **feedforward + feedback**. For a velocity, in Java:
+# A *setpoint* is what the profile wants at one moment. Every 20 ms the robot program asks for two
+# of them, *now* and *in the next loop*, and applies **feedforward + feedback**. For a velocity, in
+# Java:
 #
 # ```java
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
@@ -911,9 +911,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   give the reason.
 # </details>
 #
-# If you have no room or time, WPILib's docs say that you can compute "reasonable estimates of kG,
-# kV, and kA", while kS "must be measured". For each row of the table, say what your robot would do
-# worse. If you find nothing, do not test it.
+# For each row of the table, say what your robot would do worse. If you find nothing, do not test
+# it. Without room or time you can compute kG, kV and kA; kS must be measured.
 #
 # <details><summary>For mentors: does every team characterize everything?</summary>
 #
@@ -989,9 +988,8 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # ### When
 #
 # Plan the tests for the last two weeks of build season: the robot is mechanically finished, and you
-# are still writing software. You need at least 10 feet to drive, ideally 20, and a pit is too
-# small. Write two evenings into the calendar before your first competition: one to measure, one to
-# measure again.
+# are still writing software. A pit is too small to drive. Write two evenings into the calendar
+# before your first competition: one to measure, one to measure again.
 #
 # Measure again when mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
 # repaired (kS). Keep the old log: the comparison shows what broke.

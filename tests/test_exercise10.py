@@ -254,6 +254,13 @@ def test_the_diameter_in_place_of_the_radius_is_named(checked):
             ".withStaticFeedforwardSign(StaticFeedforwardSignValue.UseClosedLoopSign)",
             "UseVelocitySign, which is the default",
         ),
+        (
+            "turret",
+            BOTH[0],
+            "class A {",
+            "class A { void feed() { config.Feedback.SensorToMechanismRatio = 1.0; }",
+            "SensorToMechanismRatio is 1.0",
+        ),
         ("arm", BOTH[1], "kCos(", "kG(", "An arm's kG goes into kCos"),
         ("arm", BOTH[1], ".kCosRatio(0.15915494309189535)", "", "has no kCosRatio"),
         ("arm", BOTH[1], "0.15915494309189535", "1.0", "kCosRatio = 1.0"),
@@ -268,6 +275,42 @@ def test_gravity_and_the_sign_of_ks_are_settings_too(checked, kind, place, old, 
 
     assert found.status == "failed"
     assert says in f"{found.seen} {found.hint}"
+
+
+def test_the_ratio_itself_may_stand_in_the_code(checked):
+    for kind in sorted(KINDS):
+        student = of(kind=kind)
+        ratio = OWN.module.draw(student).ratio
+        text = in_place(student, "Slot0Configs").replace(
+            "class A {",
+            f"class A {{ Object f = new FeedbackConfigs().withSensorToMechanismRatio({ratio});",
+        )
+        text = f"import com.ctre.phoenix6.configs.FeedbackConfigs;\n{text}"
+
+        assert all(one.status == "passed" for one in checked(text, student=student).values())
+
+
+@pytest.mark.parametrize("place", BOTH)
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_what_the_motor_controller_would_do_is_simulated(tmp_path, kind, place):
+    student = of(kind=kind)
+    path = tmp_path / JAVA
+
+    def consequence(**wrong):
+        path.write_text(in_place(student, place, **wrong), "utf-8")
+        return OWN.module.consequence(OWN.module.read(path, student=student))
+
+    assert consequence() is None
+    assert "slow" in consequence(kV=0.9).words or "does about" in consequence(kV=0.9).words
+
+
+def test_a_comment_with_the_unit_of_another_place_is_told(checked):
+    student = of(kind="elevator")
+    text = in_place(student, "Slot0Configs")
+    found = checked(text.replace("V·s/rot", "V·s/m"), student=student)["units"]
+
+    assert found.misconception == "M-UNITS"
+    assert "not the unit of this number" in found.hint
 
 
 @pytest.mark.parametrize("place", BOTH)
@@ -535,9 +578,11 @@ def test_a_name_stands_for_a_gain_or_for_none(name, gain):
     assert gain_of(name) == gain
 
 
+@pytest.mark.parametrize("place", ["", *BOTH])
 @pytest.mark.parametrize("name", [JAVA, PYTHON])
-def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name):
-    text = written("ann", language="java" if name == JAVA else "python")
+def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name, place):
+    language = "java" if name == JAVA else "python"
+    text = in_place("ann", place, language=language) if place else written("ann", language=language)
     path = tmp_path / name
     for found in [*re.finditer(r"\w+|[^\w\s]", text)][1::3]:
         for broken in (text[: found.start()] + text[found.end() :], text[: found.start()]):

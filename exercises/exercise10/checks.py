@@ -231,6 +231,9 @@ def _unit_told(one: GainConstant, code: Code) -> bool | None:
     beside = {judged(one.comment, unit, name=one.name) for unit in units_}
     if True in beside or (beside == {False} and any(judged(code.facts.general, u) for u in units_)):
         return True
+    elsewhere = code.variant.units_of(one.gain, None)  # per meter, where per rotation is right
+    if any(judged(one.comment, unit, name=one.name) for unit in elsewhere):
+        return None
     return None if None in beside else False
 
 

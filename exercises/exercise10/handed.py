@@ -44,6 +44,14 @@ def check_choices(one: Feedforward, variant: Variant) -> None:
     if one.kind == FEED_FORWARD:
         _check_spark(one, arm=arm, variant=variant)
         return
+    ratio = one.arguments.get("SensorToMechanismRatio")
+    if ratio is not None and ratio.value is not None and not near(ratio.value, variant.ratio):
+        raise WrongAnswer(
+            f"SensorToMechanismRatio is {ratio.text}",
+            hint="It is how often the motor turns for one turn of the mechanism: the gear_ratio of "
+            "given.toml, neither 1 nor its inverse.",
+            misconception="M-UNITS",
+        )
     gravity = one.choices.get("GravityType", "elevatorstatic")  # Phoenix 6's default
     if arm and gravity != "armcosine":
         given = one.choices.get("GravityType")
@@ -102,7 +110,7 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
     found = {
         GRAVITY.get(place, place): _gain(arg, facts, variant)
         for place, arg in one.arguments.items()
-        if place != "kCosRatio"
+        if place not in RATIOS
     }
     at = f"{re.sub(r'[A-Za-z_.]+[.](?=k)', '', one.text)} in line {one.line}"
     for place, gain in found.items():
@@ -131,6 +139,7 @@ def check_order(one: Feedforward, facts: DeployFacts, variant: Variant, *, point
         )
 
 
+RATIOS = ("kCosRatio", "SensorToMechanismRatio")  # settings that are no gains
 GRAVITY = {"kCos": "kG"}  # what a Spark calls an arm's kG
 
 

@@ -7,7 +7,7 @@ from grader.check import NotReachedError, WrongAnswer
 from grader.consequence import Consequence, follow_profiles
 from grader.robotcode.gain_constants import DeployFacts, Feedforward
 
-from .handed import feedforward_of
+from .handed import RATIOS, feedforward_of
 from .key import CLASSES, PLACES, SCALED, Variant, near
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def _gains(one: Feedforward, variant: Variant) -> dict[str, float] | None:
     given = {
         "kG" if name == "kCos" else name: _in_code(name, argument.value or 0.0, variant)
         for name, argument in one.arguments.items()
-        if name != "kCosRatio"
+        if name not in RATIOS
     }
     gains = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | given
     return gains if given and all(map(math.isfinite, gains.values())) else None

@@ -18,6 +18,7 @@ from grader.robotcode.vocabulary import enum_constant, java_spelling
 
 SLOT0, FEED_FORWARD = "Slot0Configs", "FeedForwardConfig"
 SETTINGS = ("GravityType", "StaticFeedforwardSign")
+RATIO = "SensorToMechanismRatio"  # of Phoenix 6's FeedbackConfigs: what a rotation is
 FIELDS = {
     SLOT0: ("kS", "kV", "kA", "kG", "kP"),
     FEED_FORWARD: ("kS", "kV", "kA", "kG", "kCos", "kCosRatio"),
@@ -34,7 +35,7 @@ class GainSetting:
 
     Args:
         kind: ``Slot0Configs`` or ``FeedForwardConfig``.
-        name: ``kV``, ``kCos``, ``GravityType``, …
+        name: ``kV``, ``kCos``, ``GravityType``, ``SensorToMechanismRatio``, …
         value: what it is given.
         scope: where that stands.
         line: its line, from 1.
@@ -65,7 +66,9 @@ def find_gain_settings(
                 yield GainSetting(kind, name, value, scope, node.place.line, choice)
         elif isinstance(node, Assign) and isinstance(node.target, Member) and node.value:
             name = _field(node.target.name)
-            if name and _is_slot0(node.target.owner, scope, names):
+            if _is_ratio(node.target.name):
+                yield GainSetting(SLOT0, RATIO, node.value, scope, node.place.line)
+            elif name and _is_slot0(node.target.owner, scope, names):
                 choice = _choice(name, node.value, scope, names)
                 yield GainSetting(SLOT0, name, node.value, scope, node.place.line, choice)
 
@@ -83,6 +86,8 @@ def _called(
     phoenix = WITH.fullmatch(name)
     if phoenix and len(call.args) == 1:
         field = _field(phoenix[1][:1].lower() + phoenix[1][1:])
+        if _is_ratio(phoenix[1]):
+            yield SLOT0, RATIO, call.args[0]
         if field and _is_slot0(target.owner, scope, names):
             yield SLOT0, field, call.args[0]
         return
@@ -101,6 +106,10 @@ def _field(name: str) -> str:
     """A field of Slot0Configs in Java's spelling; empty if it is none."""
     bare = java_spelling(name).lower()
     return next((one for one in (*FIELDS[SLOT0], *SETTINGS) if one.lower() == bare), "")
+
+
+def _is_ratio(name: str) -> bool:
+    return _bare(name) == RATIO.lower()
 
 
 def _is_slot0(node: Node, scope: Scope, names: SymbolTable) -> bool:

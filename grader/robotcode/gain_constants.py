@@ -9,7 +9,7 @@ from grader.robotcode.closure import BoundNode, definitions, resolve_bound
 from grader.robotcode.comments import Comment, comments, comments_near
 from grader.robotcode.compiling import compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
-from grader.robotcode.controller_gains import GainSetting, find_gain_settings
+from grader.robotcode.controller_gains import RATIO, GainSetting, find_gain_settings
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
@@ -226,7 +226,7 @@ class _Reader:
                 for one in mine
                 if not one.choice and one.name != "kP"
             }
-            if given:
+            if given.keys() - {RATIO}:
                 yield Feedforward(
                     kind,
                     given,
