@@ -316,6 +316,14 @@ MISTAKES = {
     ),
     "a number that is asked for its rate": ("Volts.of(0.5).per(Second)", "0.5.per(Second)"),
     "an object as a callback": ("this::record, this)", "this, this::record)"),
+    "a current as a voltage": (
+        "Volts.of(m_left.getMotorVoltage().getValueAsDouble())",
+        "m_left.getStatorCurrent().getValue()",
+    ),
+    "a share as a voltage": (
+        "Volts.of(m_left.getMotorVoltage().getValueAsDouble())",
+        "m_left.getDutyCycle().getValue()",
+    ),
     "a ramp without its time": ("Volts.of(0.5).per(Second)", "Volts.of(0.5)"),
     "a class as an interface": ("extends SubsystemBase", "implements SubsystemBase"),
     "an argument too many": ("voltage.in(Volts));", "voltage.in(Volts), 0);"),

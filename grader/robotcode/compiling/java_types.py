@@ -51,7 +51,14 @@ WANTED = {  # of the methods of WPILib's MotorLog
     "angularAcceleration": "AngularAcceleration",
 }
 MEASURES = frozenset(WANTED.values()) | {"Time"}
-VALUES = {"position": "Angle", "velocity": "AngularVelocity", "voltage": "Voltage"}
+VALUES = {  # what the signal of a quantity holds
+    "position": "Angle",
+    "velocity": "AngularVelocity",
+    "voltage": "Voltage",
+    "bus": "Voltage",
+    "current": "Current",
+    "duty": NUMBER,
+}
 PARAMETERS = ({"Voltage", "Measure", ""}, {"SysIdRoutineLog", ""})  # of the two callbacks
 COUNTS = {  # how many arguments the parts of a SysIdRoutine take
     "SysIdRoutine": (2,),
