@@ -16,7 +16,7 @@ import pytest
 from authored import load
 from java_compiler import STUBS, JavaError, JavaProgram, compile_java
 from robot_mistakes import needs_robot
-from test_commands_v3 import BINDINGS, RIGHT
+from test_commands_v3 import BINDINGS, RIGHT, RUN_OF_V2
 from test_robot_code_snippet import found
 
 from grader.robotcode import bench
@@ -176,6 +176,10 @@ def collect(folder: Path) -> dict[str, JavaProgram]:
     more += [
         (f"v3, {style}", 2027, {"ExampleSubsystem.java": text}) for style, text in RIGHT.items()
     ]
+    loop = RIGHT["as its documentation has it"].replace(
+        "  private void drive(", RUN_OF_V2 + "  private void drive("
+    )
+    more.append(("planted: a loop without a coroutine", 2027, {"ExampleSubsystem.java": loop}))
     more.append(("v3, buttons", 2027, {"RobotContainer.java": BINDINGS}))
     more += [(name, 2026, {file: text}) for name, (file, text) in planted().items()]
     for number, (name, season, files) in enumerate((*texts(), *more)):
@@ -328,7 +332,7 @@ MISTAKES = {
 }
 
 
-@pytest.mark.parametrize("mistake", MISTAKES)
+@pytest.mark.parametrize("mistake", [*MISTAKES, "a loop without a coroutine"])
 def test_javac_and_the_grader_refuse_a_planted_mistake(compiled, mistake):
     name = f"planted: {mistake}"
     (file,) = compiled.programs[name].files
