@@ -183,6 +183,11 @@ RIGHT = {  # style -> the program
         )
     ),
 }
+RUN_OF_V2 = """  public Command stop() {
+    return run(() -> m_left.setVoltage(0)).named("stop");
+  }
+
+"""
 WRONG = {  # what is wrong -> the program, the check that fails, and what it says
     "its defaults": (
         program(config="SysIdRoutine.Config.defaults()"), "step", "WPILib's default, 7 V"
@@ -202,6 +207,11 @@ WRONG = {  # what is wrong -> the program, the check that fails, and what it say
         program().replace("m_left.setVoltage(voltage.in(Volts))", DUTY),
         "open-loop",
         "m_left",
+    ),
+    "a loop without a coroutine": (
+        program().replace("  private void drive(", RUN_OF_V2 + "  private void drive("),
+        "assembled",
+        "run() of a Mechanism takes a coroutine",
     ),
     "a class as an interface": (
         program(base="implements Mechanism"), "assembled", "Mechanism is a class: write extends"

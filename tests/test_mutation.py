@@ -7,13 +7,20 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from java_compiler import JavaProgram, compile_java
 from mutation import robot_code
 from mutation.report import all_mutants, legal_variants, survey
 
 from grader.exercise import find_exercise
+from grader.robotcode.compiling import compile_errors
+from grader.robotcode.files import Files
+from grader.robotcode.symbol_table import SymbolTable
 
 BASES = Path(__file__).resolve().parent / "mutation" / "bases"
 EXERCISES = ("exercise4", "exercise5", "exercise10")
+STRIDE = 4  # of the mutants of the right answers, one in so many is compiled
+# What the grader refuses although it compiles: a motor class whose methods a learner overrides.
+ON_PURPOSE = "methods of its own"
 
 
 @pytest.mark.parametrize("name", EXERCISES)
@@ -24,6 +31,33 @@ def test_every_mutant_of_robot_code_loses_points_with_advice_or_is_listed(name):
     assert left == []
     assert report.killed.total() > 100
     assert not any(one.exercise == name for one in report.stale)
+
+
+def test_the_grader_refuses_no_mutant_of_a_right_answer_that_javac_takes(tmp_path):
+    made = [one for one in robot_code.mutants() if one.file.endswith(".java")][::STRIDE]
+    programs = []
+    for number, one in enumerate(made):
+        path = tmp_path / f"mutant{number}" / Path(one.file).name
+        path.parent.mkdir()
+        path.write_text(one.text, encoding="utf-8")
+        programs.append(JavaProgram((path,)))
+    stubs = tmp_path / "stubs"
+    stubs.mkdir()
+
+    errors = compile_java(programs, stubs)
+
+    assert sum(map(bool, errors)) > len(made) / 4  # of each kind there have to be many
+    assert sum(not one for one in errors) > len(made) / 4
+    refused = {
+        (one.file, one.operator, one.line): graders
+        for one, program, javac in zip(made, programs, errors, strict=True)
+        if not javac and (graders := compile_errors(SymbolTable(Files(program.files[0]))))
+    }
+    assert {
+        mutant: graders
+        for mutant, graders in refused.items()
+        if not all(ON_PURPOSE in one.message for one in graders)
+    } == {}
 
 
 def test_there_are_enough_mutants_of_enough_kinds():

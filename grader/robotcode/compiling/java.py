@@ -48,7 +48,7 @@ from grader.robotcode.name_resolution import (
 )
 from grader.robotcode.scope import Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import UNITS, is_motor
+from grader.robotcode.vocabulary import COMMANDS_V3, UNITS, is_motor
 
 OLD_SEASON = 2026
 LANG = frozenset(
@@ -96,6 +96,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     yield from _never_set(names)
     every = list(walk(module.body, Scope(module)))
     yield from _inheritance(every, names)
+    yield from _runs_of_v3(every, names)
     season = import_season(module.imports)
     if season == OLD_SEASON:
         yield from _names_of_2027(every, names)
@@ -170,6 +171,21 @@ def _file_name(names: SymbolTable) -> Iterator[ParseProblem]:
         public = isinstance(node, Class) and node.place.text.startswith("public")
         if public and isinstance(node, Class) and suggest_name(node.name, frozenset({stem})):
             said = f"the class is called {node.name}, and its file {stem}: give both the same name"
+            yield ParseProblem(said, node.place.line)
+
+
+def _runs_of_v3(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator[ParseProblem]:
+    """``run`` of a Mechanism of Commands v3 with a lambda that takes no coroutine."""
+    if not any(one.path.startswith(COMMANDS_V3) for one in names.main.imports):
+        return
+    for node, scope in every:
+        if not isinstance(node, Call) or last_name(node.target) != "run" or len(node.args) != 1:
+            continue
+        owner = node.target.owner if isinstance(node.target, Member) else Self(node.place)
+        given = node.args[0]
+        own = bool(called_functions(node, scope, names)) or not isinstance(owner, Self)
+        if not own and isinstance(given, Function) and not given.parameters:
+            said = "run() of a Mechanism takes a coroutine: run(coroutine -> ...), or runRepeatedly"
             yield ParseProblem(said, node.place.line)
 
 
