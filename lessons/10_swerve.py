@@ -497,8 +497,8 @@ quick
 # %% [markdown]
 # ## 11 Practice
 #
-# **Exercise 13: swerve** (`exercises/exercise13/README.md`). You get the logs of your own swerve
-# drive, with one worn wheel, and find the numbers for both planners.
+# **Exercise 13: swerve** ([exercises/exercise13/README.md](../exercises/exercise13/README.md)). You
+# get the logs of your own swerve drive, with one worn wheel. Find the numbers for both planners.
 #
 # ```
 # grade exercise13
@@ -511,6 +511,9 @@ quick
 #
 # submit("exercise13", kS=0.15, kV=2.5, worn="back-left", lever=0.42)
 # ```
+#
+# Hints cost nothing: `grade exercise13 --hint`. If you write into `answers.toml` with an editor,
+# start `grade watch exercise13`: it grades each time you save.
 #
 # <details><summary>More, if you like</summary>
 #

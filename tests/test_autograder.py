@@ -191,7 +191,7 @@ def test_the_autograder_holds_no_solutions_and_no_secret(root, tmp_path, monkeyp
     assert not any(one.startswith(("jupyter", "ipywidgets")) for one in wanted)
     assert "wpilib==2026.*" in robot
     assert "without --secret, numbers depend on the student's name alone" in said
-    assert "13 exercises in one autograder: students have to hand in a zip file" in said
+    assert "14 exercises in one autograder: students have to hand in a zip file" in said
 
 
 @needs_bash
