@@ -53,7 +53,31 @@ TESTS = """
     return m_routine.dynamic(direction);
   }
 """
+LOOP = """
+class Lift {{
+  private final ElevatorFeedforward ff = new ElevatorFeedforward(0.2, 0.9, 2.0, 0.1);
+  private final {controller}
+
+  void loop({given}) {{
+@block  }}
+
+  void setVoltage(double volts) {{}}
+}}
+"""
+FEEDBACK = "package frc.robot;\n\nimport edu.wpi.first.math.controller.*;\n"
 FRAMES = {
+    "pid.calculate(measured, v)": FEEDBACK
+    + LOOP.format(
+        controller="PIDController pid = new PIDController(5.0, 0.0, 0.0);",
+        given="double v, double next, double measured",
+    ),
+    "pid.calculate(measured, goal)": FEEDBACK
+    + "import edu.wpi.first.math.trajectory.TrapezoidProfile;\n"
+    + LOOP.format(
+        controller="ProfiledPIDController pid =\n"
+        "      new ProfiledPIDController(5, 0, 0, new TrapezoidProfile.Constraints(1, 2));",
+        given="double goal, double measured",
+    ),
     "new ElevatorFeedforward(": "package frc.robot;\n\n"
     "import edu.wpi.first.math.controller.ElevatorFeedforward;\n\nclass Elevator {\n@block}\n",
     "m_sysIdController.a()": IMPORTS
@@ -111,6 +135,9 @@ kP = 1.5
 [robot]
 units = "Radians"
 loop_output = "duty cycle"
+
+[motor_controller]
+gear_ratio = 10.0
 """
 
 
@@ -291,7 +318,7 @@ def test_all_robot_code_that_the_course_shows_compiles(compiled):
     }
 
     assert {name: errors for name, errors in shown.items() if errors} == {}
-    assert sum(name.startswith("lesson") for name in shown) == 4
+    assert sum(name.startswith("lesson") for name in shown) == 6
     assert sum(name.startswith("answer") for name in shown) == 4
     assert sum(name.startswith(("solutions", "exercises")) for name in shown) == 7
 
