@@ -46,7 +46,7 @@ class GrowingLog:
         self._size = self.path.stat().st_size
         if self._size <= PREFACE:
             return ()
-        entries = read_contents(self._file.read_on()).entries
+        entries = read_contents(self._file.read_appended_records()).entries
         where = str(self.path)
         with suppress(MissingSignal):
             states = find_state_entries(entries, asked=self._asked, where=where)

@@ -65,7 +65,7 @@ class GrowingFile:
         self._kept = _Kept(wanted)
         self._end = 0
 
-    def read_on(self) -> Records:
+    def read_appended_records(self) -> Records:
         """All records so far; a last one that is not whole yet is read the next time.
 
         Raises:
