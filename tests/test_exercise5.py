@@ -477,6 +477,7 @@ def test_bindings_that_are_cleared_again_are_none(tmp_path, before, after, right
 
 
 SCHEDULER = "CommandScheduler.getInstance()"
+IMPORT = "import edu.wpi.first.wpilibj2.command.Command;"
 
 
 @pytest.mark.parametrize(
@@ -494,6 +495,27 @@ def test_a_scheduler_that_is_turned_off_runs_no_test(tmp_path, before, after, ri
 
     assert (found.status == "passed") is right
     assert right or "turns the command scheduler off" in found.seen
+
+
+@pytest.mark.parametrize(
+    ("method", "body", "right"),
+    [
+        ("periodic", f"{SCHEDULER}.cancelAll();", False),
+        ("simulationPeriodic", f"{SCHEDULER}.cancelAll();", False),
+        ("periodic", f"if (getCurrentCommand() == null) {{ {SCHEDULER}.cancelAll(); }}", True),
+        ("stop", f"{SCHEDULER}.cancelAll();", True),  # nobody calls it
+        ("periodic", f"Runnable later = () -> {SCHEDULER}.cancelAll();", True),
+    ],
+)
+def test_a_test_that_every_loop_cancels_does_not_last(tmp_path, method, body, right):
+    text = (SOLUTIONS / JAVA).read_text(encoding="utf-8")
+    marked = "  /** Makes the command that turns"
+    added = f"  public void {method}() {{ {body} }}\n{marked}"
+    text = text.replace(IMPORT, f"{IMPORT}\n{IMPORT.replace('Command;', 'CommandScheduler;')}")
+    found = judged(tmp_path, text.replace(marked, added, 1))["held"]
+
+    assert (found.status == "passed") is right
+    assert right or "cancelAll() ends the test" in found.seen
 
 
 @pytest.mark.parametrize(

@@ -46,6 +46,7 @@ DEEPEST = 120  # pieces of code one inside the other
 LEAVES = re.compile(r"if\s*\(?\s*true\s*\)?\s*[:{]?\s*return", re.IGNORECASE)
 MOST_CALLS = 5  # methods followed, one inside the other
 MOST_STEPS = 50_000  # pieces of code gone through; a robot's container has a thousandth
+EVERY_LOOP = re.compile(r"periodic$", re.IGNORECASE)  # methods that WPILib calls every 20 ms
 MODE = r"(test|utility) mode( of RobotModeTriggers)?"  # the key of a part that asks for it
 ASKED = re.compile(MODE)
 OPPOSED = re.compile(  # ... and of one that does not hold in test mode
@@ -104,6 +105,7 @@ class _Reader:
         self._bindings: list[Binding] = []
         self._start = 0  # how many bindings there were before the method that is gone through
         self._disabled: Hindrance | None = None  # the call that turned the scheduler off
+        self._interruptions: list[Hindrance] = []  # calls that end all commands in every loop
         self._elsewhere: dict[str, int] = {}
         self._unread: list[ParseProblem] = []
         self._steps = 0
@@ -126,9 +128,10 @@ class _Reader:
                     uncalled.append((node.name, node.place.line))
         top = [one for one in main.body if not isinstance(one, Function | Class)]
         self._several(top, BoundNode(top[0], Scope(main)) if top else None, _Way())
-        if self._disabled is not None:
-            self._start = 0
-            self._hinder_all(self._disabled)
+        off = [self._disabled] if self._disabled is not None else []
+        self._start = 0
+        for hindrance in (*off, *self._interruptions):
+            self._hinder_all(hindrance)
         return BindingFacts(
             main.language,
             factories=tuple(factories(every, self._names, self._commands)),
@@ -216,6 +219,8 @@ class _Reader:
             self._cleared(seen, call, call.target.owner)
         elif name in SWITCHES and isinstance(call.target, Member) and not functions:
             self._switched(seen, call, call.target.owner)
+        elif name == "cancelAll" and isinstance(call.target, Member) and not functions:
+            self._cancelled(seen, call, call.target.owner, way)
         elif name in HOLDS and isinstance(call.target, Member) and args and not functions:
             self._bound(seen, call, seen.at(args[-1]), way)
         elif name in CHOOSERS and not functions:
@@ -242,6 +247,12 @@ class _Reader:
         if self._call_at_start(seen, owner) in SCHEDULER:
             off = java_spelling(last_name(call.target)) == "disable"
             self._disabled = Hindrance(HindranceKind.DISABLED, call.place.text) if off else None
+
+    def _cancelled(self, seen: BoundNode, call: Call, owner: Node, way: _Way) -> None:
+        """A test ends at once where every loop of the robot cancels all commands."""
+        every_loop = bool(way.functions) and EVERY_LOOP.search(way.functions[0].name)
+        if every_loop and not way.conditions and self._call_at_start(seen, owner) in SCHEDULER:
+            self._interruptions.append(Hindrance(HindranceKind.CUT, call.place.text))
 
     def _call_at_start(self, seen: BoundNode, owner: Node) -> str:
         """The method that a node calls while the program starts; empty in a lambda."""
