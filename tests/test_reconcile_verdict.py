@@ -18,17 +18,19 @@ from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
-from sim.reconcile.findings import list_remarks, make_findings
-from sim.reconcile.model_selection import WIDENS, is_significant
+from sim.reconcile.findings import judge_effects, list_remarks, make_findings
+from sim.reconcile.model_selection import WIDENS
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
+from sim.reconcile.thresholds import LIKELIER_RIGHT
 from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
+SURELY = 1e5  # [of -2 log L] that an effect is worth
 METERS = find_unit("meters")
 LASTS = 1e6  # [s]
 
@@ -139,7 +141,7 @@ def added(problem, *steps, values):
                 score_estimate(problem, point, name),
                 gap,
                 before,
-                removal_cost=150.0,
+                removal_cost=SURELY,
                 gap_without=without,
             )
         )
@@ -154,7 +156,7 @@ def find_effects(problem, done, *, left):
     }
     return make_findings(
         problem, done, [], chapters, without=without, held_out=False, left=left, per=METERS
-    )
+    )[0]
 
 
 @pytest.mark.parametrize(
@@ -197,7 +199,7 @@ def test_no_effect_is_named_with_which_the_shown_log_is_missed_by_more(
     end = done[-1].gap.velocity
     chapters = [SimpleNamespace(gap=2.0 * end), SimpleNamespace(gap=end)]
 
-    found = make_findings(
+    found, _ = make_findings(
         problem, done, [], chapters, without={"drag": shown * end}, held_out=held_out,
         left=ResidualSummary(), per=METERS,
     )  # fmt: skip
@@ -249,53 +251,16 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
 
 
 @pytest.mark.parametrize(
-    ("score", "beside", "named"),
-    [(90.0, 1.9, False), (110.0, 1.9, True), (30.0, 1.0, True)],  # as a footnote to a major one
-)
-def test_what_is_minor_is_no_headline_unless_it_is_surely_there(problem, score, beside, named):
-    values = {**GAINS, "drag.drag": 0.001, "spring.rate": 0.1, "spring.preload": 0.1}
-    done = added(problem, ("spring", beside, 2.0), ("drag", 0.95 * beside, beside), values=values)
-    done[1:] = [replace(done[1], removal_cost=70.0), replace(done[2], removal_cost=score)]
-    done[1:] = [replace(one, gap_without=one.gap_before) for one in done[1:]]
-
-    found = find_effects(problem, done, left=ResidualSummary())
-
-    assert ("drag" in [one.effect for one in found]) is named
-    assert any(one.size == "major" for one in found) is (beside < 1.5)
-
-
-@pytest.mark.parametrize(
-    ("effect", "values", "score", "worth"),
-    [
-        ("battery-sag", {"share": 0.3}, 70.0, True),  # more than twice what is everyday
-        ("battery-sag", {"share": 0.3}, 50.0, False),
-        ("battery-sag", {"share": 0.15}, 70.0, False),
-        ("battery-sag", {"share": 0.15}, 110.0, True),
-        ("battery-sag", {"share": 0.05}, 500.0, False),
-        ("cogging", {"cosine": -0.1, "sine": 0.1, "turns": 9.0}, 70.0, True),
-        ("cogging", {"cosine": -0.05, "sine": 0.05, "turns": 9.0}, 70.0, False),
-        ("drag", {"drag": 5.0}, 70.0, False),  # nobody says how much of it is everyday
-        ("drag", {"drag": 5.0}, 110.0, True),
-    ],
-)
-def test_what_is_far_more_than_on_any_robot_is_believed_sooner(effect, values, score, worth):
-    of_model = {f"{effect}.{name}": value for name, value in values.items()}
-
-    assert is_significant(effect, of_model, score) is worth
-
-
-@pytest.mark.parametrize(
     ("score", "others", "named"),
     [
-        (52.0, {"heating": 9.0}, True),
-        (52.0, {"heating": 9.0, "inertia-change": 44.0}, True),  # which happens once
-        (52.0, {"heating": 30.0}, False),  # as like as not
-        (90.0, {"delay": 60.0}, True),  # far more than on any robot
-        (21.0, {}, False),
+        (400.0, {}, True),
+        (400.0, {"heating": 9.0, "inertia-change": 390.0}, True),  # which happens once
+        (90.0, {"heating": 85.0}, False),  # as like as not
+        (5.0, {}, False),
     ],
 )
-def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score, others, named):
-    values = {**GAINS, "battery-sag.share": 0.64}
+def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, score, others, named):
+    values = {**GAINS, "battery-sag.share": 0.3}
     base, one = added(problem, ("battery-sag", 1.9, 2.0), values=values)
     scores = {"battery-sag": score, **others}
     tried = tuple(
@@ -303,9 +268,11 @@ def test_a_minor_effect_to_which_nothing_comes_near_is_a_headline(problem, score
     )
     done = [replace(base, tried=tried), replace(one, removal_cost=score)]
 
+    (judged,) = judge_effects(problem, done, ResidualSummary(), damaged=False)
     found = find_effects(problem, done, left=ResidualSummary())
 
-    assert [each.effect for each in found] == ["battery-sag"] * named
+    assert (judged.probability >= LIKELIER_RIGHT) is named
+    assert [each.probability for each in found] == [judged.probability] * named
 
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])

@@ -6,7 +6,7 @@ from sim.plot.story_gap import plot_residual_maps
 from sim.plot.story_runs import plot_overlays
 from sim.plot.table import Table
 from sim.reconcile.story import Story
-from sim.reconcile.story_text import format_gap, format_parameter
+from sim.reconcile.story_text import describe_size, format_gap, format_parameter
 
 __all__ = [
     "make_findings_table",
@@ -29,7 +29,7 @@ def make_findings_table(story: Story) -> Table:
         rows.append(
             (
                 f"{one.effect}{rivals}",
-                "damage to the log" if one.kind == "fault" else one.size,
+                describe_size(one),
                 parameters or "-",
                 "-" if one.kind == "fault" else gap,
             )

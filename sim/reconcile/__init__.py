@@ -127,7 +127,7 @@ def _make_story(
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
-    findings = make_findings(
+    findings, judged = make_findings(
         problem, done, faults, chapters, without=shown.gaps_without(done),
         held_out=shown.held_out, left=left, per=per,
     )  # fmt: skip
@@ -142,6 +142,7 @@ def _make_story(
         where=shown.gap_places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.kind,
         notes=(*list_remarks(problem, done, findings, left), *seen),
         compared=shown.compared_samples,
+        judged=judged,
     )  # fmt: skip
 
 

@@ -15,7 +15,16 @@ from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import separating_test
 from sim.reconcile.cross_validation import Gap, missed_motion
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.model_selection import is_ordinary_size, is_significant, is_unrivalled
+from sim.reconcile.model_selection import is_ordinary_size
+from sim.reconcile.probability import (
+    Evidence,
+    JudgedEffect,
+    log_gap_ratio,
+    log_size,
+    log_strays,
+    probability_of,
+    rival_share,
+)
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Chapter, Finding, ParameterEstimate
@@ -23,6 +32,7 @@ from sim.reconcile.thresholds import (
     AFTER,
     FAR_MAJOR,
     KNOCK,
+    LIKELIER_RIGHT,
     LOST,
     MAJOR,
     NARROWER,
@@ -46,13 +56,13 @@ def make_findings(
     problem: PredictionErrorProblem, done: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
     without: Mapping[str, float], held_out: bool, left: ResidualSummary, per: Unit,
-) -> tuple[Finding, ...]:  # fmt: skip
-    """Findings: faults first, then effects, major ones first.
+) -> tuple[tuple[Finding, ...], tuple[JudgedEffect, ...]]:  # fmt: skip
+    """Findings, faults first, then effects, major ones first; and all effects that were judged.
 
-    What any robot has a little of stays in the model and is no finding, however much of a small gap
-    it takes. Nor is an effect with which the shown log is missed by more, unless that log is held
-    out: then it decides nothing. A fault that is cut out for safety's sake, but may be physics,
-    comes after the major effects.
+    An effect is a finding if it is likelier right than wrong. What any robot has a little of stays
+    in the model and is no finding, however much of a small gap it takes. Nor is an effect with
+    which the shown log is missed by more, unless that log is held out: then it decides nothing. A
+    fault that is cut out for safety's sake, but may be physics, comes after the major effects.
 
     Args:
         problem: the measurements.
@@ -65,27 +75,85 @@ def make_findings(
         per: the owner's unit.
     """
     faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
-    last = done[-1].candidate.estimate
-    end = done[-1].gap.velocity / problem.noise.velocity
-    far = end > STRAYS or left.has_structure
+    judged = judge_effects(problem, done, left, damaged=bool(damages))
+    far = done[-1].gap.velocity / problem.noise.velocity > STRAYS or left.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
-    effects = _classify_size(problem, done, gaps, far=far, per=per)
+    told = {one.effect: one for one in judged if one.probability >= LIKELIER_RIGHT}
+    effects = [
+        replace(one, probability=told[one.effect].probability)
+        for one in _classify_size(problem, done, gaps, far=far, per=per)
+        if one.effect in told
+    ]
     if not held_out:
         effects = [_demote_unseen(one) for one in effects]
         effects = [one for one in effects if not one.gap_after > SHOWN_WIDER * one.gap_before]
-    if not missed_motion(end, problem) <= LOST:  # no number at all is lost, too
-        effects = []
-    effects = [one for one in effects if not is_ordinary_size(one.effect, last.values)]
-    alone = all(one.size != "major" for one in effects)
-    effects = [
-        one
-        for one in effects
-        if one.size == "major"
-        or (_is_worth_a_name(one, done) if alone else _narrows_gap(one, done))
-    ]
-    effects = [one for one in effects if not is_contradicted(one.effect, problem, last, left)]
-    effects.sort(key=lambda one: _gap_share(one, done))
-    return tuple(sorted((*faults, *effects), key=_sort_key))
+    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect]))
+    return tuple(sorted((*faults, *effects), key=_sort_key)), judged
+
+
+def judge_effects(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    left: ResidualSummary,
+    *,
+    damaged: bool,
+) -> tuple[JudgedEffect, ...]:
+    """The effects of the last model that may be findings, each with its probability.
+
+    Args:
+        problem: the measurements.
+        done: the base and the rounds.
+        left: what the last model leaves.
+        damaged: whether anything was set aside as damage.
+    """
+    last = done[-1].candidate.estimate
+    noises = done[-1].gap.velocity / problem.noise.velocity
+    if not missed_motion(noises, problem) <= LOST:  # no number at all is lost, too
+        return ()
+    found = []
+    for before, now in pairwise(done):
+        name = now.candidate.effect
+        if is_ordinary_size(name, last.values) or is_contradicted(name, problem, last, left):
+            continue
+        with_, bare = gaps_with_and_without(now, done[-1])
+        added = before.candidate.score - now.candidate.score
+        evidence = Evidence(
+            likelihood=math.log(max(_removal_cost(before, now), 1.0)),
+            gap=log_gap_ratio(with_.velocity, bare.velocity),
+            size=log_size(name, last.values),
+            rival=rival_share(name, added, {one.effect: one.score for one in before.tried}),
+            strays=log_strays(noises),
+            structure=float(left.has_structure),
+            once=float(EFFECTS[name].has_onset),
+            damaged=float(damaged and EFFECTS[name].has_onset),
+        )
+        found.append((name, now.rivals, evidence))
+    return tuple(
+        JudgedEffect(name, rivals, whole, probability_of(whole))
+        for name, rivals, one in found
+        for whole in [_compare(one, [other for _, _, other in found if other is not one])]
+    )
+
+
+def _compare(one: Evidence, others: Sequence[Evidence]) -> Evidence:
+    """The evidence, with what the other effects of the model have beside it."""
+    return replace(
+        one,
+        behind=min(0.0, one.likelihood - max((other.likelihood for other in others), default=0.0)),
+        leads=float(all(one.gap <= other.gap for other in others)),
+    )
+
+
+def _removal_cost(before: SelectionRound, now: SelectionRound) -> float:
+    """[of -2 log L] what the last model loses without an effect; what it brought, if not asked."""
+    if math.isnan(now.removal_cost):
+        return before.candidate.score - now.candidate.score
+    return now.removal_cost
+
+
+def _expected_share_closed(one: JudgedEffect) -> float:
+    """[1] of the gap that an effect is expected to close: the largest is the most important."""
+    return one.probability * (1.0 - math.exp(one.evidence.gap))
 
 
 def _classify_size(
@@ -129,33 +197,11 @@ def _demote_unseen(one: Finding) -> Finding:
     return one if seen else replace(one, size="minor")
 
 
-def _is_worth_a_name(one: Finding, done: Sequence[SelectionRound]) -> bool:
-    """Whether a minor effect is worth a name where nothing else is missing."""
-    last = done[-1].candidate.estimate
-    places = (n for n in range(1, len(done)) if done[n].candidate.effect == one.effect)
-    lone = any(is_unrivalled(one.effect, done[n - 1].tried) for n in places)
-    return is_significant(one.effect, last.values, one.score, lone=lone)
-
-
-def _narrows_gap(one: Finding, done: Sequence[SelectionRound]) -> bool:
-    """Whether a minor effect visibly narrows the gap of other runs, in velocity or position."""
-    return _narrows(
-        next(other for other in done[1:] if other.candidate.effect == one.effect), done[-1]
-    )
-
-
 def _narrows(added: SelectionRound, end: SelectionRound) -> bool:
     """Whether the last model's gap, of velocity and position, is narrower with an effect."""
     with_, bare = gaps_with_and_without(added, end)
     product = with_.velocity * with_.position
     return product <= NARROWER**2 * bare.velocity * bare.position
-
-
-def _gap_share(one: Finding, done: Sequence[SelectionRound]) -> float:
-    """[1] of the velocity's gap that an effect leaves: the least is the most important."""
-    added = next(other for other in done[1:] if other.candidate.effect == one.effect)
-    with_, bare = gaps_with_and_without(added, done[-1])
-    return with_.velocity / bare.velocity if bare.velocity > 0.0 else math.inf
 
 
 def gaps_with_and_without(added: SelectionRound, end: SelectionRound) -> tuple[Gap, Gap]:
@@ -264,11 +310,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     last = end.candidate.estimate
     with_, bare = gaps_with_and_without(now, end)
     major = with_.velocity <= least * bare.velocity
-    score = (
-        before.candidate.score - now.candidate.score
-        if math.isnan(now.removal_cost)
-        else now.removal_cost
-    )
+    score = _removal_cost(before, now)
     parameters = {}
     for one in effect.parameters:
         whole = f"{name}.{one.name}"

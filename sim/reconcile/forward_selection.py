@@ -17,7 +17,6 @@ from sim.reconcile.model_selection import (
     WIDENS,
     choose_simplest,
     is_ordinary_size,
-    is_significant,
     list_blocked,
     list_rivals,
     rejection_reason,
@@ -168,12 +167,10 @@ def _add_effects(data: SelectionData, done: list[SelectionRound], log: Log) -> l
         admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.nuisance_effects)
         if quiet and not any(one.report.score > PART * quiet[0].report.score for one in admitted):
             one = quiet[0]
-            if is_significant(
-                one.candidate.effect, one.candidate.estimate.values, one.report.score
-            ):
-                done.append(_next_round(now, one))
-            else:
+            if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
                 done[-1] = _add_nuisance_effect(now, one)
+            else:
+                done.append(_next_round(now, one))
             continue
         if not admitted:
             break

@@ -13,9 +13,7 @@ from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
     AS_GOOD,
     CLOSE,
-    FAR,
     HALF,
-    LONE,
     MUCH_NARROWER,
     NARROWER,
     NOT_WIDER,
@@ -23,7 +21,6 @@ from sim.reconcile.thresholds import (
     SIMPLER,
     SURE,
     SURER,
-    WORTH_A_NAME,
 )
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
@@ -156,45 +153,6 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     """Whether an effect is no larger than on any healthy robot."""
     known = EFFECTS[effect]
     return known.is_ordinary({name: values[f"{effect}.{name}"] for name in known.names})
-
-
-def is_significant(
-    effect: str, values: Mapping[str, float], score: float, *, lone: bool = False
-) -> bool:
-    """Whether an effect is certain, and larger than on any healthy robot.
-
-    Free play of a motor is lost in what a simulation misses after ten seconds, and yet is there.
-
-    Args:
-        effect: its name.
-        values: of the model.
-        score: [of -2 log L] by which it makes the model likelier.
-        lone: no other effect that lasts explained half as much in its place.
-    """
-    if is_ordinary_size(effect, values):
-        return False
-    known = EFFECTS[effect]
-    part = {
-        one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / FAR
-        for one in known.parameters
-    }
-    far = known.is_ordinary(known.neutral) and not known.is_ordinary(part)
-    return score >= (LONE if lone else SURER if far else WORTH_A_NAME)
-
-
-def is_unrivalled(effect: str, tried: Sequence[TriedCandidate]) -> bool:
-    """Whether no other permanent effect explained half as much.
-
-    Args:
-        effect: that was added.
-        tried: the candidates of its round.
-    """
-    scores = {one.effect: one.score for one in tried}
-    most = max(
-        (score for name, score in scores.items() if name != effect and not EFFECTS[name].has_onset),
-        default=-math.inf,
-    )
-    return effect in scores and most < HALF * scores[effect]
 
 
 def score_improvement(now: Candidate, other: Candidate) -> float:

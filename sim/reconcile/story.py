@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from sim.core.log import Array, Log
 from sim.gap.place import Place
 from sim.physics.model import Model
+from sim.reconcile.probability import JudgedEffect
 
 NOTHING_MISSING, EXPLAINED = "nothing-missing", "explained"
 AMBIGUOUS, UNEXPLAINED = "ambiguous", "unexplained"
@@ -46,6 +47,8 @@ class Finding:
         sentence: what it is and does, for a person.
         inspect: what to look at on the robot.
         separating_test: which test tells it from what it is ambiguous with; empty if it is not.
+        probability: [1] that the effect, or one that it is ambiguous with, is missing in the base
+            model; 1 for a fault, which an inspection found.
     """
 
     effect: str
@@ -59,6 +62,7 @@ class Finding:
     sentence: str
     inspect: str
     separating_test: str
+    probability: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -117,6 +121,7 @@ class Story:
         how: how the logs were used, in a sentence.
         notes: other things a person should know.
         compared: a run of ``shown`` -> (n,) which of its samples count; empty: all of them.
+        judged: effects of the last model that might have been findings, and how likely each is.
     """
 
     verdict: str
@@ -132,6 +137,7 @@ class Story:
     how: str
     notes: tuple[str, ...] = ()
     compared: tuple[NDArray[bool_], ...] = ()
+    judged: tuple[JudgedEffect, ...] = ()
 
     @property
     def model(self) -> Model:
@@ -167,6 +173,7 @@ def _finding(one: Finding) -> dict[str, Any]:
         "effect": one.effect,
         "kind": one.kind,
         "size": one.size,
+        "probability": one.probability,
         "ambiguous_with": list(one.ambiguous_with),
         "parameters": {
             name: {"value": p.value, "error": p.error, "unit": p.unit}

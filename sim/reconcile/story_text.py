@@ -17,6 +17,8 @@ SHRINKS = 0.995  # [of the gap before] a gap after that is no less has not shrun
 CLOSE = 1.3  # [noise floors] a gap beyond it is not noise alone
 HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` does
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
+PROBABLY = 5.0 / 6.0  # [1] a wrong name costs five silences: what is less likely is told as a guess
+ALMOST_SURE = 0.99  # [1] beyond it no probability is known any better
 
 
 def write_headline(story: Story) -> str:
@@ -32,7 +34,8 @@ def write_headline(story: Story) -> str:
     elif majors:
         missing = _listed([_either(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
-        said = [f"The model is missing {missing}{doubt}.", _gap(story)]
+        guess = "" if all(one.probability >= PROBABLY for one in majors) else "probably "
+        said = [f"The model is {guess}missing {missing}{doubt}.", _gap(story)]
     elif story.verdict == NOTHING_MISSING or not faults:
         return _nothing(story)
     else:
@@ -71,6 +74,15 @@ def format_gap(gap: float, story: Story) -> str:
 def describe_effect(effect: str) -> str:
     """An effect or a fault in a few plain words; empty where none are known."""
     return EFFECTS[effect].summary if effect in EFFECTS else ""
+
+
+def describe_size(one: Finding) -> str:
+    """How large a finding is and how likely it is right: ``major, 93 % likely``."""
+    if one.kind == FAULT:
+        return "damage to the log"
+    if one.probability > ALMOST_SURE:
+        return f"{one.size}, over 99 % likely"
+    return f"{one.size}, {100.0 * one.probability:.0f} % likely"
 
 
 def describe_parameter(effect: str, parameter: str) -> str:

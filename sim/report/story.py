@@ -23,8 +23,10 @@ from sim.plot.table import Table
 from sim.reconcile.story import AMBIGUOUS, UNEXPLAINED, Finding, Story
 from sim.reconcile.story_text import (
     FAULT,
+    MINOR,
     describe_effect,
     describe_parameter,
+    describe_size,
     format_estimate,
     format_gap,
     list_inspections,
@@ -42,7 +44,8 @@ class FindingText:
     Args:
         name: with its look-alikes.
         summary: what it is, in a few words.
-        size: ``major``, ``minor`` or ``damage to the log``.
+        leads: whether it is more than a minor effect.
+        size: ``major`` or ``minor`` and how likely it is, or ``damage to the log``.
         sentence: what it does.
         parameters: name, value, error, unit, what it means.
         gap: from where to where it brings the gap; empty for damage.
@@ -52,6 +55,7 @@ class FindingText:
 
     name: str
     summary: str
+    leads: bool
     size: str
     sentence: str
     parameters: tuple[tuple[str, str, str, str, str], ...]
@@ -134,7 +138,8 @@ def _told(one: Finding, story: Story) -> FindingText:
     return FindingText(
         " or ".join([one.effect, *one.ambiguous_with]),
         describe_effect(one.effect),
-        "damage to the log" if fault else one.size,
+        fault or one.size != MINOR,
+        describe_size(one),
         one.sentence,
         tuple(
             (

@@ -12,6 +12,7 @@ from rich.text import Text
 from sim.reconcile.story import Finding, Story
 from sim.reconcile.story_text import (
     FAULT,
+    describe_size,
     format_gap,
     format_parameter,
     list_inspections,
@@ -94,9 +95,9 @@ def _console() -> Console:
 
 
 def _finding(say: _Sayer, one: Finding, story: Story) -> None:
-    size = "damage to the log" if one.kind == FAULT else one.size
     say("")
-    say(f"{' or '.join([one.effect, *one.ambiguous_with])} ({size})", style="bold")
+    name = " or ".join([one.effect, *one.ambiguous_with])
+    say(f"{name} ({describe_size(one)})", style="bold")
     say(one.sentence, indent=2)
     for name, estimate in one.parameters.items():
         say(format_parameter(name, estimate), indent=2)

@@ -1,0 +1,151 @@
+"""How likely it is that an effect of the last model is missing in the base model.
+
+A logistic regression (Hastie, Tibshirani and Friedman, The Elements of Statistical Learning,
+section 4.4) of ten features. Its coefficients stand in ``probability.json``, which
+``tests/benchmarks/learn_probability.py`` makes from logs in which the truth is known.
+"""
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from pathlib import Path
+
+from sim.physics.effects import EFFECTS
+
+FILE = Path(__file__).with_name("probability.json")
+NARROWEST = 0.05  # [1] of the gap: what is beyond it, or beyond its inverse, counts as that
+SIZES = (math.exp(-2.0), math.exp(3.0))  # [everyday sizes] that differ in what they say
+LEAST_STRAYS = 0.5  # [noises of a velocity] the same of a gap
+HALVINGS = 30  # of the range in which an effect's size is searched
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What the search measured of one effect.
+
+    Args:
+        likelihood: ln of the -2 log L that the last model loses without it, at least 0.
+        gap: ln of the validation's velocity gap with it over that without it.
+        size: ln of its size over the largest that is everyday.
+        rival: score of the best other effect that lasts, over its own, in its round, 0 to 1.
+        strays: ln of the last model's gap in noises of a velocity.
+        structure: 1 if the last model leaves more than noise, else 0.
+        once: 1 if it begins at a moment, else 0.
+        behind: ``likelihood`` less the largest of the other effects, 0 at most.
+        leads: 1 if no other effect closes more of the gap, else 0.
+        damaged: 1 if it begins at a moment and the log is damaged, else 0.
+    """
+
+    likelihood: float
+    gap: float
+    size: float
+    rival: float
+    strays: float
+    structure: float
+    once: float
+    behind: float = 0.0
+    leads: float = 1.0
+    damaged: float = 0.0
+
+    @property
+    def features(self) -> tuple[float, ...]:
+        """All of it, in the order of the fields."""
+        return tuple(getattr(self, name) for name in FEATURES)
+
+
+FEATURES = tuple(one.name for one in fields(Evidence))
+
+
+@dataclass(frozen=True)
+class JudgedEffect:
+    """An effect of the last model, and how likely it is right.
+
+    Args:
+        effect: its name.
+        ambiguous_with: other effects that would explain as much.
+        evidence: what was measured of it.
+        probability: that it, or one of the others, is in the mechanism and not in the base model.
+    """
+
+    effect: str
+    ambiguous_with: tuple[str, ...]
+    evidence: Evidence
+    probability: float
+
+
+def probability_of(evidence: Evidence) -> float:
+    """[1] How likely an effect of which this was measured is right."""
+    weights = _read_coefficients()
+    odds = weights["intercept"] + sum(
+        weights[name] * value for name, value in zip(FEATURES, evidence.features, strict=True)
+    )
+    return 1.0 / (1.0 + math.exp(-odds))
+
+
+def log_gap_ratio(with_: float, without: float) -> float:
+    """Ln of a gap over another, within what is told apart; 0 where one of them is not finite."""
+    if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
+        return 0.0
+    return math.log(min(max(with_ / without, NARROWEST), 1.0 / NARROWEST))
+
+
+def log_strays(noises: float) -> float:
+    """Ln of a gap.
+
+    Args:
+        noises: of it [noises of a velocity].
+    """
+    return math.log(max(noises, LEAST_STRAYS))
+
+
+def log_size(effect: str, values: Mapping[str, float]) -> float:
+    """Ln of an effect's size over the largest that is everyday, within ``SIZES``.
+
+    Args:
+        effect: its name.
+        values: of a model, ``effect.parameter`` -> value.
+    """
+    known = EFFECTS[effect]
+
+    def is_ordinary(times: float) -> bool:
+        return known.is_ordinary(
+            {
+                one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / times
+                for one in known.parameters
+            }
+        )
+
+    low, high = map(math.log, SIZES)
+    if is_ordinary(math.exp(low)):
+        return low
+    if not is_ordinary(math.exp(high)):
+        return high
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if is_ordinary(math.exp(middle)) else (middle, high)
+    return high
+
+
+def rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
+    """[1] Score of the best other effect over an effect's own, 0 to 1.
+
+    Args:
+        effect: that was added.
+        score: [of -2 log L] by which it was likelier when it was.
+        tried: candidate of its round -> the same.
+    """
+    own = tried.get(effect, score)
+    others = [
+        other
+        for name, other in tried.items()
+        if name != effect and (EFFECTS[effect].has_onset or not EFFECTS[name].has_onset)
+    ]
+    return min(max(max(others, default=0.0) / max(own, 1.0), 0.0), 1.0)
+
+
+@cache
+def _read_coefficients() -> Mapping[str, float]:
+    found: dict[str, float] = json.loads(FILE.read_text(encoding="utf-8"))["coefficients"]
+    return found

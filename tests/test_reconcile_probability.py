@@ -1,0 +1,100 @@
+"""How likely a finding is right: what each piece of evidence does to it."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sim.physics.effects import EFFECTS
+from sim.reconcile.probability import (
+    FEATURES,
+    FILE,
+    SIZES,
+    Evidence,
+    log_gap_ratio,
+    log_size,
+    probability_of,
+    rival_share,
+)
+
+PLAIN = Evidence(
+    likelihood=5.0, gap=-0.3, size=1.0, rival=0.4, strays=0.2, structure=0.0, once=0.0
+)  # of an effect that is worth 150 and closes a quarter of the gap
+
+
+def test_every_feature_has_its_coefficient():
+    stored = json.loads(FILE.read_text(encoding="utf-8"))
+
+    assert set(stored["coefficients"]) == {"intercept", *FEATURES}
+    assert all(math.isfinite(one) for one in stored["coefficients"].values())
+    assert sum(stored["learnt_from"].values()) > 20 * len(FEATURES)
+
+
+@pytest.mark.parametrize(
+    ("name", "by", "likelier"),
+    [
+        ("likelihood", 1.0, True),
+        ("gap", 0.2, False),  # it closes less of the gap
+        ("size", 1.0, True),
+        ("rival", 0.5, False),
+        ("strays", 1.0, False),
+        ("structure", 1.0, False),
+        ("behind", -1.0, False),
+    ],
+)
+def test_each_piece_of_evidence_counts_as_it_should(name, by, likelier):
+    other = replace(PLAIN, **{name: getattr(PLAIN, name) + by})
+
+    assert (probability_of(other) > probability_of(PLAIN)) is likelier
+
+
+@given(st.lists(st.floats(-50, 50), min_size=len(FEATURES), max_size=len(FEATURES)))
+def test_a_probability_lies_between_0_and_1(values):
+    assert 0.0 <= probability_of(Evidence(*values)) <= 1.0
+
+
+@given(times=st.floats(0.2, 10.0))
+def test_the_size_is_told_in_everyday_sizes(times):
+    # The largest everyday lag, times a factor, is that factor in everyday sizes.
+    lag = EFFECTS["delay"].parameters[0]
+    largest = max(
+        (n for n in range(1, 2000) if EFFECTS["delay"].is_ordinary({lag.name: n * 1e-5})),
+    )
+
+    found = log_size("delay", {f"delay.{lag.name}": times * largest * 1e-5})
+
+    low, high = map(math.log, SIZES)
+    assert low <= found <= high
+    assert found == pytest.approx(math.log(times), abs=0.01)
+
+
+@given(
+    own=st.floats(1.0, 1e5),
+    others=st.dictionaries(
+        st.sampled_from(["heating", "drag", "inertia-change"]), st.floats(-50, 1e6)
+    ),
+)
+def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
+    share = rival_share("battery-sag", own, {"battery-sag": own, **others})
+    lasting = [score for name, score in others.items() if name != "inertia-change"]
+
+    assert 0.0 <= share <= 1.0
+    assert share == pytest.approx(min(max(max(lasting, default=0.0) / own, 0.0), 1.0))
+
+
+@pytest.mark.parametrize(
+    ("with_", "without", "ratio"),
+    [
+        (1.0, 2.0, math.log(0.5)),
+        (2.0, 2.0, 0.0),
+        (0.0, 1.0, math.log(0.05)),
+        (math.inf, 1.0, 0.0),
+        (1.0, math.inf, 0.0),
+        (1.0, 0.0, 0.0),
+    ],
+)
+def test_gaps_that_are_no_numbers_say_nothing(with_, without, ratio):
+    assert log_gap_ratio(with_, without) == pytest.approx(ratio)
