@@ -36,6 +36,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.core.errors import BadRequest
+from sim.core.units import find_unit
 from sim.physics.effects import EFFECTS
 from sim.plot.story import (
     make_findings_table,
@@ -339,12 +340,41 @@ def test_suspects_and_the_gap_are_told_in_numbers():
     assert shrinking.table.header[1] == "gap [ft/s]"
 
 
+@pytest.mark.parametrize(
+    ("probability", "size", "missing"),
+    [
+        (1.0, "major, over 99 % likely", "is missing drag"),
+        (0.9, "major, 90 % likely", "is missing drag"),
+        (0.6, "major, 60 % likely", "is probably missing drag"),
+    ],
+)
+def test_a_finding_says_how_likely_it_is(probability, size, missing):
+    unsure = story(replace(DRAG, probability=probability))
+
+    assert make_findings_table(unsure).rows[0][1] == size
+    assert missing in write_headline(unsure)
+    assert unsure.to_json()["findings"][0]["probability"] == probability
+
+
+def test_the_gap_is_told_in_the_units_of_the_log_and_of_its_top_speed():
+    one = STORIES["nothing missing"]
+    feet = find_unit(one.shown.units)
+    top = max(run.top_speed for run in one.shown.runs)
+
+    said = re.search(r"\(([\d.]+) ft/s, ([\d.]+)% of the top speed\)", write_headline(one))
+
+    assert float(said[1]) == pytest.approx(one.gap_after, rel=0.02)
+    assert float(said[2]) == pytest.approx(100.0 * one.gap_after * feet.si / top, abs=0.06)
+
+
 def test_the_table_has_a_row_for_each_finding():
     rows = make_findings_table(STORIES["damage and drag"]).rows
 
     assert [row[:2] for row in rows] == [
-        ("encoder-slip", "damage to the log"), ("drag", "major"), ("battery-sag", "minor"),
-    ]  # fmt: skip
+        ("encoder-slip", "damage to the log"),
+        ("drag", "major, over 99 % likely"),
+        ("battery-sag", "minor, over 99 % likely"),
+    ]
     assert rows[1][2] == "drag 0.1123 ± 0.0021 V·s²/ft²"
     assert rows[2][2] == "share 0.040 ± 0.01"
 

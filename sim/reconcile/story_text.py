@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 
+from sim.core.units import find_unit
 from sim.physics.effects import EFFECTS
 from sim.reconcile.story import (
     AMBIGUOUS,
@@ -147,7 +148,8 @@ def _nothing(story: Story) -> str:
 
 
 def _error(story: Story) -> str:
-    return f"The simulation error is {format_gap(story.gap_after, story)} times the sensor noise."
+    gap = format_gap(story.gap_after, story)
+    return f"The simulation error is {gap} times the sensor noise{_in_speed(story)}."
 
 
 def _gap(story: Story) -> str:
@@ -160,8 +162,18 @@ def _gap(story: Story) -> str:
     if len(added) > 1 and list_effect_names(story, MINOR):
         with_ = "With everything that was found, the simulation error"
     if is_gap_narrower(story.gap_before, story.gap_after):
-        return f"{with_} drops from {before} to {after} times the sensor noise."
+        return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."
     return f"{with_} does not drop: {before} times the sensor noise before, {after} times after."
+
+
+def _in_speed(story: Story) -> str:
+    """The last gap as a speed and a share of the top speed, in brackets; empty if it is neither."""
+    top = max((run.top_speed for run in story.shown.runs), default=0.0)
+    if not (math.isfinite(story.gap_after) and top > 0.0):
+        return ""
+    unit = find_unit(story.shown.units)
+    share = story.gap_after * unit.si / top
+    return f" ({story.gap_after:.2g} {unit.symbol}/s, {share:.1%} of the top speed)"
 
 
 def _either(one: Finding) -> str:
