@@ -46,8 +46,10 @@ PAGES = (
 )
 PICTURES = (".ci/pictures/*", "tests/benchmarks/*.svg")
 KEPT = ROOT / "build" / "lessons"
-LINK = re.compile(r'(?P<name>href|src)="(?P<target>[^"]*)"')
-ANCHOR = re.compile(r'<a href="(?P<target>[^"]*)">(?P<text>.*?)</a>', re.DOTALL)
+SOURCE = re.compile(r' src="(?!data:)(?P<target>[^"]*)"')
+ANCHOR = re.compile(
+    r'<a (?P<before>[^>]*)href="(?P<target>[^"]*)"(?P<after>[^>]*)>(?P<text>.*?)</a>', re.DOTALL
+)
 HEADING = re.compile(r"<h([1-6])>(.*?)</h\1>", re.DOTALL)
 PICTURE = re.compile(r'<img alt="([^"]*)" src="data:image/svg\+xml;base64,([^"]+)"')
 ABLE = re.compile(r"\*\*At the end you can\*\*\n\n- (.+?)[;.]?\n- ", re.DOTALL)
@@ -185,7 +187,8 @@ def resolve_links(html: str, *, page: Page, config: MkDocsConfig, files: Files) 
             return target
         path = (folder / unquote(parts.path)).resolve()
         name = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else parts.path
-        file = files.get_file_from_path(re.sub(r"^(lessons/\w+)\.ipynb$", r"\1.md", name))
+        page_name = re.sub(r"^(lessons/\w+)\.ipynb$", r"\1.md", name.removeprefix("sim/docs/"))
+        file = files.get_file_from_path(page_name)
         if file is not None:
             return file.url_relative_to(page.file) + (f"#{parts.fragment}" * bool(parts.fragment))
         if not path.exists() or not path.is_relative_to(ROOT):
@@ -194,15 +197,17 @@ def resolve_links(html: str, *, page: Page, config: MkDocsConfig, files: Files) 
         return f"{repository}/blob/main/{name}" if repository else None
 
     def replace(link: re.Match[str]) -> str:
-        found = find(link["target"])
-        return link["text"] if found is None else f'<a href="{found}">{link["text"]}</a>'
-
-    def replace_source(link: re.Match[str]) -> str:
-        if link["name"] == "href" or link["target"].startswith("data:"):
+        if "download" in link["after"]:
             return link.group()
-        return f'src="{find(link["target"])}"'
+        found = find(link["target"])
+        if found is None:
+            return link["text"]
+        return f'<a {link["before"]}href="{found}"{link["after"]}>{link["text"]}</a>'
 
-    return LINK.sub(replace_source, ANCHOR.sub(replace, html))
+    def replace_source(source: re.Match[str]) -> str:
+        return f' src="{find(source["target"])}"'
+
+    return SOURCE.sub(replace_source, ANCHOR.sub(replace, html))
 
 
 def say_how_to_run(page: Page, config: MkDocsConfig) -> str:
