@@ -39,12 +39,15 @@ PAGES = (
     "sim/ARCHITECTURE.md",
     "sim/decisions/*.md",
     "tests/benchmarks/COMPARISON.md",
+    "tests/benchmarks/*.svg",
     "exercises/*/README.md",
     "INSTRUCTORS.md",
     "CONTRIBUTING.md",
     "CHANGELOG.md",
 )
-PICTURES = (".ci/pictures/*", "tests/benchmarks/*.svg")
+PICTURES = ".ci/pictures/*"
+DOCS = ROOT / "sim" / "docs"
+MKDOCS_OWN = ("index.md", "reference.md")  # rendered by MkDocs: they hold what only it understands
 KEPT = ROOT / "build" / "lessons"
 SOURCE = re.compile(r' src="(?!data:)(?P<target>[^"]*)"')
 ANCHOR = re.compile(
@@ -75,10 +78,12 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
     """Add the pages and pictures that stand elsewhere under their own paths, and the lessons."""
-    for pattern in (*PAGES, *PICTURES):
+    for pattern in PAGES:
         for path in ROOT.glob(pattern):
             name = path.relative_to(ROOT).as_posix()
             files.append(File.generated(config, name, abs_src_path=str(path)))
+    for path in ROOT.glob(PICTURES):  # a server of pages may leave out folders with a dot
+        files.append(File.generated(config, f"pictures/{path.name}", abs_src_path=str(path)))
     for path in list_lessons():
         notebook = get_notebook(path, run=config.extra["run_lessons"])
         text = "\n\n".join(_join_cells(notebook))
@@ -178,7 +183,8 @@ def resolve_links(html: str, *, page: Page, config: MkDocsConfig, files: Files) 
 
     A link that leads nowhere is a warning, which fails a strict build.
     """
-    folder = (ROOT / page.file.src_uri).parent
+    own = (DOCS / page.file.src_uri).is_file()
+    folder = DOCS if own else (ROOT / page.file.src_uri).parent
 
     def find(target: str) -> str | None:
         """Where a link leads on the site; None for a file that has no page."""
@@ -268,7 +274,7 @@ def name_headings(html: str) -> tuple[str, list[dict[str, object]]]:
 
 def _is_ours(page: Page) -> bool:
     """Whether this file renders a page, and not MkDocs."""
-    return page.file.generated_by is not None
+    return page.file.src_uri not in MKDOCS_OWN
 
 
 def _number(path: Path) -> tuple[int, str]:

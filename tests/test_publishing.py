@@ -17,6 +17,7 @@ from nbclient import NotebookClient
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+from grader.__main__ import NEWEST
 from grader.cli import grade
 from sim.cli import sysid
 
@@ -236,3 +237,12 @@ def test_a_command_says_its_version(name):
     )  # fmt: skip
 
     assert done.stdout.strip().endswith(f"version {PROJECT['version']}")
+
+
+def test_the_newest_python_is_said_alike_everywhere():
+    newest = ".".join(map(str, NEWEST))
+    classified = [one.rpartition(" ")[2] for one in PROJECT["classifiers"] if "3." in one]
+
+    assert classified[-1] == newest
+    assert f"Python 3.11 to {newest}" in (ROOT / "README.md").read_text("utf-8")
+    assert "<" not in PROJECT["requires-python"]  # pip would silently look for an older release

@@ -16,7 +16,8 @@ from mkdocs.structure.files import Files
 
 ROOT = Path(__file__).resolve().parents[1]
 LOADS = {  # what a browser fetches by itself
-    "img": "src", "script": "src", "iframe": "src", "source": "src", "video": "src", "object": "data",
+    "img": ("src", "srcset"), "source": ("src", "srcset"), "script": ("src",), "iframe": ("src",),
+    "video": ("src", "poster"), "object": ("data",),
 }  # fmt: skip
 LOADING_LINKS = {"stylesheet", "icon", "shortcut icon", "preload", "manifest", "preconnect"}
 
@@ -37,8 +38,7 @@ class SitePage(HTMLParser):
             self.links.append(given["href"])
         if tag == "img" and not given.get("alt"):
             self.wordless.append(given.get("src", "")[:60])
-        if given.get(LOADS.get(tag)):
-            self.loaded.append(given[LOADS[tag]])
+        self.loaded += [given[name] for name in LOADS.get(tag, ()) if given.get(name)]
         if tag == "link" and given.get("rel") in LOADING_LINKS:
             self.loaded.append(given["href"])
 
@@ -132,6 +132,19 @@ def test_a_page_loads_nothing_from_elsewhere(site):
 
     assert elsewhere == set()
     assert styles == []
+
+
+def test_what_a_page_loads_is_there(site):
+    folder, pages = site
+
+    assert {
+        f"{name}: {loaded}"
+        for name, page in pages.items()
+        for loaded in page.loaded
+        if not loaded.startswith("data:")
+        and name != "404.html"
+        and not ((folder / name).parent / urlparse(loaded).path).is_file()
+    } == set()
 
 
 def test_every_picture_has_words(site):
