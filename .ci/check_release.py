@@ -1,6 +1,8 @@
 """Whether a tag may be published: it names the version, and the changelog has it with its date.
 
     python .ci/check_release.py v0.1.0
+
+Exit code 0 if it may, else 2 with one line that says why.
 """
 
 import re

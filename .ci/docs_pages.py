@@ -1,7 +1,7 @@
 """A hook of MkDocs: what stands beside the code is part of the site, too.
 
-Pages and exercises are rendered as GitHub shows them, and lessons as a notebook shows them, executed.
-A lesson whose outputs the tests kept in build/lessons/ is not run again.
+Pages and exercises are rendered as GitHub shows them, and lessons as executed notebooks. A lesson
+whose outputs the tests kept in build/lessons/ is not run again.
 """
 
 import base64
@@ -86,7 +86,7 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
         files.append(File.generated(config, f"pictures/{path.name}", abs_src_path=str(path)))
     for path in list_lessons():
         notebook = get_notebook(path, run=config.extra["run_lessons"])
-        text = "\n\n".join(_join_cells(notebook))
+        text = "\n\n".join(join_cells(notebook))
         files.append(File.generated(config, f"lessons/{path.stem}.md", content=text))
         files.append(File.generated(config, f"lessons/{path.name}", abs_src_path=str(path)))
         if picture := PICTURE.search(text):
@@ -150,7 +150,7 @@ def get_notebook(path: Path, *, run: bool) -> object:
 
 def make_card(path: Path) -> str:
     """The first page's entry of a lesson: its picture, its title, what one can do afterwards."""
-    text = "\n\n".join(_join_cells(get_notebook(path, run=False)))
+    text = "\n\n".join(join_cells(get_notebook(path, run=False)))
     title = re.search(r"^# (.+)$", text, re.MULTILINE)
     able, picture = ABLE.search(text), PICTURE.search(text)
     shown = f'<img alt="{picture[1]}" src="lessons/{path.stem}.svg">' if picture else ""
@@ -230,7 +230,7 @@ def say_how_to_run(page: Page, config: MkDocsConfig) -> str:
     )
 
 
-def _join_cells(notebook: object) -> Iterator[str]:
+def join_cells(notebook: object) -> Iterator[str]:
     """What a page shows of a notebook, as markdown with blocks of HTML without empty lines."""
     for is_markdown, text in render_cells(notebook):
         yield text if is_markdown else f"<div class='cell'>{_without_empty_lines(text)}</div>"
@@ -238,7 +238,9 @@ def _join_cells(notebook: object) -> Iterator[str]:
 
 def _without_empty_lines(html: str) -> str:
     """HTML that Markdown leaves alone up to its end."""
-    return re.sub(r"\n(?=[ \t]*\n)", "\n&#8203;", html).replace('class="code"', 'class="highlight"')
+    return re.sub(r"\n(?=[ \t]*\n)", "\n<span></span>", html).replace(
+        'class="code"', 'class="highlight"'
+    )
 
 
 def _highlight(code: str, language: str, _: str) -> str:
@@ -246,7 +248,8 @@ def _highlight(code: str, language: str, _: str) -> str:
         lexer = get_lexer_by_name(language or "text")
     except ClassNotFound:
         return ""
-    return f'<pre class="highlight"><code>{highlight(code, lexer, HtmlFormatter(nowrap=True))}</code></pre>'
+    spans = highlight(code, lexer, HtmlFormatter(nowrap=True))
+    return f'<pre class="highlight"><code>{spans}</code></pre>'
 
 
 def name_headings(html: str) -> tuple[str, list[dict[str, object]]]:

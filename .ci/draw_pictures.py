@@ -1,11 +1,11 @@
 """Draw the pictures of the README and of the site's first page: .ci/pictures/.
 
-    python .ci/draw_pictures.py          of a log of the bench: drag.svg, which moves, and its last state
-    python .ci/draw_pictures.py --page   also the page of `sysid open`, which takes Chromium: open-*.png
+    python .ci/draw_pictures.py          drag.svg, which moves, and drag-still.svg, its end
+    python .ci/draw_pictures.py --page   also open-*.png, the page of `sysid open`, with Chromium
 
-The moving picture is plain SVG. It follows the reader's light or dark colors, and stands still where
-the reader asked for less motion; pages offer the still one to them, too, since a browser may not tell
-a picture about this wish.
+The moving picture is plain SVG of a log of the bench. It follows the reader's light or dark
+colors, and stands still where the reader asked for less motion; pages offer the still one to them,
+too, since a browser may not tell a picture about this wish.
 """
 
 import shutil
@@ -40,13 +40,14 @@ TITLES = ("slow ramp: quasistatic-forward", "sudden step: dynamic-forward")
 WIDE, HIGH, TOP, LEFT, APART = 316, 190, 44, 46, 380  # of a panel and its place [px]
 SHOWN = 3.4  # [m/s] at the top of a panel
 POINTS = 70  # of a curve
-TRACK, TRACKS_AT = 150, 296  # [px] of a slider, and how far down
+TRACK, TRACKS_AT, SLIDERS = 150, 296, 240  # [px] of a slider, how far down, how far apart
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 VIEW = {"width": 1200, "height": 820}  # [px] of the page's picture
 STYLE = """
 svg { --ink: #222; --quiet: #666; --line: #ccc; --paper: #fff; --seen: #0072b2; --said: #d55e00; }
 @media (prefers-color-scheme: dark) {
-  svg { --ink: #eee; --quiet: #aaa; --line: #555; --paper: #14181d; --seen: #56b4e9; --said: #ff9d57; }
+  svg { --ink: #eee; --quiet: #aaa; --line: #555; --paper: #14181d; }
+  svg { --seen: #56b4e9; --said: #ff9d57; }
 }
 text { font: 13px system-ui, sans-serif; fill: var(--ink); }
 .quiet { fill: var(--quiet); font-size: 11px; }
@@ -84,25 +85,25 @@ def draw_drag(*, moves: bool = True) -> str:
     steps = list_steps(fitted)[0 if moves else -1 :]
     frames = [draw_step(gains, shown, moved=moved) for gains, moved in steps]
     words = (
-        "Two panels of velocity over time with the measured curve of a swerve drive, a slow ramp and "
-        "a sudden step. Below them are sliders. One gain after the other is dragged from a guess to "
-        f"its fitted value (kS {fitted['kS']:.2f} V, kV {fitted['kV']:.2f} V·s/m, "
-        f"kA {fitted['kA']:.2f} V·s²/m), and the simulated curve moves until it lies on the measured "
-        "one."
+        "Two panels of velocity over time with the measured curve of a swerve drive, a slow ramp "
+        "and a sudden step. Below them are sliders. One gain after the other is dragged from a "
+        f"guess to its fitted value (kS {fitted['kS']:.2f} V, kV {fitted['kV']:.2f} V·s/m, "
+        f"kA {fitted['kA']:.2f} V·s²/m), and the simulated curve moves until it lies on the "
+        "measured one."
+    )
+    head = (
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 350" role="img" '
+        'aria-labelledby="title words">'
     )
     return "\n".join(
         (
-            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 350" role="img" '
-            'aria-labelledby="title words">',
+            head,
             '<title id="title">Gains dragged until the simulation fits the log</title>',
             f'<desc id="words">{escape(words)}</desc>',
             f"<style>{STYLE}{time_steps(len(frames))}</style>",
             '<rect width="760" height="350" rx="8" style="fill: var(--paper)"/>',
             *draw_ground(shown),
-            *(
-                f'<g class="step s{number}">{frame}</g>'
-                for number, frame in enumerate(frames)
-            ),
+            *(f'<g class="step s{number}">{frame}</g>' for number, frame in enumerate(frames)),
             "</svg>\n",
         )
     )
@@ -121,18 +122,20 @@ def list_steps(fitted: dict[str, float]) -> list[tuple[dict[str, float], str]]:
 
 
 def time_steps(count: int) -> str:
-    """The CSS that shows one picture after the other, and the last one where motion is unwelcome."""
+    """The CSS that shows one picture after the other; the last where motion is unwelcome."""
     if count == 1:
         return ".s0 { visibility: visible; }"
     each = 100.0 * MOVING / (count - 1)
+    shown, hidden = "{ visibility: visible; }", "{ visibility: hidden; }"
     rules = [
-        f"@keyframes show {{ 0% {{ visibility: visible; }} {each:.3f}% {{ visibility: hidden; }} }}",
-        f"@keyframes stay {{ 0% {{ visibility: hidden; }} {100.0 * MOVING:.3f}% "
-        "{ visibility: visible; } }",
+        f"@keyframes show {{ 0% {shown} {each:.3f}% {hidden} }}",
+        f"@keyframes stay {{ 0% {hidden} {100.0 * MOVING:.3f}% {shown} }}",
     ]
     for number in range(count - 1):
         delay = PERIOD * (each * number / 100.0 - 1.0)
-        rules.append(f".s{number} {{ animation: show {PERIOD:g}s step-end {delay:.3f}s infinite; }}")
+        rules.append(
+            f".s{number} {{ animation: show {PERIOD:g}s step-end {delay:.3f}s infinite; }}"
+        )
     rules.append(f".s{count - 1} {{ animation: stay {PERIOD:g}s step-end infinite; }}")
     rules.append(
         "@media (prefers-reduced-motion: reduce) { .step { animation: none; } "
@@ -159,8 +162,10 @@ def draw_ground(shown: Log) -> list[str]:
             f'<text class="quiet" x="{left + WIDE - 22}" y="{TOP + HIGH + 15}">{seconds:g} s</text>'
         )
         drawn.append(f'<path class="seen" d="{draw_curve(run.time, run.velocity, place)}"/>')
-    for place in range(len(TURNS)):
-        drawn.append(f'<path class="track" d="M{LEFT + place * 240} {TRACKS_AT + 16}h{TRACK}"/>')
+    drawn += [
+        f'<path class="track" d="M{LEFT + place * SLIDERS} {TRACKS_AT + 16}h{TRACK}"/>'
+        for place in range(len(TURNS))
+    ]
     return drawn
 
 
@@ -173,7 +178,7 @@ def draw_step(gains: dict[str, float], shown: Log, *, moved: str) -> str:
         inside = run.time - run.time[0] <= TESTS[run.test]
         missed.append((track.velocity - run.velocity)[inside])
     for place, name in enumerate(UNITS):
-        x = LEFT + place * 240
+        x = LEFT + place * SLIDERS
         knob = x + TRACK * gains[name] / MOST[name]
         strong = ' class="strong"' if name == moved else ""
         drawn.append(
@@ -182,7 +187,9 @@ def draw_step(gains: dict[str, float], shown: Log, *, moved: str) -> str:
             f'<text{strong} x="{x}" y="{TRACKS_AT}">{name} {gains[name]:.2f} {UNITS[name]}</text>'
         )
     off = float(np.sqrt(np.mean(np.concatenate(missed) ** 2)))
-    drawn.append(f'<text class="strong" x="{LEFT + APART + 178}" y="26">off by {off:.2f} m/s</text>')
+    drawn.append(
+        f'<text class="strong" x="{LEFT + APART + 178}" y="26">off by {off:.2f} m/s</text>'
+    )
     return "".join(drawn)
 
 

@@ -10,7 +10,9 @@ from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
 from urllib.parse import unquote, urlparse
+from xml.etree import ElementTree as ET
 
+import nbformat
 import pytest
 from mkdocs.structure.files import Files
 
@@ -92,7 +94,7 @@ def lost_links(folder, pages):
 
 
 def test_every_lesson_and_every_exercise_has_a_page_that_the_navigation_leads_to(site):
-    folder, pages = site
+    _, pages = site
     expected = {f"lessons/{path.stem}.html" for path in (ROOT / "lessons").glob("*.py")}
     expected |= {
         f"exercises/{path.parent.name}/index.html"
@@ -180,7 +182,11 @@ def test_a_known_address_gives_each_lesson_a_link_to_colab(hook):
         ('<a href="sim/docs/guide.md">g</a>', "g", False),
         ('<a href="sim/fit/result.py">code</a>', "code", False),
         ('<a href="sim/fit/never.py">code</a>', "code", True),
-        ('<a href="https://docs.wpilib.org">w</a>', '<a href="https://docs.wpilib.org">w</a>', False),
+        (
+            '<a href="https://docs.wpilib.org">w</a>',
+            '<a href="https://docs.wpilib.org">w</a>',
+            False,
+        ),
         ('<img src="none.svg" alt="x">', None, True),
     ],
 )
@@ -216,8 +222,6 @@ def test_two_headings_of_one_name_have_two_anchors(hook):
 
 
 def test_a_kept_notebook_is_used_until_the_lesson_changes(tmp_path):
-    import nbformat  # noqa: PLC0415 - only here
-
     from grader.edition.notebook_execution import find_kept_notebook, keep_notebook  # noqa: PLC0415 - with it
 
     path = tmp_path / "01_motor_model.ipynb"
@@ -230,3 +234,49 @@ def test_a_kept_notebook_is_used_until_the_lesson_changes(tmp_path):
     assert find_kept_notebook(path, folder=tmp_path / "kept").cells[0].source == "ran"
     path.write_text(path.read_text("utf-8") + "\n", "utf-8")
     assert find_kept_notebook(path, folder=tmp_path / "kept") is None
+
+
+def test_code_of_a_cell_with_empty_lines_stays_one_block_that_can_be_copied(hook):
+    notebook = nbformat.v4.new_notebook(
+        cells=[
+            nbformat.v4.new_markdown_cell("# Lesson"),
+            nbformat.v4.new_code_cell("a = 1\n\n\n# # no heading\nb = 2"),
+        ]
+    )
+
+    html = hook.render_markdown("\n\n".join(hook.join_cells(notebook)))
+    code = html.partition("<pre>")[2].partition("</pre>")[0]
+
+    assert re.sub(r"<[^>]+>", "", code).strip() == "a = 1\n\n\n# # no heading\nb = 2"
+    assert html.count("<h1>") == 1
+
+
+def numbers_and_words(text):
+    """The numbers of a text, and the text without them."""
+    found = re.compile(r"-?\d+(?:\.\d+)?")
+    return [float(one) for one in found.findall(text)], found.sub("#", text)
+
+
+@pytest.mark.parametrize(("name", "moves"), [("drag.svg", True), ("drag-still.svg", False)])
+def test_the_moving_picture_is_what_its_command_draws(name, moves):
+    spec = importlib.util.spec_from_file_location("pictures", ROOT / ".ci" / "draw_pictures.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+
+    kept = (ROOT / ".ci" / "pictures" / name).read_text("utf-8")
+    (now, words), (then, words_then) = map(numbers_and_words, (module.draw_drag(moves=moves), kept))
+
+    assert words == words_then, "run  python .ci/draw_pictures.py"
+    # another processor rounds otherwise: a pixel is less than anybody sees
+    assert now == pytest.approx(then, abs=1.0)
+    ET.fromstring(kept)  # noqa: S314 - our own file
+    assert kept.count('class="step') == (38 if moves else 1)
+    assert ("prefers-reduced-motion" in kept) == moves
+    assert "prefers-color-scheme: dark" in kept
+    assert kept.endswith("off by 0.01 m/s</text></g>\n</svg>\n")
+    assert "http" not in kept.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_pictures_of_the_readme_are_small():
+    for path in (ROOT / ".ci" / "pictures").iterdir():
+        assert path.stat().st_size < 200_000
