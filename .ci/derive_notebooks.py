@@ -4,6 +4,7 @@
     python .ci/derive_notebooks.py --check    only say which are out of date; exit code 1 if any is
 
 The text is what people edit. A notebook holds no outputs, and deriving it again changes nothing.
+Each begins with a folded cell that installs the course where a notebook is opened alone.
 """
 
 import hashlib
@@ -19,12 +20,23 @@ LESSONS = Path(__file__).resolve().parents[1] / "lessons"
 # A cell that only asks: its code repeats the question, and a quick check's holds the answer.
 ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
 KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
+INSTALL = """\
+# Installs the course where it is missing, for example on Colab.
+from importlib.util import find_spec
+
+if find_spec("grader") is None:
+    %pip install --quiet "sysid-course[course]"
+"""
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def derive(text: Path) -> nbformat.NotebookNode:
-    """The notebook of a lesson's text: no outputs; what holds an answer or repeats is collapsed."""
+    """The notebook of a lesson's text, without outputs.
+
+    Folded are the cell that installs the course, and what holds an answer or repeats a picture.
+    """
     notebook = jupytext.read(text, fmt="py:percent")
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.strip()))
     notebook.metadata = nbformat.from_dict(
         {"kernelspec": KERNEL, "language_info": {"name": "python"}}
     )
@@ -35,7 +47,7 @@ def derive(text: Path) -> nbformat.NotebookNode:
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
         cell.metadata = nbformat.from_dict({})
-        if cell.cell_type == "code" and ASKS.search(cell.source):
+        if cell.cell_type == "code" and (ASKS.search(cell.source) or cell is notebook.cells[0]):
             cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
     for shown, words, code in zip(
         notebook.cells, notebook.cells[1:], notebook.cells[2:], strict=False

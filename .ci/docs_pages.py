@@ -1,38 +1,286 @@
-"""A hook of MkDocs: the pages that stand beside the code are pages of the documentation, too."""
+"""A hook of MkDocs: what stands beside the code is part of the site, too.
 
+Pages and exercises are rendered as GitHub shows them, and lessons as executed notebooks. A lesson
+whose outputs the tests kept in build/lessons/ is not run again.
+"""
+
+import base64
+import logging
 import re
+import sys
+from collections.abc import Iterator
+from html import escape, unescape
 from pathlib import Path
-from urllib.parse import urlparse
+from urllib.parse import unquote, urlparse
 
+from markdown_it import MarkdownIt
 from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
+from mkdocs.structure.toc import get_toc
+from pygments import highlight
+from pygments.formatters import HtmlFormatter
+from pygments.lexers import get_lexer_by_name
+from pygments.util import ClassNotFound
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = ("sim/ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md")
-DECISIONS = "sim/decisions/*.md"
-LINK = re.compile(r"\[([^\]]+)\]\(([^)#\s]+)\)")
+sys.path.insert(0, str(ROOT))
+
+from grader.edition.notebook_execution import (  # noqa: E402 - the course in this folder
+    execute_notebook,
+    find_kept_notebook,
+    keep_notebook,
+)
+from grader.edition.notebook_html import render_cells  # noqa: E402 - the same
+from sim.core.errors import BadRequest  # noqa: E402 - the same
+
+PAGES = (
+    "sim/ARCHITECTURE.md",
+    "sim/decisions/*.md",
+    "tests/benchmarks/COMPARISON.md",
+    "tests/benchmarks/*.svg",
+    "exercises/*/README.md",
+    "INSTRUCTORS.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+)
+PICTURES = ".ci/pictures/*"
+DOCS = ROOT / "sim" / "docs"
+MKDOCS_OWN = ("index.md", "reference.md")  # rendered by MkDocs: they hold what only it understands
+KEPT = ROOT / "build" / "lessons"
+SOURCE = re.compile(r' src="(?!data:)(?P<target>[^"]*)"')
+ANCHOR = re.compile(
+    r'<a (?P<before>[^>]*)href="(?P<target>[^"]*)"(?P<after>[^>]*)>(?P<text>.*?)</a>', re.DOTALL
+)
+HEADING = re.compile(r"<h([1-6])>(.*?)</h\1>", re.DOTALL)
+PICTURE = re.compile(r'<img alt="([^"]*)" src="data:image/svg\+xml;base64,([^"]+)"')
+ABLE = re.compile(r"\*\*At the end you can\*\*\n\n- (.+?)[;.]?\n- ", re.DOTALL)
+LESSONS_HERE = "<!-- lessons -->"  # in the first page: where their cards stand
+log = logging.getLogger("mkdocs.hooks.docs_pages")  # a warning here fails a strict build
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Put each lesson and each exercise into the navigation, in the order of their numbers."""
+    patterns = {
+        "lessons/*": [f"lessons/{path.stem}.md" for path in list_lessons()],
+        "exercises/*": [
+            path.relative_to(ROOT).as_posix()
+            for path in sorted((ROOT / "exercises").glob("*/README.md"), key=_number)
+        ],
+    }
+    for section in config.nav or ():
+        for name, pages in section.items():
+            if isinstance(pages, str) and pages in patterns:
+                section[name] = patterns[pages]
+    return config
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
-    """Add the pages that stand elsewhere in the project under their own paths."""
-    for name in (*PAGES, *(path.relative_to(ROOT).as_posix() for path in ROOT.glob(DECISIONS))):
-        files.append(File.generated(config, name, abs_src_path=str(ROOT / name)))
+    """Add the pages and pictures that stand elsewhere under their own paths, and the lessons."""
+    for pattern in PAGES:
+        for path in ROOT.glob(pattern):
+            name = path.relative_to(ROOT).as_posix()
+            files.append(File.generated(config, name, abs_src_path=str(path)))
+    for path in ROOT.glob(PICTURES):  # a server of pages may leave out folders with a dot
+        files.append(File.generated(config, f"pictures/{path.name}", abs_src_path=str(path)))
+    for path in list_lessons():
+        notebook = get_notebook(path, run=config.extra["run_lessons"])
+        text = "\n\n".join(join_cells(notebook))
+        files.append(File.generated(config, f"lessons/{path.stem}.md", content=text))
+        files.append(File.generated(config, f"lessons/{path.name}", abs_src_path=str(path)))
+        if picture := PICTURE.search(text):
+            drawing = base64.b64decode(picture[2])
+            files.append(File.generated(config, f"lessons/{path.stem}.svg", content=drawing))
     return files
 
 
 def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001 - the hook's own signature
-    """Leave the text of a link to a file of the project that is no page here."""
-    folder = (ROOT / page.file.src_uri).parent
+    """Leave MkDocs only the title of a page that it does not render itself."""
+    if _is_ours(page):
+        title = re.search(r"^# (.+)$", markdown, re.MULTILINE)
+        page.meta["source"] = markdown
+        return f"# {title[1]}\n" if title else ""
+    return markdown.replace(LESSONS_HERE, "".join(map(make_card, list_lessons())))
 
-    def keep(link: re.Match[str]) -> str:
-        text, target = link.groups()
-        if urlparse(target).scheme:
-            return link.group()
-        path = (folder / target).resolve()
+
+def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Render such a page, check its links, and make its table of contents."""
+    if not _is_ours(page):
+        return html
+    rendered = render_markdown(page.meta.pop("source"))
+    if page.file.src_uri.startswith("lessons/"):
+        rendered = rendered.replace("</h1>", f"</h1>{say_how_to_run(page, config)}", 1)
+    rendered, tokens = name_headings(rendered)
+    page.toc = get_toc(tokens)
+    page.present_anchor_ids = set(re.findall(r'\bid="([^"]+)"', rendered))
+    return resolve_links(rendered, page=page, config=config, files=files)
+
+
+def list_lessons() -> list[Path]:
+    """The notebooks, in order."""
+    return sorted((ROOT / "lessons").glob("*.ipynb"))
+
+
+def get_notebook(path: Path, *, run: bool) -> object:
+    """A lesson's notebook with its outputs.
+
+    Args:
+        path: of the notebook.
+        run: whether to execute it where no outputs of it are kept; else it has none.
+
+    Raises:
+        PluginError: a cell fails.
+    """
+    import nbformat  # noqa: PLC0415 - with nbclient, as where it is executed
+
+    kept = find_kept_notebook(path, folder=KEPT)
+    if kept is not None:
+        return kept
+    if not run:
+        return nbformat.read(path, 4)
+    log.info("running %s", path.stem)
+    try:
+        notebook = execute_notebook(path)
+    except BadRequest as error:
+        raise PluginError(str(error)) from None
+    keep_notebook(notebook, path, folder=KEPT)
+    return notebook
+
+
+def make_card(path: Path) -> str:
+    """The first page's entry of a lesson: its picture, its title, what one can do afterwards."""
+    text = "\n\n".join(join_cells(get_notebook(path, run=False)))
+    title = re.search(r"^# (.+)$", text, re.MULTILINE)
+    able, picture = ABLE.search(text), PICTURE.search(text)
+    shown = f'<img alt="{picture[1]}" src="lessons/{path.stem}.svg">' if picture else ""
+    words = render_markdown("You can " + " ".join(able[1].split()) + ".") if able else ""
+    return (
+        f'<a class="card" href="lessons/{path.stem}.html">{shown}'
+        f"<strong>{escape(title[1] if title else path.stem)}</strong>{words}</a>\n"
+    )
+
+
+def render_markdown(text: str) -> str:
+    """GitHub's Markdown as HTML, code highlighted, with boxes of a list to tick."""
+    parser = MarkdownIt("commonmark", {"highlight": _highlight}).enable(["table", "strikethrough"])
+    html = str(parser.render(text))
+    html = re.sub(r"(<li>(?:\s*<p>)?)\[ \] ", r'\1<input type="checkbox"> ', html)
+    html = re.sub(r'<pre><code class="language-\w+">(<pre.*?</pre>)\s*</code></pre>', r"\1", html)
+    return html.replace("<table>", '<div class="wide"><table>').replace(
+        "</table>", "</table></div>"
+    )
+
+
+def resolve_links(html: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Point links to pages of the site; a link to another file of the project becomes text.
+
+    Args:
+        html: of the page.
+        page: whose links are relative to the folder of its source.
+        config: names the repository, where other files can be read, if there is one.
+        files: of the site.
+
+    A link that leads nowhere is a warning, which fails a strict build.
+    """
+    own = (DOCS / page.file.src_uri).is_file()
+    folder = DOCS if own else (ROOT / page.file.src_uri).parent
+
+    def find(target: str) -> str | None:
+        """Where a link leads on the site; None for a file that has no page."""
+        parts = urlparse(unescape(target))
+        if parts.scheme or not parts.path:
+            return target
+        path = (folder / unquote(parts.path)).resolve()
+        name = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else parts.path
+        page_name = re.sub(r"^(lessons/\w+)\.ipynb$", r"\1.md", name.removeprefix("sim/docs/"))
+        file = files.get_file_from_path(page_name)
+        if file is not None:
+            return file.url_relative_to(page.file) + (f"#{parts.fragment}" * bool(parts.fragment))
         if not path.exists() or not path.is_relative_to(ROOT):
-            return link.group()
-        page_of = files.get_file_from_path(path.relative_to(ROOT).as_posix())
-        return link.group() if page_of else text
+            log.warning("%s: a link leads nowhere: %s", page.file.src_uri, target)
+        repository = config.extra["repository"]
+        return f"{repository}/blob/main/{name}" if repository else None
 
-    return LINK.sub(keep, markdown)
+    def replace(link: re.Match[str]) -> str:
+        if "download" in link["after"]:
+            return link.group()
+        found = find(link["target"])
+        if found is None:
+            return link["text"]
+        return f'<a {link["before"]}href="{found}"{link["after"]}>{link["text"]}</a>'
+
+    def replace_source(source: re.Match[str]) -> str:
+        return f' src="{find(source["target"])}"'
+
+    return SOURCE.sub(replace_source, ANCHOR.sub(replace, html))
+
+
+def say_how_to_run(page: Page, config: MkDocsConfig) -> str:
+    """How to open a lesson as a notebook."""
+    name = f"{Path(page.file.src_uri).stem}.ipynb"
+    repository = str(config.extra["repository"])
+    colab = ""
+    if repository.startswith("https://github.com/"):
+        where = repository.replace("https://github.com", "https://colab.research.google.com/github")
+        colab = f' · <a class="run" href="{where}/blob/main/lessons/{name}">Open in Colab</a>'
+    return (
+        f'<p class="run-it"><a class="run" href="../sim/docs/guide.md#run-a-lesson">Run it</a>'
+        f'{colab} · <a href="{name}" download>Download the notebook</a></p>'
+    )
+
+
+def join_cells(notebook: object) -> Iterator[str]:
+    """What a page shows of a notebook, as markdown with blocks of HTML without empty lines."""
+    for is_markdown, text in render_cells(notebook):
+        yield text if is_markdown else f"<div class='cell'>{_without_empty_lines(text)}</div>"
+
+
+def _without_empty_lines(html: str) -> str:
+    """HTML that Markdown leaves alone up to its end."""
+    return re.sub(r"\n(?=[ \t]*\n)", "\n<span></span>", html).replace(
+        'class="code"', 'class="highlight"'
+    )
+
+
+def _highlight(code: str, language: str, _: str) -> str:
+    try:
+        lexer = get_lexer_by_name(language or "text")
+    except ClassNotFound:
+        return ""
+    spans = highlight(code, lexer, HtmlFormatter(nowrap=True))
+    return f'<pre class="highlight"><code>{spans}</code></pre>'
+
+
+def name_headings(html: str) -> tuple[str, list[dict[str, object]]]:
+    """HTML whose headings have names as on GitHub, and the table of contents they make."""
+    tokens: list[dict[str, object]] = []
+    taken: set[str] = set()
+
+    def name(heading: re.Match[str]) -> str:
+        words = unescape(re.sub(r"<[^>]+>", "", heading[2]))
+        base = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
+        own, count = base, 0
+        while own in taken:
+            count += 1
+            own = f"{base}-{count}"
+        taken.add(own)
+        token = {"level": int(heading[1]), "id": own, "name": escape(words), "children": []}
+        siblings = tokens
+        while siblings and siblings[-1]["level"] < token["level"]:
+            siblings = siblings[-1]["children"]
+        siblings.append(token)
+        return f'<h{heading[1]} id="{own}">{heading[2]}</h{heading[1]}>'
+
+    return HEADING.sub(name, html), tokens
+
+
+def _is_ours(page: Page) -> bool:
+    """Whether this file renders a page, and not MkDocs."""
+    return page.file.src_uri not in MKDOCS_OWN
+
+
+def _number(path: Path) -> tuple[int, str]:
+    """The order of exercises: by number, and those without one behind."""
+    found = re.search(r"\d+", path.parent.name)
+    return (int(found[0]) if found else 1000, path.parent.name)

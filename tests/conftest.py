@@ -54,6 +54,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_class_cluster",
     "test_watch_robot",
     "test_swerve",
+    "test_site",
 )
 
 

@@ -13,16 +13,15 @@ import nbformat
 import numpy as np
 import pytest
 from jupyter_client.kernelspec import KernelSpecManager
-from nbclient import NotebookClient
 
 import sim
+from grader.edition.notebook_execution import execute_notebook, keep_notebook
 from sim.bench.simulate import simulate
 from sim.plot import Picture, plot_r2_vs_gain_error
 from sim.teaching.r2_cases import GOOD, make_cases
 
 ROOT = Path(__file__).resolve().parents[1]
 TEXTS = sorted((ROOT / "lessons").glob("*.py"))
-LONGEST_CELL = 30  # [s] after which a cell counts as hung; each takes well under 5 s
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
@@ -63,13 +62,13 @@ def derive():
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
+def run():
     """Run a lesson's notebook as a learner does, once per module; its cells with their outputs."""
     done = {}
 
     def ran(text):
         if text not in done:
-            done[text] = _execute(text.with_suffix(".ipynb"), tmp_path_factory.mktemp("jupyter"))
+            done[text] = _execute(text.with_suffix(".ipynb"))
         return done[text]
 
     return ran
@@ -261,7 +260,7 @@ def test_a_prediction_is_compared_with_the_answer(text):
 
 @each_lesson
 def test_the_code_of_a_question_is_collapsed_as_it_holds_the_answer(text):
-    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells:
+    for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells[1:]:
         asks = re.search(
             r"^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck)\(", cell.source, re.MULTILINE
         )
@@ -330,18 +329,13 @@ def _htmls(notebook):
             yield state["value"]
 
 
-def _execute(path, home):
-    """Run a notebook in the folder it stands in, warnings being errors."""
-    notebook = nbformat.read(path, 4)
-    client = NotebookClient(
-        notebook,
-        timeout=LONGEST_CELL,
-        kernel_name="python3",
-        allow_errors=True,
-        resources={"metadata": {"path": str(path.parent)}},
-    )
+def _execute(path):
+    """Run a notebook, warnings being errors; it is kept for the site if no cell failed."""
     assert "python3" in KernelSpecManager().find_kernel_specs(), "install ipykernel"
-    client.execute(env=_environment(home) | {"PYTHONWARNINGS": "error"})
+    notebook = execute_notebook(path, environment={"PYTHONWARNINGS": "error"}, allow_errors=True)
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    if all(output.output_type != "error" for output in outputs):
+        keep_notebook(notebook, path, folder=ROOT / "build" / "lessons")
     return notebook
 
 

@@ -1,4 +1,4 @@
-"""The README shows what the commands really print, names commands that exist, and stays short."""
+"""README and guide show what the commands print and name what exists; the README stays short."""
 
 import os
 import re
@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 README = Path(__file__).parents[1] / "README.md"
+GUIDE = Path(__file__).parents[1] / "sim" / "docs" / "guide.md"
+SCREENS = 800  # [words] that the README has at most, what pictures say in words included
 BLOCK = re.compile(r"```console\n\$ (?P<command>.*)\n(?P<shown>(?:.*\n)*?)```")
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 ENTRY = {"sysid": "sim.cli", "grade": "grader.cli"}
@@ -40,15 +42,15 @@ def numbers(text):
     return [float(one.replace("−", "-")) for one in NUMBER.findall(text)]
 
 
-def test_the_tour_prints_what_the_readme_shows(root, tmp_path):
+def test_the_tour_prints_what_the_guide_shows(root, tmp_path):
     for part in ("exercises", "lessons"):
         shutil.copytree(root / part, tmp_path / part, ignore=shutil.ignore_patterns("data"))
-    blocks = list(BLOCK.finditer(README.read_text(encoding="utf-8")))
+    blocks = list(BLOCK.finditer(GUIDE.read_text(encoding="utf-8")))
     assert len(blocks) >= 4
 
     for block in blocks:
         now, shown = printed(block["command"], folder=tmp_path), block["shown"].rstrip()
-        other = f"README.md shows something else for: {block['command']}"
+        other = f"guide.md shows something else for: {block['command']}"
         assert words(now) == words(shown), other
         # another processor rounds otherwise, and the last digit shown may be another
         assert numbers(now) == pytest.approx(numbers(shown), rel=0.03), other
@@ -82,9 +84,30 @@ def test_the_set_up_is_two_commands_of_one_line():
 @pytest.mark.parametrize("folder", ["lessons", "exercises"])
 def test_what_is_said_to_be_there_is_there(root, folder):
     row = next(
-        line for line in README.read_text(encoding="utf-8").splitlines()
+        line for line in GUIDE.read_text(encoding="utf-8").splitlines()
         if line.startswith(f"| {folder} |")
     )  # fmt: skip
     there = {int(re.search(r"\d+", path.name)[0]) for path in (root / folder).glob("*[0-9]*")}
 
     assert {int(number) for number in re.findall(r"(?:\| |· )(\d+) ", row)} == there
+
+
+def test_the_readme_is_short_and_its_pictures_speak():
+    text = README.read_text(encoding="utf-8")
+    pictures = re.findall(r'<img width="760" alt="([^"]+)" src="([^"]+)">', text)
+    pictures += re.findall(r"^!\[(.+)\]\((.+)\)$", text, re.MULTILINE)
+
+    assert len(pictures) == 3
+    for words_of_it, file in pictures:
+        assert len(words_of_it) > 100
+        assert (README.parent / file).is_file()
+    assert len(text.split()) <= SCREENS
+
+
+def test_the_readmes_minute_is_made_of_commands_that_work(tmp_path):
+    minute = README.read_text(encoding="utf-8").partition("\n## One minute\n")[2]
+    simulated, fitted, opened = minute.partition("```shell\n")[2].partition("\n```")[0].splitlines()
+
+    assert "Next: sysid fit swerve.wpilog" in printed(simulated, folder=tmp_path)
+    assert "Verdict: kV usable" in printed(fitted, folder=tmp_path)
+    assert opened == "sysid open swerve.wpilog"

@@ -33,19 +33,31 @@ class LessonPart:
 
 def split_notebook(notebook: Any) -> tuple[LessonPart, ...]:  # noqa: ANN401 - nbformat has no types
     """An executed notebook, cut at its title and its sections."""
-    widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
     found: list[tuple[str, int, list[str]]] = []
+    for is_markdown, text in render_cells(notebook):
+        if not is_markdown:
+            found[-1][2].append(text)
+            continue
+        for level, heading, below in _split_cell(text):
+            if level:
+                found.append((heading, level, []))
+            found[-1][2].append(_render_markdown(below))
+    return tuple(LessonPart(heading, level, "\n".join(html)) for heading, level, html in found)
+
+
+def render_cells(notebook: Any) -> Iterator[tuple[bool, str]]:  # noqa: ANN401 - nbformat has no types
+    """The cells of a notebook that a page shows: whether it is markdown, and markdown or HTML.
+
+    Left out are pictures that repeat the sliders above them, and cells that show nothing.
+    """
+    widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
     for cell, after in zip(notebook.cells, [*notebook.cells[1:], None], strict=True):
         if _repeats(cell) or (after is not None and _repeats(after)):
             continue  # plain code for whoever has no sliders, and the words before it
-        if cell.cell_type == "code":
-            found[-1][2].append(_render_code(cell, widgets))
-            continue
-        for level, heading, text in _split_cell(cell.source):
-            if level:
-                found.append((heading, level, []))
-            found[-1][2].append(_render_markdown(text))
-    return tuple(LessonPart(heading, level, "\n".join(html)) for heading, level, html in found)
+        if cell.cell_type == "markdown":
+            yield True, cell.source
+        elif html := _render_code(cell, widgets):
+            yield False, html
 
 
 def _repeats(cell: Any) -> bool:  # noqa: ANN401 - nbformat has no types

@@ -2,7 +2,7 @@
 
     python tests/benchmarks/comparison.py [--logs 20] [--out FOLDER] [--real FOLDER]
 
-Writes COMPARISON.md and comparison.svg beside this file, and the most important lines into the
+Writes COMPARISON.md and comparison.svg beside this file, and the words of the figure into the
 README where nothing else is asked for: velocity noise, sampling, light
 mechanisms, hidden lag, everyday dirt, missing tests, and logs of real robots where there are any.
 Takes some minutes; the same logs give the same page.
@@ -16,7 +16,7 @@ from pathlib import Path
 from bench_real import folder
 from comparison_figure import picture
 from comparison_measured import measured
-from comparison_page import page, short
+from comparison_page import page
 
 HERE = Path(__file__).resolve().parent
 README = HERE.parents[1] / "README.md"
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     write(given.out / PAGE, page(figures, alt=drawn.alt))
     if given.out == HERE:
         shown = f"![{drawn.alt}](tests/benchmarks/{PICTURE})"
-        write(README, put(README.read_text(encoding="utf-8"), [*short(figures), "", shown]))
+        write(README, put(README.read_text(encoding="utf-8"), [shown]))
     print(f"\n{given.out / PAGE} and {PICTURE}", file=sys.stderr)
 
 

@@ -73,7 +73,7 @@ def page(figures: Measured, *, alt: str) -> str:
 
 
 def short(figures: Measured) -> list[str]:
-    """The lines of the table that the README shows, too."""
+    """The lines of the first table: what matters most."""
     rows = [
         (f"kA, {label}{row.name}", *(off(figures.rows[row][way], row, "kA") for way in WAYS))
         for label, section in TOLD.items()

@@ -1,0 +1,282 @@
+"""The site: every page is there, every link leads somewhere, and nothing is asked of elsewhere."""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+from types import SimpleNamespace
+from urllib.parse import unquote, urlparse
+from xml.etree import ElementTree as ET
+
+import nbformat
+import pytest
+from mkdocs.structure.files import Files
+
+ROOT = Path(__file__).resolve().parents[1]
+LOADS = {  # what a browser fetches by itself
+    "img": ("src", "srcset"), "source": ("src", "srcset"), "script": ("src",), "iframe": ("src",),
+    "video": ("src", "poster"), "object": ("data",),
+}  # fmt: skip
+LOADING_LINKS = {"stylesheet", "icon", "shortcut icon", "preload", "manifest", "preconnect"}
+
+
+class SitePage(HTMLParser):
+    """The links, the anchors and what is loaded of a page."""
+
+    def __init__(self, html):
+        super().__init__()
+        self.links, self.anchors, self.loaded, self.wordless = [], set(), [], []
+        self.feed(html)
+
+    def handle_starttag(self, tag, attrs):
+        """Note what this tag points to."""
+        given = dict(attrs)
+        self.anchors |= {given[name] for name in ("id", "name") if given.get(name)}
+        if tag == "a" and given.get("href"):
+            self.links.append(given["href"])
+        if tag == "img" and not given.get("alt"):
+            self.wordless.append(given.get("src", "")[:60])
+        self.loaded += [given[name] for name in LOADS.get(tag, ()) if given.get(name)]
+        if tag == "link" and given.get("rel") in LOADING_LINKS:
+            self.loaded.append(given["href"])
+
+
+def build(folder, **variables):
+    """Build the site without executing lessons; what the command printed, and its exit code."""
+    return subprocess.run(
+        [sys.executable, "-m", "mkdocs", "build", "--strict", "-q", "-f", ".ci/mkdocs.yml",
+         "-d", str(folder)],
+        cwd=ROOT, env=os.environ | {"RUN_LESSONS": "false"} | variables,
+        capture_output=True, encoding="utf-8", check=False,
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The built site: path -> page."""
+    folder = tmp_path_factory.mktemp("site")
+    done = build(folder)
+    assert done.returncode == 0, done.stderr
+    return folder, {
+        path.relative_to(folder).as_posix(): SitePage(path.read_text("utf-8"))
+        for path in folder.rglob("*.html")
+    }
+
+
+@pytest.fixture(scope="module")
+def hook():
+    """The hook of MkDocs that adds pages."""
+    spec = importlib.util.spec_from_file_location("docs_pages", ROOT / ".ci" / "docs_pages.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def lost_links(folder, pages):
+    """Links within the site that lead to no file or to no anchor of it."""
+    for name, page in pages.items():
+        for link in page.links:
+            parts = urlparse(link)
+            if parts.scheme or name == "404.html":  # that page's links begin at the server's root
+                continue
+            path = (folder / name).parent / unquote(parts.path) if parts.path else folder / name
+            target = path.resolve()
+            if not target.is_file():
+                yield f"{name}: {link}"
+            elif parts.fragment and target.suffix == ".html":
+                there = pages[target.relative_to(folder.resolve()).as_posix()]
+                if unquote(parts.fragment) not in there.anchors:
+                    yield f"{name}: {link}"
+
+
+def test_every_lesson_and_every_exercise_has_a_page_that_the_navigation_leads_to(site):
+    _, pages = site
+    expected = {f"lessons/{path.stem}.html" for path in (ROOT / "lessons").glob("*.py")}
+    expected |= {
+        f"exercises/{path.parent.name}/index.html"
+        for path in (ROOT / "exercises").glob("*/README.md")
+    }
+
+    assert expected <= set(pages)
+    assert expected <= set(pages["index.html"].links)
+
+
+def test_every_link_within_the_site_leads_to_a_page_and_to_its_anchor(site):
+    assert list(lost_links(*site)) == []
+
+
+def test_a_lost_link_and_a_lost_anchor_are_seen(tmp_path):
+    pages = {"a.html": SitePage('<a href="b.html#x">b</a> <a href="c.html">c</a>'),
+             "b.html": SitePage("<p id=y>")}  # fmt: skip
+    for name in pages:
+        (tmp_path / name).touch()
+
+    assert list(lost_links(tmp_path, pages)) == ["a.html: b.html#x", "a.html: c.html"]
+
+
+def test_a_page_loads_nothing_from_elsewhere(site):
+    folder, pages = site
+    elsewhere = {
+        f"{name}: {loaded}"
+        for name, page in pages.items()
+        for loaded in page.loaded
+        if not loaded.startswith("data:") and urlparse(loaded).netloc
+    }
+    styles = [
+        found
+        for path in folder.rglob("*.css")
+        for found in re.findall(r"url\(\s*['\"]?(?:https?:)?//[^)]+", path.read_text("utf-8"))
+    ]
+
+    assert elsewhere == set()
+    assert styles == []
+
+
+def test_what_a_page_loads_is_there(site):
+    folder, pages = site
+
+    assert {
+        f"{name}: {loaded}"
+        for name, page in pages.items()
+        for loaded in page.loaded
+        if not loaded.startswith("data:")
+        and name != "404.html"
+        and not ((folder / name).parent / urlparse(loaded).path).is_file()
+    } == set()
+
+
+def test_every_picture_has_words(site):
+    assert {name: page.wordless for name, page in site[1].items() if page.wordless} == {}
+
+
+@pytest.mark.parametrize(
+    "lesson", sorted((ROOT / "lessons").glob("*.ipynb")), ids=lambda path: path.stem
+)
+def test_a_lesson_says_how_to_run_it_and_offers_its_notebook(site, lesson):
+    folder, pages = site
+    links = pages[f"lessons/{lesson.stem}.html"].links
+
+    assert "../guide.html#run-a-lesson" in links
+    assert lesson.name in links
+    assert (folder / "lessons" / lesson.name).read_bytes() == lesson.read_bytes()
+    assert not [link for link in links if "colab" in link]  # no address of the project is known
+
+
+def test_a_known_address_gives_each_lesson_a_link_to_colab(hook):
+    page = SimpleNamespace(file=SimpleNamespace(src_uri="lessons/02_gravity.md"))
+    config = SimpleNamespace(extra={"repository": "https://github.com/a/b"})
+
+    assert (
+        "https://colab.research.google.com/github/a/b/blob/main/lessons/02_gravity.ipynb"
+        in hook.say_how_to_run(page, config)
+    )
+
+
+@pytest.mark.parametrize(
+    ("html", "shown", "warned"),
+    [
+        ('<a href="sim/docs/guide.md">g</a>', "g", False),
+        ('<a href="sim/fit/result.py">code</a>', "code", False),
+        ('<a href="sim/fit/never.py">code</a>', "code", True),
+        (
+            '<a href="https://docs.wpilib.org">w</a>',
+            '<a href="https://docs.wpilib.org">w</a>',
+            False,
+        ),
+        ('<img src="none.svg" alt="x">', None, True),
+    ],
+)
+def test_a_link_to_a_file_that_is_no_page_is_text_and_one_to_nothing_is_a_warning(
+    hook, caplog, html, shown, warned
+):
+    page = SimpleNamespace(file=SimpleNamespace(src_uri="CONTRIBUTING.md"))
+    config = SimpleNamespace(extra={"repository": ""})
+
+    resolved = hook.resolve_links(html, page=page, config=config, files=Files([]))
+
+    assert shown is None or resolved == shown
+    assert bool(caplog.records) == warned
+
+
+def test_markdown_is_rendered_as_github_does(hook):
+    html = hook.render_markdown(
+        "1. Choose:\n\n   | a | b |\n   |---|---|\n   | 1 | <2 |\n\n   ```java\n   int x;\n   ```\n"
+        "- [ ] ready\n"
+    )
+
+    assert "<li>" in html.partition("<table>")[0]  # a table within the list
+    assert "&lt;2" in html
+    assert html.count("<pre") == 1
+    assert '<input type="checkbox"> ready' in html
+
+
+def test_two_headings_of_one_name_have_two_anchors(hook):
+    html, tokens = hook.name_headings("<h1>T</h1><h2>A &amp; <code>b</code></h2><h2>A &amp; b</h2>")
+
+    assert re.findall('id="([^"]+)"', html) == ["t", "a--b", "a--b-1"]
+    assert [one["id"] for one in tokens[0]["children"]] == ["a--b", "a--b-1"]
+
+
+def test_a_kept_notebook_is_used_until_the_lesson_changes(tmp_path):
+    from grader.edition.notebook_execution import find_kept_notebook, keep_notebook  # noqa: PLC0415 - with it
+
+    path = tmp_path / "01_motor_model.ipynb"
+    shutil.copy(ROOT / "lessons" / path.name, path)
+    kept = nbformat.read(path, 4)
+    kept.cells[0].source = "ran"
+    assert find_kept_notebook(path, folder=tmp_path / "kept") is None
+    keep_notebook(kept, path, folder=tmp_path / "kept")
+
+    assert find_kept_notebook(path, folder=tmp_path / "kept").cells[0].source == "ran"
+    path.write_text(path.read_text("utf-8") + "\n", "utf-8")
+    assert find_kept_notebook(path, folder=tmp_path / "kept") is None
+
+
+def test_code_of_a_cell_with_empty_lines_stays_one_block_that_can_be_copied(hook):
+    notebook = nbformat.v4.new_notebook(
+        cells=[
+            nbformat.v4.new_markdown_cell("# Lesson"),
+            nbformat.v4.new_code_cell("a = 1\n\n\n# # no heading\nb = 2"),
+        ]
+    )
+
+    html = hook.render_markdown("\n\n".join(hook.join_cells(notebook)))
+    code = html.partition("<pre>")[2].partition("</pre>")[0]
+
+    assert re.sub(r"<[^>]+>", "", code).strip() == "a = 1\n\n\n# # no heading\nb = 2"
+    assert html.count("<h1>") == 1
+
+
+def numbers_and_words(text):
+    """The numbers of a text, and the text without them."""
+    found = re.compile(r"-?\d+(?:\.\d+)?")
+    return [float(one) for one in found.findall(text)], found.sub("#", text)
+
+
+@pytest.mark.parametrize(("name", "moves"), [("drag.svg", True), ("drag-still.svg", False)])
+def test_the_moving_picture_is_what_its_command_draws(name, moves):
+    spec = importlib.util.spec_from_file_location("pictures", ROOT / ".ci" / "draw_pictures.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+
+    kept = (ROOT / ".ci" / "pictures" / name).read_text("utf-8")
+    (now, words), (then, words_then) = map(numbers_and_words, (module.draw_drag(moves=moves), kept))
+
+    assert words == words_then, "run  python .ci/draw_pictures.py"
+    # another processor rounds otherwise: a pixel is less than anybody sees
+    assert now == pytest.approx(then, abs=1.0)
+    ET.fromstring(kept)  # noqa: S314 - our own file
+    assert kept.count('class="step') == (38 if moves else 1)
+    assert ("prefers-reduced-motion" in kept) == moves
+    assert "prefers-color-scheme: dark" in kept
+    assert kept.endswith("off by 0.01 m/s</text></g>\n</svg>\n")
+    assert "http" not in kept.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_pictures_of_the_readme_are_small():
+    for path in (ROOT / ".ci" / "pictures").iterdir():
+        assert path.stat().st_size < 200_000
