@@ -8,6 +8,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.edition.notebook_execution import execute_notebook
 from grader.edition.notebook_html import LessonPart, split_notebook
 from sim.core.errors import BadRequest
+from sim.plot.animation import script_policy
 from sim.report.page_file import load_templates
 
 FOLDER = Path(__file__).parent
@@ -83,6 +84,7 @@ def _write_page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str
         before=before,
         after=after,
         slides=slides,
+        scripts=script_policy(),
         other=lesson.page if slides else lesson.slides,
     )
 
