@@ -14,6 +14,7 @@ animation.css  how all of it looks, on light and on dark pages
 import base64
 import hashlib
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -26,7 +27,17 @@ import numpy as np
 from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.physics import engine
-from sim.plot.animation.scene import Choice, Gain, Knob, Panel, Scene, Score, Motion, find_position
+from sim.plot.animation.scene import (
+    Choice,
+    Gain,
+    Knob,
+    Motion,
+    Panel,
+    Rule,
+    Scene,
+    Score,
+    TestPlan,
+)
 from sim.plot.picture import COLORS, LINES
 
 __all__ = [
@@ -34,12 +45,13 @@ __all__ = [
     "Choice",
     "Gain",
     "Knob",
+    "Motion",
     "Panel",
+    "Rule",
     "Scene",
     "Score",
-    "Motion",
+    "TestPlan",
     "animate_mechanism",
-    "find_position",
     "read_script",
     "script_policy",
 ]
@@ -116,9 +128,10 @@ def animate_mechanism(
     choices: Sequence[Choice] = (),
     knobs: Sequence[Knob] = (),
     score: Score | None = None,
+    rules: Sequence[Rule] = (),
     span: tuple[float, float] | None = None,
-    wall: float | None = None,
-    marks: Mapping[str, float] | None = None,
+    wall: float | Gain | None = None,
+    marks: Mapping[str, float | Gain] | None = None,
     slow: float = 1.0,
 ) -> Animation:
     """A mechanism that moves, beside its plots; a time cursor moves both.
@@ -131,6 +144,7 @@ def animate_mechanism(
         choices: menus that pick the scene.
         knobs: sliders that set the gains of motions which the page simulates.
         score: the motion that is measured against the target.
+        rules: what a plan has to keep; each is ticked or not as the knobs stand.
         span: [m or rad] lowest and highest position drawn; by default, what the scenes hold.
         wall: [m] where the floor of a drivetrain ends.
         marks: name -> [m] lines across that floor.
@@ -142,19 +156,20 @@ def animate_mechanism(
     """
     if kind not in KINDS:
         raise BadRequest(f"no drawing of {kind!r}", advice=f"Choose one of: {', '.join(KINDS)}.")
-    every = {(): scenes} if isinstance(scenes, Scene) else dict(scenes)
+    every: dict[tuple[str, ...], Scene] = (
+        {(): scenes} if isinstance(scenes, Scene) else dict(scenes)
+    )
     _check_scenes(every, choices)
     start = {knob.name: knob.value for knob in knobs}
-    positions = [find_position(t, s, start) for s in every.values() for t in s.motions]
-    low, high = span or _limits(positions)
+    low, high = span or _limits(_curves("position", every, start))
     if span is None and kind in FLOORS:
         low -= LONG  # a position is that of the front
     stage = {
         "kind": kind,
         "low": _short(low),
         "high": _short(high),
-        "wall": wall,
-        "marks": [{"label": name, "at": at} for name, at in (marks or {}).items()],
+        "wall": _describe_value(wall),
+        "marks": [{"label": n, "at": _describe_value(at)} for n, at in (marks or {}).items()],
         "slow": slow,
         "unit": "rad" if kind in {"arm", "flywheel"} else "m",
         "words": f"{kind}, drawn at the time of the cursor",
@@ -168,6 +183,7 @@ def animate_mechanism(
         ],
         "knobs": [vars(knob) for knob in knobs],
         "score": None if score is None else vars(score),
+        "rules": [{**vars(rule), "at_most": _describe_value(rule.at_most)} for rule in rules],
         "panels": [_describe_panel(panel, every, start) for panel in panels],
         "scenes": {"|".join(key): _describe_scene(scene) for key, scene in every.items()},
     }
@@ -191,7 +207,7 @@ def _check_scenes(scenes: Mapping[tuple[str, ...], Scene], choices: Sequence[Cho
             names = ("position", "velocity", "voltage", "heading")
             curves |= {f"the {name} of {motion.name!r}": getattr(motion, name) for name in names}
         for name, curve in curves.items():
-            if curve is not None and len(curve) != len(scene.time):
+            if curve is not None and not isinstance(curve, Gain) and len(curve) != len(scene.time):
                 raise BadRequest(
                     f"{name} has {len(curve)} values for {len(scene.time)} times",
                     advice="Give one value for each time.",
@@ -212,16 +228,20 @@ def _describe_scene(scene: Scene) -> dict[str, Any]:
                 "ghost": motion.ghost or motion.asked,
                 "color": color,
                 "dash": "3 3" if motion.asked else DASHES.get(str(line), "5 2 1 2"),
+                "asked": motion.asked,
                 "turns": motion.turns,
                 "type": motion.type,
                 "start": motion.start,
                 "gains": _describe_gains(motion.gains),
                 "program": _describe_gains(motion.program),
-                "voltage": _numbers(motion.voltage),
+                "plan": _describe_plan(motion.plan),
+                "voltage": _describe_value(motion.voltage)
+                if isinstance(motion.voltage, Gain)
+                else _numbers(motion.voltage),
                 "velocity": _numbers(motion.velocity),
-                "position": _numbers(
-                    find_position(motion, scene, {}) if motion.gains is None else motion.position
-                ),
+                "position": None
+                if motion.gains is not None
+                else _numbers(motion.curve("position", scene, {})),
                 "heading": _numbers(motion.heading),
             }
         )
@@ -236,25 +256,37 @@ def _describe_scene(scene: Scene) -> dict[str, Any]:
 def _describe_gains(gains: Mapping[str, float | Gain] | None) -> dict[str, Any] | None:
     if gains is None:
         return None
-    return {
-        name: vars(gain) if isinstance(gain, Gain) else float(gain) for name, gain in gains.items()
-    }
+    return {name: _describe_value(gain) for name, gain in gains.items()}
+
+
+def _describe_value(value: float | Gain | None) -> Any:  # noqa: ANN401 - as JSON has it
+    """A number, a knob's, or none; what is endless is none."""
+    if isinstance(value, Gain):
+        return vars(value)
+    return None if value is None or not math.isfinite(value) else float(value)
+
+
+def _describe_plan(plan: TestPlan | None) -> dict[str, Any] | None:
+    return (
+        None if plan is None else {name: _describe_value(one) for name, one in vars(plan).items()}
+    )
 
 
 def _describe_panel(
     panel: Panel, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
 ) -> dict[str, Any]:
-    low, high = panel.low, panel.high
-    if low is None or high is None:
-        curves = [
-            curve
-            for scene in scenes.values()
-            for motion in scene.motions
-            if (curve := motion.curve(panel.signal, scene, knobs)) is not None
-        ]
-        found = _limits(curves)
-        low, high = (found[0] if low is None else low), (found[1] if high is None else high)
+    found = _limits([panel.scale * one for one in _curves(panel.signal, scenes, knobs)])
+    low = found[0] if panel.low is None else panel.low
+    high = found[1] if panel.high is None else panel.high
     return {**vars(panel), "low": _short(low), "high": _short(high)}
+
+
+def _curves(
+    signal: str, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
+) -> list[Array]:
+    """A signal of every motion that has it."""
+    found = [one.curve(signal, scene, knobs) for scene in scenes.values() for one in scene.motions]
+    return [curve for curve in found if curve is not None]
 
 
 def _limits(curves: Sequence[Array]) -> tuple[float, float]:

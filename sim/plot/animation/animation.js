@@ -9,15 +9,17 @@ import { STAGES, draw } from "./stages.js";
 
 const SHORTEST = 3; // [s] that a play takes at least: what is over sooner is shown in slow motion
 const LONGEST = 12; // [s] that it takes at most
-const HIGH = 120; // [px] of a panel
+const HIGH = { one: 170, many: 120 }; // [px] of a panel that is alone, and of one of several
 const EDGE = { left: 46, right: 8, top: 6, bottom: 22 };
+const MOVES = 0.02; // [m/s] slower is standing
 const TERMS = [["kS·sgn(v)", 0], ["kV·v", 1], ["kA·a", 2]]; // a term and its color
 
-/** A gain of a motion: a number, or what a knob makes of it. */
-function resolve(gains, knobs) {
-  return Object.fromEntries(Object.entries(gains).map(([name, gain]) =>
-    [name, typeof gain === "number" ? gain : gain.plus + gain.times * knobs[gain.knob]]));
-}
+/** A number, or what a knob makes of it. */
+const resolve = (value, knobs) =>
+  (value === null || typeof value === "number" ? value : value.plus + value.times * knobs[value.knob]);
+
+const resolveAll = (values, knobs) =>
+  Object.fromEntries(Object.entries(values).map(([name, value]) => [name, resolve(value, knobs)]));
 
 /** The volts of a feedforward with these gains along a velocity, each held until the next time. */
 export function feedforward({ time, target }, gains) {
@@ -32,12 +34,36 @@ export function feedforward({ time, target }, gains) {
 /** A motion with its numbers; one that has gains is simulated, here and now. */
 function moveMotion(motion, scene, knobs) {
   if (!motion.gains) return motion;
-  const gains = resolve(motion.gains, knobs);
-  const voltage = motion.program ? feedforward(scene, resolve(motion.program, knobs)) : motion.voltage;
+  const gains = resolveAll(motion.gains, knobs);
   const model = makeModel(motion.type, gains);
   const start = { position: motion.start, velocity: 0 };
-  const moved = simulateRun({ time: scene.time, voltage }, model, start);
+  const move = (voltage) => simulateRun({ time: scene.time, voltage }, model, start);
+  const voltage = findVoltage(motion, scene, knobs, move);
+  const moved = move(voltage);
   return { ...motion, voltage, gains, position: [...moved.position], velocity: [...moved.velocity] };
+}
+
+function findVoltage(motion, scene, knobs, move) {
+  if (motion.plan) return driveTest(resolveAll(motion.plan, knobs), scene.time, move);
+  if (motion.program) return feedforward(scene, resolveAll(motion.program, knobs));
+  return Array.isArray(motion.voltage) ? motion.voltage
+    : scene.time.map(() => resolve(motion.voltage, knobs) ?? 0);
+}
+
+/** The volts of a test that ends when the mark has passed and a thumb has reacted. */
+function driveTest({ ramp, step, mark, reaction, timeout }, time, move) {
+  const asked = time.map((now) => (now < (timeout ?? Infinity) ? step + ramp * now : 0));
+  const passed = move(asked).position.findIndex((place) => place > (mark ?? Infinity));
+  return passed < 0 ? asked : asked.map((volts, k) => (time[k] < time[passed] + reaction ? volts : 0));
+}
+
+/** How far each position is ahead of the one that was asked for. */
+function addErrors(motions) {
+  const asked = motions.find((motion) => motion.asked);
+  return motions.map((motion) => ({
+    ...motion,
+    error: asked && motion !== asked ? motion.position.map((x, k) => x - asked.position[k]) : null,
+  }));
 }
 
 /** Root of the mean square of the difference of two curves. */
@@ -98,6 +124,7 @@ class Animation {
       });
     }
     if (!knobs.childElementCount) knobs.remove();
+    if (data.rules.length) this.rules = create(figure, "ul", { className: "motion-rules" });
     if (data.score) this.score = create(figure, "p", { className: "motion-score" });
     this.title = create(figure, "p", { className: "motion-title" });
     this.both = create(figure, "div", { className: "motion-both" });
@@ -149,13 +176,41 @@ class Animation {
   compute() {
     const scene = this.data.scenes[this.picked.join("|")];
     const motions = scene.motions.map((motion) => moveMotion(motion, scene, this.knobs));
-    this.scene = { ...scene, motions };
+    this.scene = { ...scene, motions: addErrors(motions) };
     this.duration = scene.time.at(-1) - scene.time[0];
     this.rate = this.duration / Math.min(Math.max(this.duration, SHORTEST), LONGEST);
     this.cursor.max = this.duration;
     this.title.textContent = scene.title;
     this.title.hidden = !scene.title;
     if (this.data.score) this.rank();
+    if (this.rules) this.judge();
+  }
+
+  /** Tick the rules that the plan keeps. */
+  judge() {
+    this.rules.replaceChildren();
+    for (const rule of this.data.rules) {
+      const value = rule.times * this.measure(rule);
+      const most = resolve(rule.at_most, this.knobs);
+      const kept = value <= (most ?? Infinity) && value >= (rule.at_least ?? -Infinity);
+      const bound = most === null ? `at least ${rule.at_least}` : `at most ${+most.toFixed(2)}`;
+      const item = create(this.rules, "li", { className: kept ? "kept" : "broken" });
+      create(item, "b", { textContent: kept ? "✓ " : "✗ " });
+      create(item, "span", { textContent: `${rule.label}: ` });
+      create(item, "b", { textContent: rounded(value, value < 10 ? 2 : 0) });
+      create(item, "span", { textContent: ` (${bound})${kept ? "" : ", broken"}` });
+    }
+  }
+
+  measure({ measure, motion }) {
+    const { motions, time } = this.scene;
+    const meant = motions.filter(({ name }) => !motion || name === motion);
+    if (measure === "farthest") return Math.max(...meant.flatMap(({ position }) => position));
+    if (measure === "fastest") return Math.max(...meant.flatMap(({ velocity }) => velocity));
+    if (measure === "moving") {
+      return meant[0].velocity.filter((v) => v > MOVES).length * (time[1] - time[0]);
+    }
+    return this.knobs[measure];
   }
 
   /** Say how far the motion that counts is from the target, and which try was the best. */
@@ -191,7 +246,9 @@ class Animation {
     const motions = this.scene.motions.map((motion) => ({ ...motion, color: this.color(motion) }));
     this.stage.replaceChildren();
     const svg = draw(this.stage, "svg", { width: wide, role: "img", "aria-label": stage.words });
-    this.mover = STAGES[stage.kind](svg, { ...stage, ...(this.scene.stage ?? {}) }, motions, wide);
+    const wall = resolve(stage.wall, this.knobs);
+    const marks = stage.marks.map(({ label, at }) => ({ label, at: resolve(at, this.knobs) }));
+    this.mover = STAGES[stage.kind](svg, { ...stage, wall, marks }, motions, wide);
     svg.setAttribute("height", this.mover.height);
     this.panels.replaceChildren();
     const room = beside ? width - wide - 12 : width;
@@ -209,9 +266,10 @@ class Animation {
     const now = create(this.panels, "ul", { className: "motion-now" });
     create(now, "li", { textContent: panel.label });
     const values = panel.terms ? [] : shown.map((motion) => this.drawKey(now, motion));
-    const svg = draw(this.panels, "svg", { width, height: HIGH, role: "img" });
+    const high = this.data.panels.length > 1 ? HIGH.many : HIGH.one;
+    const svg = draw(this.panels, "svg", { width, height: high, role: "img" });
     svg.setAttribute("aria-label", `${panel.label} over time: ${shown.map(({ name }) => name).join(", ")}`);
-    const [left, right, top, bottom] = [EDGE.left, width - EDGE.right, EDGE.top, HIGH - EDGE.bottom];
+    const [left, right, top, bottom] = [EDGE.left, width - EDGE.right, EDGE.top, high - EDGE.bottom];
     const begin = this.scene.time[0];
     const toX = (time) => left + ((time - begin) / this.duration) * (right - left);
     const toY = (value) => {
@@ -224,7 +282,7 @@ class Animation {
     if (panel.terms) this.drawTerms(svg, now, { toX, toY });
     for (const motion of shown) {
       draw(svg, "polyline", {
-        points: path(motion[panel.signal]), fill: "none", stroke: panel.terms ? "currentColor" : this.color(motion),
+        points: path(motion[panel.signal].map((value) => value * panel.scale)), fill: "none", stroke: panel.terms ? "currentColor" : this.color(motion),
         "stroke-width": 2, "stroke-dasharray": motion.dash, "stroke-linejoin": "round",
       });
     }
@@ -323,7 +381,7 @@ class Animation {
       line.setAttribute("x1", toX(at));
       line.setAttribute("x2", toX(at));
       shown.forEach((motion, i) => {
-        const value = read(motion[panel.signal], panel.signal === "voltage");
+        const value = panel.scale * read(motion[panel.signal], panel.signal === "voltage");
         dots[i].setAttribute("cx", toX(at));
         dots[i].setAttribute("cy", toY(value));
         if (values[i]) values[i].textContent = rounded(value);

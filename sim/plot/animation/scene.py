@@ -1,12 +1,13 @@
 """What an animation shows: motions over time, knobs, menus and plots, as plain data."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from sim.core.log import Array
-from sim.physics.engine import State, simulate_run
+from sim.physics.engine import State, Track, simulate_run
 from sim.physics.model import Model
 
 
@@ -29,6 +30,38 @@ class Gain:
         return self.plus + self.times * knobs[self.knob]
 
 
+@dataclass(frozen=True)
+class TestPlan:
+    """The voltage of one test: ``step + ramp · time``, until it is over; then 0 V, in brake mode.
+
+    Args:
+        ramp: [V/s].
+        step: [V].
+        mark: [m] where a driver begins to react.
+        reaction: [s] from the mark until the motors are off.
+        timeout: [s] after which they are off in any case.
+    """
+
+    __test__ = False  # no test of pytest's
+
+    ramp: float | Gain = 0.0
+    step: float | Gain = 0.0
+    mark: float | Gain = math.inf
+    reaction: float = 0.0
+    timeout: float = math.inf
+
+    def voltage(
+        self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
+    ) -> Array:
+        """(n,) [V] at each time, with ``move`` from voltages to positions."""
+        volts = find_value(self.step, knobs) + find_value(self.ramp, knobs) * time
+        volts = np.where(time < self.timeout, volts, 0.0)
+        passed = move(volts) > find_value(self.mark, knobs)
+        if not passed.any():
+            return volts
+        return np.where(time < time[int(np.argmax(passed))] + self.reaction, volts, 0.0)
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """One mechanism of a scene, with what it did, or with the gains that let the page simulate it.
@@ -37,12 +70,13 @@ class Motion:
         name: beside its curve.
         velocity: (n,) [m/s or rad/s].
         position: (n,) [m or rad]; without it, the integral of the velocity.
-        voltage: (n,) [V], each held until the next time.
+        voltage: (n,) [V], each held until the next time; a gain is one voltage, set by its knob.
         heading: (n,) [rad] of a swerve drive.
         ghost: drawn as an outline over the others: a model beside the robot.
         asked: what was asked for: an outline and a line in the color of the text.
         gains: kS [V], kV, kA and, where the type has it, kG [V]: the motion is simulated with them.
         program: the gains of a feedforward that follows the scene's target; None takes ``voltage``.
+        plan: the test that is driven, in place of a voltage.
         type: ``simple``, ``elevator`` or ``arm``.
         start: [m or rad] where a simulated motion begins, at rest.
         turns: whether the wheels of a swerve drive stand for turning on the spot.
@@ -51,44 +85,79 @@ class Motion:
     name: str
     velocity: Array | None = None
     position: Array | None = None
-    voltage: Array | None = None
+    voltage: Array | Gain | None = None
     heading: Array | None = None
     ghost: bool = False
     asked: bool = False
     gains: Mapping[str, float | Gain] | None = None
     program: Mapping[str, float | Gain] | None = None
+    plan: TestPlan | None = None
     type: str = "simple"
     start: float = 0.0
     turns: bool = False
 
     def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) its ``position``, ``velocity`` or ``voltage``, simulated where it has gains."""
+        """(n,) one of its signals, simulated where it has gains; None where it has no such one."""
+        if signal == "error":
+            return self._error(scene, knobs)
         if self.gains is None:
-            return find_position(self, scene, knobs) if signal == "position" else self._own(signal)
+            own = {"position": self._own_position(scene), "velocity": self.velocity}
+            return own.get(signal, None if isinstance(self.voltage, Gain) else self.voltage)
         voltage = self._volts(scene, knobs)
         if signal == "voltage":
             return voltage
-        gains = {name: _value(gain, knobs) for name, gain in self.gains.items()}
-        moved = simulate_run(
-            Model(self.type, gains),
-            time=scene.time,
-            voltage=voltage,
-            state=State.cold_at(self.start),
-        )
+        moved = self._move(scene.time, voltage, knobs)
         return moved.position if signal == "position" else moved.velocity
 
-    def _own(self, signal: str) -> Array | None:
-        return {"velocity": self.velocity, "voltage": self.voltage}[signal]
+    def _error(self, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
+        """(n,) position minus that of the motion that was asked for."""
+        asked = next((one for one in scene.motions if one.asked), None)
+        if asked is None or asked is self:
+            return None
+        here, there = (one.curve("position", scene, knobs) for one in (self, asked))
+        return None if here is None or there is None else here - there
+
+    def _own_position(self, scene: "Scene") -> Array:
+        """(n,) the positions given, or the integral of the velocities given."""
+        if self.position is not None:
+            return np.asarray(self.position)
+        velocity = np.zeros(scene.time.size) if self.velocity is None else np.asarray(self.velocity)
+        ways = np.diff(scene.time) * (velocity[:-1] + velocity[1:]) / 2
+        return np.asarray(self.start + np.concatenate([[0.0], np.cumsum(ways)]))
+
+    def _move(self, time: Array, voltage: Array, knobs: Mapping[str, float]) -> Track:
+        gains = {name: find_value(gain, knobs) for name, gain in (self.gains or {}).items()}
+        return simulate_run(
+            Model(self.type, gains), time=time, voltage=voltage, state=State.cold_at(self.start)
+        )
 
     def _volts(self, scene: "Scene", knobs: Mapping[str, float]) -> Array:
-        """(n,) [V] of its program along the target, or those it was given."""
-        if self.program is None or scene.target is None:
-            return np.zeros(scene.time.size) if self.voltage is None else np.asarray(self.voltage)
-        gains = {name: _value(gain, knobs) for name, gain in self.program.items()}
-        velocity = (scene.target[:-1] + scene.target[1:]) / 2
-        acceleration = np.diff(scene.target) / np.diff(scene.time)
-        volts = gains["kS"] * np.sign(velocity) + gains["kV"] * velocity
-        return np.append(volts + gains["kA"] * acceleration + gains.get("kG", 0.0), 0.0)
+        """(n,) [V] of its plan, of its program along the target, or those it was given."""
+        if self.plan is not None:
+            return self.plan.voltage(
+                scene.time, knobs, lambda volts: self._move(scene.time, volts, knobs).position
+            )
+        if self.program is not None and scene.target is not None:
+            gains = {name: find_value(gain, knobs) for name, gain in self.program.items()}
+            return follow_target(scene.time, scene.target, gains)
+        if self.voltage is None or isinstance(self.voltage, Gain):
+            held = 0.0 if self.voltage is None else self.voltage.at(knobs)
+            return np.full(scene.time.size, held)
+        return np.asarray(self.voltage)
+
+
+def follow_target(time: Array, target: Array, gains: Mapping[str, float]) -> Array:
+    """(n,) [V] of a feedforward along a velocity, each held until the next time.
+
+    Args:
+        time: (n,) [s].
+        target: (n,) [m/s or rad/s].
+        gains: kS, kV, kA and, where there is one, kG.
+    """
+    velocity = (target[:-1] + target[1:]) / 2
+    acceleration = np.diff(target) / np.diff(time)
+    volts = gains["kS"] * np.sign(velocity) + gains["kV"] * velocity
+    return np.append(volts + gains["kA"] * acceleration + gains.get("kG", 0.0), 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,10 +218,12 @@ class Panel:
     """A plot over time; its axes stay as they are whatever a knob does.
 
     Args:
-        signal: ``position``, ``velocity`` or ``voltage``.
+        signal: ``position``, ``velocity``, ``voltage``, or ``error``: how far a position is ahead
+            of the one that was asked for.
         label: of its axis, with the unit.
-        low: lowest value; None holds what the scenes hold at first.
+        low: lowest value in the label's unit; None holds what the scenes hold at first.
         high: highest value; None the same.
+        scale: factor from SI to the unit of the label: 100 for centimeters.
         terms: whether the voltage of the first motion is shared out among kS, kV and kA, as areas.
     """
 
@@ -160,6 +231,7 @@ class Panel:
     label: str
     low: float | None = None
     high: float | None = None
+    scale: float = 1.0
     terms: bool = False
 
 
@@ -178,19 +250,28 @@ class Score:
     seconds: float = 0.0
 
 
-def find_position(motion: Motion, scene: Scene, knobs: Mapping[str, float]) -> Array:
-    """(n,) [m or rad] where a motion is: given, simulated, or the integral of its velocity."""
-    if motion.gains is not None:
-        found = motion.curve("position", scene, knobs)
-        return np.zeros(scene.time.size) if found is None else found
-    if motion.position is not None:
-        return np.asarray(motion.position)
-    if motion.velocity is None:
-        return np.zeros(scene.time.size)
-    velocity = np.asarray(motion.velocity)
-    ways = np.diff(scene.time) * (velocity[:-1] + velocity[1:]) / 2
-    return np.asarray(motion.start + np.concatenate([[0.0], np.cumsum(ways)]))
+@dataclass(frozen=True)
+class Rule:
+    """What a plan has to keep; the page says at every move of a knob whether it does.
+
+    Args:
+        label: what is measured, with its unit.
+        measure: ``farthest`` or ``fastest`` of all motions, ``moving`` [s] of one; or a
+            knob's name.
+        times: factor from the measure to what is shown.
+        motion: whose; empty means all.
+        at_most: upper bound, or a knob that sets it.
+        at_least: lower bound.
+    """
+
+    label: str
+    measure: str
+    times: float = 1.0
+    motion: str = ""
+    at_most: float | Gain | None = None
+    at_least: float | None = None
 
 
-def _value(gain: float | Gain, knobs: Mapping[str, float]) -> float:
-    return gain.at(knobs) if isinstance(gain, Gain) else float(gain)
+def find_value(value: float | Gain, knobs: Mapping[str, float]) -> float:
+    """A number, or what a knob makes of it."""
+    return value.at(knobs) if isinstance(value, Gain) else float(value)
