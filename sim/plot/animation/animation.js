@@ -240,9 +240,10 @@ class Animation {
     this.width = width;
     const { stage } = this.data;
     const upright = !["drivetrain", "swerve"].includes(stage.kind);
-    const beside = upright && width >= 600;
+    const crowd = this.scene.motions.filter(({ ghost }) => !ghost).length;
+    const beside = upright && width >= 600 && crowd <= (stage.kind === "flywheel" ? 2 : 4);
     this.both.classList.toggle("stacked", !beside);
-    const wide = beside ? 240 : width;
+    const wide = beside ? Math.max(240, 76 * crowd) : width;
     const motions = this.scene.motions.map((motion) => ({ ...motion, color: this.color(motion) }));
     this.stage.replaceChildren();
     const svg = draw(this.stage, "svg", { width: wide, role: "img", "aria-label": stage.words });

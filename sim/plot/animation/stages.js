@@ -114,7 +114,7 @@ function drawElevator(svg, stage, motions, width) {
   const columns = solid(motions);
   const [top, bottom] = [24, 232];
   const scale = (bottom - top - 26) / (stage.high - stage.low);
-  const wide = Math.min(56, width / columns.length - 20);
+  const wide = Math.min(56, width / columns.length - 26);
   const toY = (value) => bottom - (Math.min(Math.max(value, stage.low), stage.high) - stage.low) * scale;
   const carriages = columns.flatMap((motion, column) => {
     const x = (width * (column + 0.5)) / columns.length;
