@@ -59,7 +59,7 @@ __all__ = [
 FOLDER = Path(__file__).parent
 KINDS = ("drivetrain", "elevator", "arm", "flywheel", "swerve")
 FLOORS = ("drivetrain", "swerve")  # which drive on a floor
-LONG = 0.9  # [m] of a robot with its bumpers
+LONG, BEHIND = 0.9, 0.16  # [m] of a robot with its bumpers; [share of the floor] it takes at most
 DIGITS = 5  # significant ones of what is drawn
 ROOM = 0.08  # [share of what is shown] that axes leave beyond it
 DASHES = {"-": "", "--": "7 4", "-.": "8 3 2 3", ":": "2 3"}  # matplotlib's line styles in SVG
@@ -163,7 +163,7 @@ def animate_mechanism(
     start = {knob.name: knob.value for knob in knobs}
     low, high = span or _limits(_curves("position", every, start))
     if span is None and kind in FLOORS:
-        low -= LONG  # a position is that of the front
+        low -= min(LONG, BEHIND * (high - low))  # a position is that of the front
     stage = {
         "kind": kind,
         "low": _short(low),

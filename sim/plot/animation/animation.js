@@ -9,8 +9,8 @@ import { STAGES, draw } from "./stages.js";
 
 const SHORTEST = 3; // [s] that a play takes at least: what is over sooner is shown in slow motion
 const LONGEST = 12; // [s] that it takes at most
-const HIGH = { one: 170, many: 120 }; // [px] of a panel that is alone, and of one of several
-const EDGE = { left: 46, right: 8, top: 6, bottom: 22 };
+const HIGH = { one: 170, many: 120 }; // [px] of a panel that is alone or holds areas, and of one of several
+const EDGE = { left: 46, right: 14, top: 6, bottom: 22 };
 const MOVES = 0.02; // [m/s] slower is standing
 const TERMS = [["kS·sgn(v)", 0], ["kV·v", 1], ["kA·a", 2]]; // a term and its color
 
@@ -241,9 +241,9 @@ class Animation {
     const { stage } = this.data;
     const upright = !["drivetrain", "swerve"].includes(stage.kind);
     const crowd = this.scene.motions.filter(({ ghost }) => !ghost).length;
-    const beside = upright && width >= 600 && crowd <= (stage.kind === "flywheel" ? 2 : 4);
+    const beside = upright && width >= 600 && crowd <= 2;
     this.both.classList.toggle("stacked", !beside);
-    const wide = beside ? Math.max(240, 76 * crowd) : width;
+    const wide = beside ? 240 : width;
     const motions = this.scene.motions.map((motion) => ({ ...motion, color: this.color(motion) }));
     this.stage.replaceChildren();
     const svg = draw(this.stage, "svg", { width: wide, role: "img", "aria-label": stage.words });
@@ -267,7 +267,7 @@ class Animation {
     const now = create(this.panels, "ul", { className: "motion-now" });
     create(now, "li", { textContent: panel.label });
     const values = panel.terms ? [] : shown.map((motion) => this.drawKey(now, motion));
-    const high = this.data.panels.length > 1 ? HIGH.many : HIGH.one;
+    const high = this.data.panels.length > 1 && !panel.terms ? HIGH.many : HIGH.one;
     const svg = draw(this.panels, "svg", { width, height: high, role: "img" });
     svg.setAttribute("aria-label", `${panel.label} over time: ${shown.map(({ name }) => name).join(", ")}`);
     const [left, right, top, bottom] = [EDGE.left, width - EDGE.right, EDGE.top, high - EDGE.bottom];

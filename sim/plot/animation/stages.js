@@ -39,7 +39,7 @@ function drawFloor(svg, stage, motions, width, lane) {
     const ground = lane * (row + 1) - 4;
     draw(svg, "line", { x1: left, x2: right, y1: ground, y2: ground, stroke: "currentColor" });
     if (lanes.length > 1) {
-      draw(svg, "text", { x: right, y: ground - lane + 14, "text-anchor": "end" }, motion.name);
+      draw(svg, "text", { x: left, y: ground - lane + 14 }, motion.name);
     }
   });
   const bottom = lane * lanes.length - 4;
@@ -57,7 +57,9 @@ function drawFloor(svg, stage, motions, width, lane) {
   }
   if (stage.wall !== null) {
     const x = toX(stage.wall);
-    draw(svg, "rect", { x, y: 2, width: width - x, height: bottom - 2, fill: "currentColor", opacity: 0.55 });
+    const block = { x, y: 2, height: bottom - 2, fill: "currentColor" };
+    draw(svg, "rect", { ...block, width: Math.max(width - x, 0), opacity: 0.15 });
+    draw(svg, "rect", { ...block, width: 7 });
     draw(svg, "text", { x: x - 5, y: 13, "text-anchor": "end" }, "wall");
   }
   return { toX, scale, height, lanes };
