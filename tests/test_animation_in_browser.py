@@ -3,7 +3,6 @@
 import io
 from dataclasses import replace
 
-import nbformat
 import numpy as np
 import pytest
 from lab import (
@@ -19,7 +18,6 @@ from lab import (
 )
 from matplotlib.image import imread
 
-from grader.edition import build_pages
 from sim.plot.animation import (
     Choice,
     Gain,
@@ -248,30 +246,6 @@ def test_a_menu_picks_the_scene(shown):
     )
     figure.get_by_role("combobox").select_option("fast")
     assert figure.locator(".motion-now b").first.inner_text() == "3.00"
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_edition_moves_without_a_server_and_fits_a_phone(scheme, browser, tmp_path):
-    code = (
-        "import numpy as np\nfrom sim.plot.animation import *\nt = np.arange(0.0, 1.0, 0.02)\n"
-        "animate_mechanism('arm', Scene(t, (Motion('arm', position=t),)), "
-        "panels=(Panel('position', 'angle [rad]'),), alt='An arm rises.')"
-    )
-    wide = "# Lesson\n\n| " + " | ".join(["a long heading"] * 8) + " |\n|" + "---|" * 8
-    cells = [nbformat.v4.new_markdown_cell(wide), nbformat.v4.new_code_cell(code)]
-    notebook = tmp_path / "lessons" / "01_arm.ipynb"
-    notebook.parent.mkdir()
-    nbformat.write(nbformat.v4.new_notebook(cells=cells), notebook)
-    build_pages([notebook], tmp_path / "out")
-    asked = []
-    page = browser.new_page(viewport=PHONE, color_scheme=scheme, reduced_motion="reduce")
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto((tmp_path / "out" / "01_arm.html").as_uri())
-
-    page.locator("figure[data-alive]").wait_for()
-    assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
-    assert len(asked) == 1
-    page.close()
 
 
 def test_lesson_0_moves_in_jupyterlab_and_keeps_its_keys_from_the_notebook(browser, tmp_path):

@@ -37,13 +37,15 @@ class Page(HTMLParser):
 
     def __init__(self, html):
         super().__init__()
-        self.pictures, self.open, self.summaries = [], 0, 0
+        self.pictures, self.animations, self.open, self.summaries = [], [], 0, 0
         self.feed(html)
 
     def handle_starttag(self, tag, attrs):
         """Note a picture, and what opens."""
         if tag == "img":
             self.pictures.append(dict(attrs))
+        if tag == "figure" and "data-motion" in dict(attrs):
+            self.animations.append(dict(attrs))
         self.open += tag == "details"
         self.summaries += tag == "summary"
 
@@ -136,6 +138,20 @@ def test_every_picture_has_words_and_draws_only_on_white(text, run):
         assert len(picture["alt"]) > 40
         assert picture["src"].startswith("data:image/svg+xml;base64,")
         assert "background:white" in picture["style"]
+
+
+@each_lesson
+def test_every_animation_says_what_is_seen(text, run):
+    for html in _htmls(run(text)):
+        for animation in Page(html).animations:
+            assert len(animation["aria-label"]) > 40
+            assert animation["aria-label"].endswith(".")
+
+
+@pytest.mark.parametrize("number", ["00", "01", "02", "03", "08", "09", "10"])
+def test_a_mechanism_moves_in_the_lessons_that_need_it(number, run):
+    (text,) = (path for path in TEXTS if path.stem.startswith(number))
+    assert [animation for html in _htmls(run(text)) for animation in Page(html).animations]
 
 
 @each_lesson

@@ -24,10 +24,7 @@ SUFFIXES = (".svg", ".png", ".pdf")
 PAPER = "white"  # an opaque ground: colors chosen for contrast on white stay legible on a dark page
 INK = "#222222"
 # JupyterLab's dark theme shows the same drawing with light and dark exchanged, hues kept.
-DARK = (
-    'body[data-jp-theme-light="false"] figure.picture img'
-    "{filter:invert(0.9) hue-rotate(180deg)}"
-)
+DARK = 'body[data-jp-theme-light="false"] figure.picture img{filter:invert(0.9) hue-rotate(180deg)}'
 
 # Okabe and Ito's colors, which people who see few colors can tell apart, without the yellow that
 # is too pale on white. Each has a marker and a line style of its own: color never speaks alone.

@@ -51,9 +51,9 @@ __all__ = [
     "Scene",
     "Score",
     "TestPlan",
+    "allow_script",
     "animate_mechanism",
     "read_script",
-    "script_policy",
 ]
 
 FOLDER = Path(__file__).parent
@@ -113,9 +113,9 @@ def read_script() -> str:
     return "\n".join(row for row in rows if not row.startswith("import "))
 
 
-def script_policy() -> str:
-    """The source that a page's Content-Security-Policy has to allow: this script, and no other."""
-    digest = hashlib.sha256(read_script().encode("utf-8")).digest()
+def allow_script(script: str) -> str:
+    """The source by which a page's Content-Security-Policy allows one script, and no other."""
+    digest = hashlib.sha256(script.encode("utf-8")).digest()
     return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
 
 
