@@ -19,11 +19,12 @@ LESSONS = Path(__file__).resolve().parents[1] / "lessons"
 # A cell that only asks: its code repeats the question, and a quick check's holds the answer.
 ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
 KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
+ANIMATES = re.compile(r"\banimate_mechanism\(")  # what moves is the point, and not how it is drawn
 KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def derive(text: Path) -> nbformat.NotebookNode:
-    """The notebook of a lesson's text: no outputs; what holds an answer or repeats is collapsed."""
+    """The notebook of a lesson's text: no outputs; answers, repeats and drawing are collapsed."""
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.metadata = nbformat.from_dict(
         {"kernelspec": KERNEL, "language_info": {"name": "python"}}
@@ -35,7 +36,7 @@ def derive(text: Path) -> nbformat.NotebookNode:
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
         cell.metadata = nbformat.from_dict({})
-        if cell.cell_type == "code" and ASKS.search(cell.source):
+        if cell.cell_type == "code" and (ASKS.search(cell.source) or ANIMATES.search(cell.source)):
             cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
     for shown, words, code in zip(
         notebook.cells, notebook.cells[1:], notebook.cells[2:], strict=False

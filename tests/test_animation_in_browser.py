@@ -187,6 +187,18 @@ def test_the_cursor_moves_robot_and_plots_together(shown):
     assert 2.0 < figure.evaluate("figure => figure.animation.now") < 2.8
 
 
+def test_the_end_is_a_time_like_any_other(shown):
+    page, figure = shown(race())
+    figure.get_by_label("time", exact=True).focus()
+    page.keyboard.press("End")
+    figure.evaluate("figure => figure.animation.show(figure.animation.duration)")
+    scene = Scene(TIME, (MOTIONS["program"],), target=TARGET)
+    speed = MOTIONS["program"].curve("velocity", scene, {k.name: k.value for k in KNOBS})[-1]
+    shown_speed = figure.locator(".motion-now b").nth(1).inner_text().replace("−", "-")
+    assert float(shown_speed) == pytest.approx(speed, abs=0.006)
+    assert "NaN" not in figure.inner_html()
+
+
 def test_the_keyboard_plays_pauses_and_moves_the_cursor(shown):
     page, figure = shown(race())
     cursor = figure.get_by_label("time", exact=True)

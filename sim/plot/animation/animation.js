@@ -368,9 +368,10 @@ class Animation {
     const { scene } = this;
     this.now = Math.min(Math.max(time, 0), this.duration);
     const at = scene.time[0] + this.now;
-    let k = Math.floor((this.now / this.duration) * (scene.time.length - 1));
+    const last = scene.time.length - 2; // the last interval also holds the end
+    let k = Math.min(Math.floor((this.now / this.duration) * last), last);
     while (k > 0 && scene.time[k] > at) k--;
-    while (k < scene.time.length - 2 && scene.time[k + 1] <= at) k++;
+    while (k < last && scene.time[k + 1] <= at) k++;
     const share = (at - scene.time[k]) / (scene.time[k + 1] - scene.time[k]);
     const read = (values, held = false) =>
       values?.length ? (held ? values[share < 1 ? k : k + 1] : values[k] + share * (values[k + 1] - values[k])) : 0;
