@@ -25,8 +25,8 @@
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
 # and its answer appears below. Go from top to bottom, and run every cell. You do not have to
-# understand every line of code. Some cells are folded to a bar with three dots, because their code
-# would show the answer to a question. Run them like the others.
+# understand every line of code. Some cells are folded to a bar with three dots: their code would
+# show the answer to a question, or it only draws. Run them like the others.
 #
 # <details><summary>You see no buttons or sliders?</summary>
 #

@@ -276,13 +276,14 @@ def test_a_prediction_is_compared_with_the_answer(text):
 
 
 @each_lesson
-def test_the_code_of_a_question_is_collapsed_as_it_holds_the_answer(text):
+def test_the_code_of_a_question_or_an_animation_is_collapsed(text):  # it answers, or only draws
     for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells:
         asks = re.search(
             r"^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck)\(", cell.source, re.MULTILINE
         )
+        moves = "animate_mechanism(" in cell.source
         hidden = cell.metadata.get("jupyter", {}).get("source_hidden", False)
-        assert hidden == bool(cell.cell_type == "code" and asks), cell.source
+        assert hidden == bool(cell.cell_type == "code" and (asks or moves)), cell.source
 
 
 @each_lesson
