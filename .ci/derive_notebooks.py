@@ -20,6 +20,7 @@ LESSONS = Path(__file__).resolve().parents[1] / "lessons"
 # A cell that only asks: its code repeats the question, and a quick check's holds the answer.
 ASKS = re.compile(r"^(?:\w+ = )?(?:Prediction|QuickCheck|QuickNumberCheck)\(", re.MULTILINE)
 KNOBS = re.compile(r"^show_interactive\(", re.MULTILINE)  # what follows repeats its picture
+ANIMATES = re.compile(r"\banimate_mechanism\(")  # what moves is the point, and not how it is drawn
 INSTALL = """\
 # Installs the course where it is missing, for example on Colab.
 from importlib.util import find_spec
@@ -33,7 +34,8 @@ KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 def derive(text: Path) -> nbformat.NotebookNode:
     """The notebook of a lesson's text, without outputs.
 
-    Folded are the cell that installs the course, and what holds an answer or repeats a picture.
+    Folded are the cell that installs the course, what holds an
+    answer, repeats a picture or draws an animation.
     """
     notebook = jupytext.read(text, fmt="py:percent")
     notebook.cells.insert(0, nbformat.v4.new_code_cell(INSTALL.strip()))
@@ -47,7 +49,10 @@ def derive(text: Path) -> nbformat.NotebookNode:
         seen[name] += 1
         cell.id = name if seen[name] == 1 else f"{name}-{seen[name]}"
         cell.metadata = nbformat.from_dict({})
-        if cell.cell_type == "code" and (ASKS.search(cell.source) or cell is notebook.cells[0]):
+        folded = (
+            ASKS.search(cell.source) or ANIMATES.search(cell.source) or cell is notebook.cells[0]
+        )
+        if cell.cell_type == "code" and folded:
             cell.metadata = nbformat.from_dict({"jupyter": {"source_hidden": True}})
     for shown, words, code in zip(
         notebook.cells, notebook.cells[1:], notebook.cells[2:], strict=False

@@ -25,8 +25,8 @@
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
 # and its answer appears below. Go from top to bottom, and run every cell. You do not have to
-# understand every line of code. Some cells are folded to a bar with three dots, because their code
-# would show the answer to a question. Run them like the others.
+# understand every line of code. Some cells are folded to a bar with three dots: their code would
+# show the answer to a question, or it only draws. Run them like the others.
 #
 # <details><summary>You see no buttons or sliders?</summary>
 #
@@ -63,9 +63,7 @@ import math
 import tomllib
 from dataclasses import replace
 from pathlib import Path
-from time import monotonic
 
-import ipywidgets as widgets
 import numpy as np
 from IPython.display import display
 
@@ -74,14 +72,17 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.plot import (
-    Picture,
-    Table,
-    measure_tracking_error,
-    plot_misses,
-    plot_time_series,
-    plot_tracking_error,
-    show_interactive,
+from sim.plot import Table, measure_tracking_error, plot_misses, plot_time_series
+from sim.plot.animation import (
+    Animation,
+    Choice,
+    Gain,
+    Knob,
+    Motion,
+    Panel,
+    Scene,
+    Score,
+    animate_mechanism,
 )
 from sim.teaching.prediction import Prediction
 
@@ -139,8 +140,8 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 # ## 3 The race
 #
 # **Round one: you.** You have **90 seconds** and two sliders, kS and kV. kA stays at 0. The clock
-# starts when you move the first slider. Bring the colored line onto the black one. Try to make the
-# *typical error* in the table small. (It is the "root mean square" of all errors: an average in
+# starts when you move the first slider. The dashed robot drives as it should; bring yours onto it.
+# Try to make the *typical error* small. (It is the "root mean square" of all errors: an average in
 # which large errors count more.) Race first, then run the cells below.
 #
 # **Predict first.** Nobody grades your prediction. After the experiment, the page tells you whether
@@ -157,37 +158,36 @@ guess_race = Prediction(
 guess_race
 
 # %%
-SECONDS = 90.0
 START = (0.6, 1.5)  # kS [V] and kV [V·s/m] where the sliders start
-tries = []  # of each try: when, kS, kV, and its typical error
+KS = Knob("kS", "kS [V]", low=0.0, high=1.0, step=0.02, value=START[0])
+KV = Knob("kV", "kV [V·s/m]", low=1.0, high=4.0, step=0.02, value=START[1])
+KA = Knob("kA", "kA [V·s²/m]", low=0.0, high=0.6, step=0.01, value=0.0)
+asked = Motion("target", velocity=TARGET, asked=True)
 
 
-def attempt(ks: float, kv: float) -> Picture:
-    """One try: drive with your guess. The first move starts the clock."""
-    velocity = drive(robot, {"kS": ks, "kV": kv, "kA": 0.0})
-    if tries or (ks, kv) != START:
-        tries.append((monotonic(), ks, kv, measure_tracking_error(TARGET, velocity).typical))
-    left = SECONDS - (tries[-1][0] - tries[0][0] if tries else 0.0)
-    title = f"try {len(tries)}: {left:.0f} s left" if left >= 0 else "time is up: this one is late"
-    return plot_tracking_error(TIME, TARGET, {"your robot": velocity}, title=title)
+def race(*knobs: Knob, seconds: float = 0.0) -> Animation:
+    """Your robot beside the target. The sliders set the gains of its program."""
+    program = {"kS": 0.0, "kV": 0.0, "kA": 0.0} | {knob.name: Gain(knob.name) for knob in knobs}
+    yours = Motion("your robot", gains=robot.gains, program=program)
+    return animate_mechanism(
+        "drivetrain",
+        Scene(TIME, (asked, yours), target=TARGET),
+        panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
+        knobs=knobs,
+        score=Score("your robot", seconds=seconds),
+        span=(-1.5, 5.0),
+        alt="Your robot drives beside a dashed one, the target, which speeds up to 2.5 m/s, stops, "
+        "and comes back at 1 m/s. The closer the two stay, the better your gains.",
+    )
 
 
-show_interactive(
-    attempt,
-    ks=widgets.FloatSlider(
-        min=0, max=1, step=0.02, value=START[0], description="kS [V]", continuous_update=False
-    ),
-    kv=widgets.FloatSlider(
-        min=1, max=4, step=0.02, value=START[1], description="kV [V·s/m]", continuous_update=False
-    ),
-)
+race(KS, KV, seconds=90.0)
 
 # %% [markdown]
-# No sliders on your screen? Change the numbers here and run the cell again. (To start a new race,
-# run the cell above again.)
+# The line above the picture shows your best try. Write its numbers here and run the cell:
 
 # %%
-attempt(0.6, 1.5)
+MY_KS, MY_KV = START  # for example 0.2, 2.4
 
 # %% [markdown]
 # **Round two: three lines.** Line one runs four short tests with the robot and keeps the **log**: a
@@ -211,15 +211,23 @@ plot_time_series(log, dynamic_seconds=1.0)
 # And here is the result of the race:
 
 # %%
-counted = [(off, ks, kv) for at, ks, kv, off in tries if at - tries[0][0] <= SECONDS]
-_, best_ks, best_kv = min(counted, default=(math.inf, *START))
-guessed = {"kS": best_ks, "kV": best_kv, "kA": 0.0}
+guessed = {"kS": MY_KS, "kV": MY_KV, "kA": 0.0}
+YOU = "your best try" if (MY_KS, MY_KV) != START else "the sliders untouched"
 
-YOU = "your best try" if counted else "the sliders untouched"
+
+def side_by_side(driven: Mechanism, racers: dict[str, dict[str, float]]) -> Scene:
+    """One robot driven by the gains of each racer."""
+    motions = [Motion(name, velocity=drive(driven, one)) for name, one in racers.items()]
+    return Scene(TIME, (asked, *motions))
+
+
 print(guess_race.reveal("the three lines"))
-print(f"You made {len(counted)} tries in time." if counted else "You have not raced yet.")
-plot_tracking_error(
-    TIME, TARGET, {YOU: drive(robot, guessed), "three lines": followed}, title="Finish"
+animate_mechanism(
+    "drivetrain",
+    side_by_side(robot, {YOU: guessed, "three lines": measured}),
+    panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
+    alt=f"The finish. The robot of {YOU} leaves the dashed target while it speeds up and slows "
+    "down. The robot of the three lines stays inside it.",
 )
 
 
@@ -283,32 +291,8 @@ print(f"The longest one drives {farthest:.1f} m. (Lesson 3 shows how to do it in
 # **Round three: kA unlocked.** Now race once more, with all three sliders and no clock. Can you
 # reach the error of the three lines? How long does it take you?
 
-
 # %%
-def unlocked(ks: float, kv: float, ka: float) -> Picture:
-    """One try with all three gains."""
-    velocity = drive(robot, {"kS": ks, "kV": kv, "kA": ka})
-    return plot_tracking_error(TIME, TARGET, {"your robot": velocity}, title="all three gains")
-
-
-show_interactive(
-    unlocked,
-    ks=widgets.FloatSlider(
-        min=0, max=1, step=0.02, value=START[0], description="kS [V]", continuous_update=False
-    ),
-    kv=widgets.FloatSlider(
-        min=1, max=4, step=0.02, value=START[1], description="kV [V·s/m]", continuous_update=False
-    ),
-    ka=widgets.FloatSlider(
-        min=0, max=0.6, step=0.01, value=0, description="kA [V·s²/m]", continuous_update=False
-    ),
-)
-
-# %% [markdown]
-# No sliders on your screen? Change the numbers here:
-
-# %%
-unlocked(0.6, 1.5, 0.0)
+race(KS, KV, KA)
 
 # %% [markdown]
 # ## 4 An honest twist: a pencil is enough for kV
@@ -465,29 +449,23 @@ def with_brace(kg: float) -> tuple[Mechanism, dict[str, float]]:
     return heavy, fit(again, method="sysid").gains
 
 
-def week_three(kg: float) -> Picture:
+def week_three(kg: float) -> Scene:
     """The race once more, on a heavier robot."""
     heavy, again = with_brace(kg)
-    racers = {
-        f"{YOU}, kept": drive(heavy, guessed),
-        "three lines, kept": drive(heavy, measured),
-        "three lines, measured again": drive(heavy, again),
-    }
-    return plot_tracking_error(TIME, TARGET, racers, title=f"+{kg:g} kg")
+    kept = {f"{YOU}, kept": guessed, "three lines, kept": measured}
+    return side_by_side(heavy, {**kept, "three lines, measured again": again})
 
 
-show_interactive(
-    week_three,
-    kg=widgets.FloatSlider(
-        min=0, max=40, step=1, value=4, description="brace [kg]", continuous_update=False
-    ),
+BRACES = {f"{kg} kg": week_three(kg) for kg in (0, 4, 10, 20, 40)}
+animate_mechanism(
+    "drivetrain",
+    {(name,): scene for name, scene in BRACES.items()},
+    choices=(Choice("brace", tuple(BRACES), value="4 kg"),),
+    panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
+    alt="Three robots with the same brace: one with your gains, one with the old gains of the "
+    "three lines, one measured again. With 4 kg nobody sees a difference. With 40 kg the old "
+    "gains fall behind on the ramps, and the new ones do not.",
 )
-
-# %% [markdown]
-# No slider on your screen? Change the number here:
-
-# %%
-week_three(4.0)
 
 # %%
 BRACE = 4.0  # [kg]
@@ -511,8 +489,8 @@ Table(
 # ### Explain
 #
 # Only **kA** has moved. At a steady speed nothing accelerates, so a heavier robot needs no more
-# volts: kV stays the same. So a guess only becomes wrong where it depends on mass: set the slider
-# to 40 kg, and look where the error grows.
+# volts: kV stays the same. So a guess only becomes wrong where it depends on mass: choose 40 kg,
+# and look where the error grows.
 #
 # <details><summary>For mentors: do guesses stop being valid when the robot gets heavier?</summary>
 #
@@ -523,7 +501,7 @@ Table(
 # > ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
-# > **Try it:** set the slider to 40 kg. Where does the robot miss more: on the ramps, or while it
+# > **Try it:** choose 40 kg. Where does the robot miss more: on the ramps, or while it
 # > holds a speed?
 # </details>
 #

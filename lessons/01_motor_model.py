@@ -52,12 +52,11 @@ from sim.physics.motors import MOTORS, theoretical_kv
 from sim.plot import (
     Picture,
     Table,
-    plot_budget,
-    plot_curves,
     plot_gauge,
     plot_relative_change,
     show_interactive,
 )
+from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
 from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
@@ -142,7 +141,8 @@ print(f"If its speed were steady, its kV would have to be {(7.0 - gains['kS']) /
 # ## 3 Doing it: the voltage budget
 #
 # Now do the same for every moment of a drive. The picture computes the three terms from the robot's
-# *motion* and stacks them on top of each other. The black line is the voltage that was *applied*.
+# *motion* and stacks them on top of each other. Drag the line through the picture: the robot moves
+# with it. The black line is the voltage that was *applied*.
 # If the model is right, the stack reaches the line.
 #
 # There are three drives:
@@ -191,35 +191,29 @@ def spent(which: str, mass: float, friction: float) -> tuple[np.ndarray, dict, n
     return time[:-1], dict(zip(TERMS, shares, strict=True)), applied[:-1]
 
 
-def voltage_budget(drive: str, mass: float, friction: float, look: float) -> Picture:
-    """Where the volts of a drive go; ``look`` is a moment, in percent of the drive."""
-    time, terms, applied = spent(drive, mass, friction)
-    moment = round(look / 100 * float(time[-1]), 2)
-    return plot_budget(time, terms, applied=applied, moment=moment)
+def budget(which: str) -> Scene:
+    """A drive of a robot whose mass and friction the sliders set: kA grows with the mass."""
+    time = np.arange(0.0, DRIVES[which] + 0.005, 0.01)
+    price = {"kS": Gain("kS"), "kV": gains["kV"], "kA": Gain("mass", gains["kA"] / drivetrain.load)}
+    return Scene(time, (Motion("robot", gains=price, voltage=voltage(which, time)),))
 
 
-show_interactive(
-    voltage_budget,
-    drive=widgets.Dropdown(options=list(DRIVES), description="drive"),
-    mass=widgets.FloatSlider(
-        min=20, max=80, step=5, value=60, description="mass [kg]", continuous_update=False
+animate_mechanism(
+    "drivetrain",
+    {(name,): budget(name) for name in DRIVES},
+    choices=(Choice("drive", tuple(DRIVES), value="sudden step"),),
+    panels=(
+        Panel("voltage", "voltage [V]", low=-5.0, high=6.0, terms=True),
+        Panel("velocity", "velocity [m/s]", low=-1.5, high=2.5),
     ),
-    friction=widgets.FloatSlider(
-        min=0.05, max=1.0, step=0.05, value=0.15, description="kS [V]", continuous_update=False
+    knobs=(
+        Knob("mass", "mass [kg]", low=20.0, high=80.0, step=5.0, value=60.0),
+        Knob("kS", "kS [V]", low=0.05, high=1.0, step=0.05, value=0.15),
     ),
-    look=widgets.FloatSlider(
-        min=0, max=100, step=1, value=50, description="look at [%]", continuous_update=False
-    ),
+    alt="A robot drives, and below it three areas share out its volts: kS·sgn(v), kV·v and kA·a. "
+    "Right after a sudden step nearly all volts are kA·a; then kV·v grows and kA·a shrinks. In the "
+    "slow ramp nearly all are kV·v.",
 )
-
-# %% [markdown]
-# No menu on your screen? Change the words and numbers here:
-
-# %%
-voltage_budget("sudden step", mass=60.0, friction=0.15, look=20)
-
-# %%
-voltage_budget("there and back", mass=60.0, friction=0.15, look=40)
 
 # %%
 rows = []
@@ -601,7 +595,8 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 #
 # After a step of voltage, the velocity rises fast, then slower and slower: in each τ it covers 63 %
 # of the remaining difference. (Such a curve is called *exponential*.) After 3 τ it has almost
-# reached its final speed. The star in the picture marks τ.
+# reached its final speed. Below, four mechanisms get the same step of 4 V. Which one has the
+# longest τ?
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -612,29 +607,23 @@ def tau(kind: str) -> float:
     return MECHANISMS[kind].gains["kA"] / MECHANISMS[kind].gains["kV"]
 
 
-def rise(kind: str) -> Picture:
-    """How a mechanism gets up to speed after a step of 4 V."""
-    time = np.round(np.linspace(0.0, 5 * tau(kind), 251), 4)
+def spin_up(kind: str, time: np.ndarray) -> Motion:
+    """How a mechanism gets up to speed after a step of 4 V, as a share of its final speed."""
     price = MECHANISMS[kind].gains
     _, velocity = move_gains_only(price, time=time, voltage=np.full(time.size, 4.0))
-    share = 100 * velocity / ((4.0 - price["kS"]) / price["kV"])
-    return plot_curves(
-        1000 * time,
-        {kind: share},
-        xlabel="time since the step [ms]",
-        ylabel="share of its final speed [%]",
-        levels={"63 %": 63.2},
-        marked=(round(1000 * tau(kind), 1), 63.2),
-    )
+    return Motion(kind, velocity=velocity / ((4.0 - price["kS"]) / price["kV"]))
 
 
-show_interactive(rise, kind=widgets.Dropdown(options=KINDS, description="mechanism"))
-
-# %% [markdown]
-# No menu on your screen? Change the name here:
-
-# %%
-rise("shooter")
+since = np.arange(0.0, 1.501, 0.01)
+animate_mechanism(
+    "flywheel",
+    Scene(since, tuple(spin_up(kind, since) for kind in KINDS)),
+    panels=(Panel("velocity", "share of its final speed [%]", low=0.0, high=105.0, scale=100.0),),
+    slow=12.0,
+    alt="Four wheels for four mechanisms get up to speed after a step of 4 V. The others are there "
+    f"within a quarter of a second; the shooter, with a τ of {1000 * tau('shooter'):.0f} ms, is "
+    "the last.",
+)
 
 # %%
 wheel_time = np.arange(0.0, 3.0, 0.001)

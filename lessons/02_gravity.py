@@ -61,6 +61,7 @@ from sim.plot import (
     plot_time_series,
     show_interactive,
 )
+from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, animate_mechanism
 from sim.teaching.prediction import Prediction
 
 elevator, arm = MECHANISMS["elevator"], MECHANISMS["arm"]
@@ -211,35 +212,38 @@ recipes = {
 }
 
 
-def window_picture(volts: float) -> Picture:
-    """The window that holds, what the recipes find, and a voltage of your choice."""
-    shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
-    return plot_hold_window(
-        steps[shown],
-        speeds[shown],
-        window=(truth["kG"] - truth["kS"], truth["kG"] + truth["kS"]),
-        marks=recipes,
-        here=(volts, let_go(volts)),
-    )
-
-
-show_interactive(
-    window_picture,
-    volts=widgets.FloatSlider(
-        min=1.2, max=3.0, step=0.01, value=1.5, description="voltage [V]", continuous_update=False
+MIDDLE = 0.6  # [m] where you let go
+animate_mechanism(
+    "elevator",
+    Scene(
+        np.arange(0.0, 1.01, 0.02),
+        (Motion("carriage", gains=truth, type="elevator", voltage=Gain("volts"), start=MIDDLE),),
     ),
+    panels=(
+        Panel("position", "height [m]", low=0.0, high=1.2),
+        Panel("velocity", "velocity [m/s]", low=-0.6, high=0.6),
+    ),
+    knobs=(Knob("volts", "voltage [V]", low=1.2, high=3.0, step=0.01, value=1.5),),
+    span=(0.0, 1.2),
+    alt=f"You let go of a carriage at {MIDDLE} m, under a voltage that you choose. It sinks below "
+    f"{truth['kG'] - truth['kS']:.2f} V, rises above {truth['kG'] + truth['kS']:.2f} V, and stays "
+    "between them.",
 )
 
 # %% [markdown]
-# No slider on your screen? Change the number here:
+# Change the voltage and press *Play*. Where does the carriage begin to sink, and where does it
+# begin to rise? Then run the next cell: it shows all voltages, and what the two methods find.
 
 # %%
-window_picture(1.5)
+shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
+plot_hold_window(
+    steps[shown],
+    speeds[shown],
+    window=(truth["kG"] - truth["kS"], truth["kG"] + truth["kS"]),
+    marks=recipes,
+)
 
 # %% [markdown]
-# Move the star through the window. Where does the carriage begin to sink, and where does it begin
-# to rise?
-#
 # **Myth check.** "Raise the voltage until the elevator just does not drop: that is kG." *Not
 # quite:* that is the lower edge, kG − kS. Another method says: "as much as you can without the
 # elevator moving upward". That is the upper edge, kG + kS. The two are equal only without friction.
@@ -371,23 +375,35 @@ true_angles = [-30, -15, 0, 20, 40, 60, 85]
 measured = [(float(angle), *edges_at(angle)) for angle in true_angles]
 
 
-def arm_picture(angle: float) -> Picture:
-    """The windows of the arm, and an angle of your choice."""
-    return plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"], here=angle)
+def let_go_at(degrees: int) -> Scene:
+    """The arm, let go at an angle under a voltage of your choice."""
+    held = Motion(
+        "arm",
+        gains=arm.gains,
+        type="arm",
+        voltage=Gain("volts"),
+        start=float(np.radians(degrees)),
+    )
+    return Scene(np.arange(0.0, 1.01, 0.02), (held,))
 
 
-show_interactive(
-    arm_picture,
-    angle=widgets.IntSlider(
-        min=-90, max=90, step=5, value=60, description="angle [deg]", continuous_update=False
-    ),
+ANGLES = {f"{degrees}°": let_go_at(degrees) for degrees in (-30, 0, 30, 60, 85)}
+animate_mechanism(
+    "arm",
+    {(name,): scene for name, scene in ANGLES.items()},
+    choices=(Choice("angle", tuple(ANGLES), value="60°"),),
+    knobs=(Knob("volts", "voltage [V]", low=-0.5, high=2.5, step=0.01, value=0.2),),
+    panels=(Panel("position", "angle [°]", low=-90.0, high=135.0, scale=180 / np.pi),),
+    alt="An arm drawn at its angle. You let go of it under a voltage that you choose. At every "
+    "angle there is a window of voltages that hold it; the window is highest where the arm is "
+    "level.",
 )
 
 # %% [markdown]
-# No slider? Change the number here:
+# Hold the arm at 0°, then at 60°. Here are the windows that the cell above measured:
 
 # %%
-arm_picture(60)
+plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
 
 # %% [markdown]
 # ### An encoder with an offset

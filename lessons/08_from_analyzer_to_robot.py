@@ -58,6 +58,7 @@ from sim.plot import (
     plot_tracking_error,
     show_interactive,
 )
+from sim.plot.animation import Motion, Panel, Scene, animate_mechanism
 from sim.reconcile import reconcile
 from sim.report.controller_snippet import write_controller_code
 from sim.report.robot_code_snippet import CLASSES, ORDER, write_robot_code
@@ -656,13 +657,28 @@ moves = {name: rise(gains) for name, gains in SETS.items()}
 moves["reconciled + tube"] = rise(SETS["reconciled"], with_tube=True)
 some = next(iter(moves.values()))
 print(guess_move.reveal("about three times smaller"))
-plot_tracking_error(
-    some.time,
-    100 * some.target,
-    {name: 100 * move.position for name, move in moves.items()},
-    unit="cm",
-    quantity="position",
-    title="The same move, kP = 5 V/m",
+target = Motion("target", position=some.target, velocity=np.gradient(some.target, LOOP), asked=True)
+animate_mechanism(
+    "elevator",
+    Scene(
+        some.time,
+        (
+            target,
+            *(
+                Motion(name, position=move.position, voltage=move.voltage)
+                for name, move in moves.items()
+            ),
+        ),
+    ),
+    panels=(
+        Panel("error", "ahead of the target by [cm]", scale=100.0),
+        Panel("voltage", "voltage [V]"),
+    ),
+    span=(0.0, 1.2),
+    alt="Four elevators rise by one meter beside a dashed target, all with kP = 5 V/m. "
+    + " ".join(
+        f"{name}: at most {100 * one.worst_error:.1f} cm off." for name, one in moves.items()
+    ),
 )
 
 # %%

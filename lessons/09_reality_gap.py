@@ -78,10 +78,10 @@ from sim.plot import (
     make_residual_views,
     plot_curves,
     plot_gap_bars,
-    plot_time_series,
     plot_voltage_residual,
     show_interactive,
 )
+from sim.plot.animation import Choice, Gain, Knob, Motion, Panel, Scene, Score, animate_mechanism
 from sim.plot.story import make_findings_table, plot_gap_by_round, plot_residual_maps
 from sim.reconcile import reconcile
 from sim.teaching.prediction import Prediction
@@ -195,19 +195,39 @@ Table(
 )
 
 # %%
-model_log = replace(
-    log,
-    runs=tuple(
-        replace(run, velocity=seen)
-        for run, seen in zip(log.runs, simulated(base, log), strict=True)
-    ),
-)
+FIRST = {"ramp": ("quasistatic-forward", 3.0), "step": ("dynamic-forward", 1.0)}  # and how long [s]
+
+
+def beside_its_model(test: str, seconds: float) -> Scene:
+    """The first seconds of a test, and a model that gets the same voltage."""
+    run = log.runs_of_test(test)[0]
+    time = run.time - run.time[0]
+    shown = time <= seconds
+    gains = {name: Gain(name) for name in truth}
+    model = Motion("model", gains=gains, voltage=run.voltage[shown], ghost=True)
+    real = Motion("robot", velocity=run.velocity[shown])
+    return Scene(time[shown], (real, model), target=run.velocity[shown])
+
+
 print(guess_ka.reveal("too large by a third or more"))
-plot_time_series(log, beside=model_log, names=("log", "simulation"), dynamic_seconds=1.0)
+knobs = [
+    Knob(name, f"{name} [{unit}]", low=0.0, high=high, step=0.005, value=round(base.gains[name], 3))
+    for name, unit, high in (("kS", "V", 0.6), ("kV", "V·s/m", 4.0), ("kA", "V·s²/m", 0.8))
+]
+animate_mechanism(
+    "drivetrain",
+    {(name,): beside_its_model(*which) for name, which in FIRST.items()},
+    choices=(Choice("test", tuple(FIRST), value="step"),),
+    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=1.4),),
+    knobs=knobs,
+    score=Score("model"),
+    alt="The robot of the log and, dashed, its model with the same voltage. After the step the "
+    "model is ahead at first, and behind later: its velocity has another shape.",
+)
 
 # %% [markdown]
-# The colored curves are the log, the dotted black ones the simulation. Look at the start of the
-# steps: the curves have different *shapes*. No kA makes them agree.
+# The solid robot is the log, the dashed one is the model. Play the step: the two curves have
+# different *shapes*. Move the sliders. No kA makes them agree.
 #
 # (SysId's kA looks good here, but that is luck: its kS is wrong instead.)
 #

@@ -53,7 +53,6 @@
 # Our robot has four Kraken X60, 4 inch wheels, 60 kg. Its wheels stand in a square.
 
 # %%
-import ipywidgets as widgets
 import numpy as np
 
 import sim
@@ -65,7 +64,8 @@ from sim.fit import fit
 from sim.fit.physics.inertia import moment_of_inertia
 from sim.fit.pooled import pool_fits
 from sim.physics.motors import find_motor
-from sim.plot import Picture, Table, plot_curves, show_interactive
+from sim.plot import Table, plot_curves
+from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
 from sim.teaching.prediction import Prediction
 
 robot = SwerveDrive(
@@ -103,6 +103,37 @@ print(f"A square robot: {robot.trackwidth} m wide, {robot.mass:.0f} kg.")
 # - straight, the wheels push the **mass**;
 # - on the spot, they push against the **moment of inertia**. It says how hard it is to make the
 #   robot turn. Mass far from the middle counts more.
+
+# %%
+short = sim.Routine(step=1.5, timeout=2.0, kinds=("dynamic",))
+ahead, around = (
+    simulate(one, short, rng=np.random.default_rng(5)).runs[0]
+    for one in (robot.translation, robot.rotation)
+)
+animate_mechanism(
+    "swerve",
+    {
+        ("translation",): Scene(
+            ahead.time - ahead.time[0], (Motion("robot", velocity=ahead.velocity),)
+        ),
+        ("rotation",): Scene(
+            around.time - around.time[0],
+            (
+                Motion(
+                    "robot",
+                    position=np.zeros(len(around)),
+                    velocity=around.velocity,
+                    heading=around.position - around.position[0],
+                    turns=True,
+                ),
+            ),
+        ),
+    },
+    choices=(Choice("routine", ("translation", "rotation")),),
+    panels=(Panel("velocity", "velocity [m/s, rad/s]"),),
+    alt="A swerve robot from above. In translation its four wheels point forward and it drives "
+    "ahead. In rotation they stand across the diagonals and it turns on the spot.",
+)
 
 # %% [markdown]
 # ## 3 Going straight: each module, and all
@@ -302,25 +333,25 @@ def speeds(step: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return since, run.velocity, np.minimum(run.velocity, floor)
 
 
-def launch(step: float) -> Picture:
-    """Speed of the wheels and of the robot after a step of voltage."""
+def launch(step: float) -> Scene:
+    """The robot after a step of voltage, and the place that its wheels count."""
     since, wheels, body = speeds(step)
-    lines = {"wheels (your log)": wheels, "robot": body}
-    return plot_curves(since, lines, xlabel="time since the step [s]", ylabel="speed [m/s]")
+    log = Motion("your log (the wheels)", velocity=wheels, ghost=True)
+    return Scene(since, (Motion("robot", velocity=body), log))
 
 
 limit = slip_voltage(robot.translation)
 print(guess_step.reveal("they spin up almost at once, and the robot comes later"))
 print(f"This robot slips from {limit:.1f} V on.")
-show_interactive(
-    launch, step=widgets.FloatSlider(4.0, min=1.0, max=5.0, step=0.5, description="step [V]")
+STEPS = {f"{step:g} V": launch(step) for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0)}
+animate_mechanism(
+    "swerve",
+    {(name,): scene for name, scene in STEPS.items()},
+    choices=(Choice("step", tuple(STEPS), value="4 V"),),
+    panels=(Panel("velocity", "speed [m/s]"),),
+    alt="A robot from above and, dashed, the place where its log says it is. With a step of 1 V "
+    "the two are together. With 4 V the wheels spin, and the log is ahead of the robot.",
 )
-
-# %% [markdown]
-# No slider on your screen? Change the number here:
-
-# %%
-launch(step=4.0)
 
 # %% [markdown]
 # The same in numbers, a fiftieth of a second after the step:

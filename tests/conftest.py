@@ -14,6 +14,8 @@ settings.load_profile("course")
 ROOT = Path(__file__).resolve().parents[1]
 SLOW = (  # files that take long; begun first, they keep no core waiting at the end
     "test_lessons_in_browser",
+    "test_animation_in_browser",
+    "test_edition_in_browser",
     "test_instructors_day",
     "test_install",
     "test_without_numba",

@@ -1,5 +1,6 @@
 """The lessons as pages: run, whole, readable without installing anything."""
 
+import html
 import re
 
 import nbformat
@@ -10,6 +11,7 @@ from grader.cli import run_command
 from grader.edition import build_pages
 from grader.edition.notebook_html import highlight_python, split_notebook
 from sim.core.errors import BadRequest
+from sim.plot.animation import allow_script, read_script
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
 CELLS = (
@@ -55,7 +57,7 @@ def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_pa
         found
         for text in pages.values()
         for found in page_flaws(text)
-        if not re.search(r"\d\d_\w+(-slides)?\.html|handout\.html|index\.html", found)
+        if not re.search(r"\d\d_\w+(-slides)?\.html|handout\.html|index\.html|<script>", found)
     ] == []
     assert re.findall(r"<h2>(.*?)</h2>", page) == ["1 Why: it is short", "System check"]
     assert "# ## no heading" in page
@@ -70,6 +72,20 @@ def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_pa
     assert "the robot has room" in handout
     for name in re.findall(r'href="([\w-]+\.html)"', "".join(pages.values())):
         assert name in pages
+
+
+def test_only_the_scripts_of_the_edition_itself_may_run(lesson, tmp_path):
+    text = "# Lesson\n\n<script>alert(1)</script>"
+    build_pages([lesson("01_a", MARKDOWN(text))], tmp_path / "out")
+    page = (tmp_path / "out" / "01_a-slides.html").read_text("utf-8")
+    policy = html.unescape(re.search(r'Policy" content="([^"]*)"', page)[1])
+    (own,) = re.findall(r'<script type="module">(.*?)</script>', page, flags=re.DOTALL)
+
+    assert allow_script(own) in policy
+    assert allow_script(read_script()) in policy
+    assert "unsafe" not in policy.partition("script-src")[2]
+    for name in ("handout.html", "index.html"):
+        assert "script-src" not in (tmp_path / "out" / name).read_text("utf-8")
 
 
 def test_a_page_shows_nobodys_own_data(lesson, tmp_path):
@@ -106,9 +122,10 @@ def test_a_link_leads_to_another_page_or_nowhere_out_of_the_edition():
         "# Lesson\n\n[next](02_more.ipynb), [task](../exercises/exercise1/README.md), "
         "[docs](https://docs.wpilib.org)"
     )
-    html = split_notebook(nbformat.v4.new_notebook(cells=[MARKDOWN(text)]))[0].html
+    (part,) = split_notebook(nbformat.v4.new_notebook(cells=[MARKDOWN(text)]))
 
-    assert '<a href="02_more.html">next</a>, task, <a href="https://docs.wpilib.org">' in html
+    links = '<a href="02_more.html">next</a>, task, <a href="https://docs.wpilib.org">'
+    assert links in part.html
 
 
 def test_code_is_escaped():

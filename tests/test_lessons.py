@@ -36,13 +36,15 @@ class Page(HTMLParser):
 
     def __init__(self, html):
         super().__init__()
-        self.pictures, self.open, self.summaries = [], 0, 0
+        self.pictures, self.animations, self.open, self.summaries = [], [], 0, 0
         self.feed(html)
 
     def handle_starttag(self, tag, attrs):
         """Note a picture, and what opens."""
         if tag == "img":
             self.pictures.append(dict(attrs))
+        if tag == "figure" and "data-motion" in dict(attrs):
+            self.animations.append(dict(attrs))
         self.open += tag == "details"
         self.summaries += tag == "summary"
 
@@ -135,6 +137,20 @@ def test_every_picture_has_words_and_draws_only_on_white(text, run):
         assert len(picture["alt"]) > 40
         assert picture["src"].startswith("data:image/svg+xml;base64,")
         assert "background:white" in picture["style"]
+
+
+@each_lesson
+def test_every_animation_says_what_is_seen(text, run):
+    for html in _htmls(run(text)):
+        for animation in Page(html).animations:
+            assert len(animation["aria-label"]) > 40
+            assert animation["aria-label"].endswith(".")
+
+
+@pytest.mark.parametrize("number", ["00", "01", "02", "03", "08", "09", "10"])
+def test_a_mechanism_moves_in_the_lessons_that_need_it(number, run):
+    (text,) = (path for path in TEXTS if path.stem.startswith(number))
+    assert [animation for html in _htmls(run(text)) for animation in Page(html).animations]
 
 
 @each_lesson
@@ -259,13 +275,14 @@ def test_a_prediction_is_compared_with_the_answer(text):
 
 
 @each_lesson
-def test_the_code_of_a_question_is_collapsed_as_it_holds_the_answer(text):
+def test_the_code_of_a_question_or_an_animation_is_collapsed(text):  # it answers, or only draws
     for cell in nbformat.read(text.with_suffix(".ipynb"), 4).cells[1:]:
         asks = re.search(
             r"^(\w+ = )?(Prediction|QuickCheck|QuickNumberCheck)\(", cell.source, re.MULTILINE
         )
+        moves = "animate_mechanism(" in cell.source
         hidden = cell.metadata.get("jupyter", {}).get("source_hidden", False)
-        assert hidden == bool(cell.cell_type == "code" and asks), cell.source
+        assert hidden == bool(cell.cell_type == "code" and (asks or moves)), cell.source
 
 
 @each_lesson

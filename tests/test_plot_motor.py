@@ -1,4 +1,4 @@
-"""Pictures of the first lessons: a chase, a voltage budget, a gauge, a change."""
+"""Pictures of the first lessons: a chase, a gauge, a change."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,6 @@ from html_tags import Tags
 from sim.core.errors import BadRequest
 from sim.plot import (
     measure_tracking_error,
-    plot_budget,
     plot_gauge,
     plot_relative_change,
     plot_tracking_error,
@@ -16,13 +15,9 @@ from sim.plot.gauge import find_band
 
 TIME = np.linspace(0.0, 2.0, 41)
 BANDS = {"fine": 0.5, "watch": 5.0, "stop": 6.0}
-TERMS = {"kS": np.full(41, 0.2), "kV·v": 2.0 * TIME, "kA·a": np.linspace(1.0, -1.0, 41)}
-APPLIED = sum(TERMS.values())
 PICTURES = {
     "chase": lambda: plot_tracking_error(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
     "moved": lambda: plot_tracking_error(TIME, TIME, {"a": TIME}, unit="cm", quantity="position"),
-    "budget": lambda: plot_budget(TIME, TERMS, applied=APPLIED),
-    "budget at a moment": lambda: plot_budget(TIME, TERMS, applied=APPLIED, moment=1.5),
     "change": lambda: plot_relative_change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
     "gauge": lambda: plot_gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
 }
@@ -49,20 +44,6 @@ def test_a_chase_tells_who_misses_by_how_much():
     rows = {name: numbers for name, *numbers in PICTURES["chase"]().table.rows}
     assert rows["a"] == pytest.approx([0.1, 0.1])
     assert rows["b"] == [0.0, 0.0]
-
-
-def test_a_budget_tells_its_moment():
-    picture = PICTURES["budget at a moment"]()
-    (row,) = picture.table.rows
-    assert row[1:] == pytest.approx((0.2, 3.0, -0.5, 2.7))
-    assert "of 2.70 V: kS 0.200 V, kV·v 3.00 V, kA·a −0.500 V." in picture.alt
-
-
-def test_terms_that_take_volts_stand_on_each_other_and_those_that_give_hang_below():
-    axes = PICTURES["budget"]().figure.axes[0]
-    tops = [area.get_datalim(axes.transData).ymax for area in axes.collections[::2]]
-    assert tops == pytest.approx([0.2, 4.2, 4.2])  # 0.2, + 2·2, + what kA·a takes when it is 0
-    assert axes.collections[-1].get_datalim(axes.transData).ymin == pytest.approx(-1.0)
 
 
 @pytest.mark.parametrize(
@@ -113,8 +94,6 @@ def test_a_change_says_what_grew_and_what_shrank():
     [
         (lambda: plot_tracking_error(TIME, TIME, {}), "Give one or more"),
         (lambda: plot_tracking_error(TIME, TIME, {"a": TIME[1:]}), "of equal length"),
-        (lambda: plot_budget(TIME, {}, applied=APPLIED), "Give one or more"),
-        (lambda: plot_budget(TIME, TERMS, applied=APPLIED[1:]), "of equal length"),
         (lambda: plot_relative_change({}), "Divide what is now"),
         (lambda: plot_relative_change({"x": -1.0}), "Divide what is now"),
         (lambda: plot_gauge({}, BANDS, label="", good="fine"), "a larger end"),
@@ -124,8 +103,6 @@ def test_a_change_says_what_grew_and_what_shrank():
     ids=[
         "nobody",
         "a short one",
-        "no terms",
-        "a short sum",
         "no change",
         "below zero",
         "no number",

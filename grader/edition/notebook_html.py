@@ -88,6 +88,9 @@ def _render_markdown(text: str) -> str:
 
     html: str = markdown2html_mistune(text).replace(" disabled/>", " disabled>")  # as HTML has it
     html = re.sub(r'<a class="anchor-link"[^>]*>.*?</a>', "", html)
+    html = html.replace("<table>", "<div class='wide'><table>").replace(
+        "</table>", "</table></div>"
+    )
     html = re.sub(r'href="(\w+)\.ipynb"', r'href="\1.html"', html)  # another page of the edition
     # An edition has no exercises: what leads out of its folder is text, no link.
     return re.sub(r'<a href="\.\./[^"]*">(.*?)</a>', r"\1", html)

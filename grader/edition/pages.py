@@ -8,9 +8,11 @@ from grader.classroom.atomic_files import write_private_file
 from grader.edition.notebook_execution import execute_notebook
 from grader.edition.notebook_html import LessonPart, split_notebook
 from sim.core.errors import BadRequest
+from sim.plot.animation import allow_script, read_script
 from sim.report.page_file import load_templates
 
 FOLDER = Path(__file__).parent
+SLIDES = (FOLDER / "slides.js").read_text(encoding="utf-8")
 SYSTEM_CHECK = "System check"
 
 
@@ -83,6 +85,8 @@ def _write_page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str
         before=before,
         after=after,
         slides=slides,
+        scripts=" ".join(allow_script(text) for text in (read_script(), SLIDES)),
+        slides_script=SLIDES,
         other=lesson.page if slides else lesson.slides,
     )
 

@@ -9,7 +9,6 @@ Nothing here needs a screen, and nothing here keeps a state: a picture is made, 
 
 from sim.plot.acceleration import plot_acceleration_velocity
 from sim.plot.analyzer import plot_velocity_time
-from sim.plot.budget import plot_budget
 from sim.plot.charts import plot_choices, plot_curves, plot_misses
 from sim.plot.class_scores import plot_score_heatmap, plot_score_histogram
 from sim.plot.ellipse import plot_ellipses, plot_information_map
@@ -35,7 +34,6 @@ __all__ = [
     "make_residual_views",
     "measure_tracking_error",
     "plot_acceleration_velocity",
-    "plot_budget",
     "plot_choices",
     "plot_curves",
     "plot_ellipses",

@@ -23,6 +23,8 @@ Dash: TypeAlias = str | tuple[float, tuple[float, ...]]  # a line style, as matp
 SUFFIXES = (".svg", ".png", ".pdf")
 PAPER = "white"  # an opaque ground: colors chosen for contrast on white stay legible on a dark page
 INK = "#222222"
+# JupyterLab's dark theme shows the same drawing with light and dark exchanged, hues kept.
+DARK = 'body[data-jp-theme-light="false"] figure.picture img{filter:invert(0.9) hue-rotate(180deg)}'
 
 # Okabe and Ito's colors, which people who see few colors can tell apart, without the yellow that
 # is too pale on white. Each has a marker and a line style of its own: color never speaks alone.
@@ -60,7 +62,8 @@ class Picture:
         source = base64.b64encode(self.svg.encode("utf-8")).decode("ascii")
         width = round(self.figure.get_figwidth() * 96)
         return (
-            f'<figure style="margin:0.5em 0;max-width:{width}px">'
+            f"<style>{DARK}</style>"
+            f'<figure class="picture" style="margin:0.5em 0;max-width:{width}px">'
             f'<img alt="{escape(self.alt)}" src="data:image/svg+xml;base64,{source}" '
             f'style="width:100%;height:auto;background:{PAPER};border-radius:4px">'
             f"<details><summary>This figure in words</summary><p>{escape(self.alt)}</p></details>"

@@ -25,6 +25,7 @@ from sim.io.entries.entry import NEEDED
 from sim.io.format import LARGEST_FILE
 
 PAGE = Path(__file__).with_name("page")
+ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # of the page, too
 KINDS = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -242,7 +243,7 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _send_file(self, name: str) -> None:
         """A file of the page; the folder is listed, so no path leads out of it."""
-        files = {path.name: path for path in PAGE.iterdir() if path.suffix in KINDS}
+        files = {path.name: path for path in [*PAGE.iterdir(), ENGINE] if path.suffix in KINDS}
         if name in files:
             self._send(files[name].read_bytes(), KINDS[files[name].suffix])
         else:

@@ -1,0 +1,306 @@
+"""A mechanism that moves as it was simulated, beside its plots, on one clock.
+
+    animate_mechanism("drivetrain", Scene(time, (Motion("robot", velocity=v),)), ...)
+
+What it returns is plain HTML with a script inside. It moves in JupyterLab and in a page without a
+server, and asks nothing of the network. Where a motion has gains, the page simulates it itself
+(``sim/physics/engine/simulate.js``), so that a knob answers at once.
+
+animation.js   clock, controls and plots
+stages.js      the mechanisms as they are drawn
+animation.css  how all of it looks, on light and on dark pages
+"""
+
+import base64
+import hashlib
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sim.core.errors import BadRequest
+from sim.core.log import Array
+from sim.physics import engine
+from sim.plot.animation.scene import (
+    Choice,
+    Gain,
+    Knob,
+    Motion,
+    Panel,
+    Rule,
+    Scene,
+    Score,
+    TestPlan,
+)
+from sim.plot.picture import COLORS, LINES
+
+__all__ = [
+    "Animation",
+    "Choice",
+    "Gain",
+    "Knob",
+    "Motion",
+    "Panel",
+    "Rule",
+    "Scene",
+    "Score",
+    "TestPlan",
+    "allow_script",
+    "animate_mechanism",
+    "read_script",
+]
+
+FOLDER = Path(__file__).parent
+KINDS = ("drivetrain", "elevator", "arm", "flywheel", "swerve")
+FLOORS = ("drivetrain", "swerve")  # which drive on a floor
+LONG, BEHIND = 0.9, 0.16  # [m] of a robot with its bumpers; [share of the floor] it takes at most
+DIGITS = 5  # significant ones of what is drawn
+ROOM = 0.08  # [share of what is shown] that axes leave beyond it
+DASHES = {"-": "", "--": "7 4", "-.": "8 3 2 3", ":": "2 3"}  # matplotlib's line styles in SVG
+
+
+@dataclass(frozen=True)
+class Animation:
+    """A moving figure.
+
+    Args:
+        data: what the script draws, ready for JSON.
+        alt: what is seen, in a few sentences with numbers.
+    """
+
+    data: Mapping[str, Any]
+    alt: str
+
+    @property
+    def html(self) -> str:
+        """Figure, words, style and script as a piece of HTML that needs nothing from elsewhere."""
+        data = json.dumps(self.data, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+        data = data.replace("</", "<\\/")  # no name may end the script
+        style = (FOLDER / "animation.css").read_text(encoding="utf-8")
+        return (
+            f"<style>{style}</style>"
+            f'<figure class="motion" data-motion data-lm-suppress-shortcuts="true" role="group" '
+            f'aria-label="{escape(self.alt)}">'
+            '<p class="motion-still">Run this cell, and the mechanism moves here.</p>'
+            f'<script type="application/json">{data}</script></figure>'
+            f"<details><summary>This figure in words</summary><p>{escape(self.alt)}</p></details>"
+            f'<script type="module">{read_script()}</script>'
+        )
+
+    def __str__(self) -> str:
+        """The words, for a terminal."""
+        return self.alt
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
+        return {"text/plain": str(self), "text/html": self.html}
+
+
+@cache
+def read_script() -> str:
+    """The script of every animation: its three files as one module."""
+    files = (
+        Path(engine.__file__).with_name("simulate.js"),
+        FOLDER / "stages.js",
+        FOLDER / "animation.js",
+    )
+    rows = [row for file in files for row in file.read_text(encoding="utf-8").splitlines()]
+    return "\n".join(row for row in rows if not row.startswith("import "))
+
+
+def allow_script(script: str) -> str:
+    """The source by which a page's Content-Security-Policy allows one script, and no other."""
+    digest = hashlib.sha256(script.encode("utf-8")).digest()
+    return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
+
+
+def animate_mechanism(
+    kind: str,
+    scenes: Scene | Mapping[tuple[str, ...], Scene],
+    *,
+    panels: Sequence[Panel],
+    alt: str,
+    choices: Sequence[Choice] = (),
+    knobs: Sequence[Knob] = (),
+    score: Score | None = None,
+    rules: Sequence[Rule] = (),
+    span: tuple[float, float] | None = None,
+    wall: float | Gain | None = None,
+    marks: Mapping[str, float | Gain] | None = None,
+    slow: float = 1.0,
+) -> Animation:
+    """A mechanism that moves, beside its plots; a time cursor moves both.
+
+    Args:
+        kind: ``drivetrain``, ``elevator``, ``arm``, ``flywheel`` or ``swerve``: what is drawn.
+        scenes: what happens; where there are choices, one scene for each combination of options.
+        panels: the plots below each other; limits that are not given hold what the scenes hold.
+        alt: what is seen, with numbers.
+        choices: menus that pick the scene.
+        knobs: sliders that set the gains of motions which the page simulates.
+        score: the motion that is measured against the target.
+        rules: what a plan has to keep; each is ticked or not as the knobs stand.
+        span: [m or rad] lowest and highest position drawn; by default, what the scenes hold.
+        wall: [m] where the floor of a drivetrain ends.
+        marks: name -> [m] lines across that floor.
+        slow: turns drawn for each turn of a flywheel, which is too fast for the eye.
+
+    Raises:
+        BadRequest: no such mechanism, a combination of options without a scene, or a motion whose
+            numbers are not as many as its scene's times.
+    """
+    if kind not in KINDS:
+        raise BadRequest(f"no drawing of {kind!r}", advice=f"Choose one of: {', '.join(KINDS)}.")
+    every: dict[tuple[str, ...], Scene] = (
+        {(): scenes} if isinstance(scenes, Scene) else dict(scenes)
+    )
+    _check_scenes(every, choices)
+    start = {knob.name: knob.value for knob in knobs}
+    low, high = span or _limits(_curves("position", every, start))
+    if span is None and kind in FLOORS:
+        low -= min(LONG, BEHIND * (high - low))  # a position is that of the front
+    stage = {
+        "kind": kind,
+        "low": _short(low),
+        "high": _short(high),
+        "wall": _describe_value(wall),
+        "marks": [{"label": n, "at": _describe_value(at)} for n, at in (marks or {}).items()],
+        "slow": slow,
+        "unit": "rad" if kind in {"arm", "flywheel"} else "m",
+        "words": f"{kind}, drawn at the time of the cursor",
+    }
+    data = {
+        "stage": stage,
+        "colors": list(COLORS),
+        "choices": [
+            {"label": c.label, "options": list(c.options), "value": c.value or c.options[0]}
+            for c in choices
+        ],
+        "knobs": [vars(knob) for knob in knobs],
+        "score": None if score is None else vars(score),
+        "rules": [{**vars(rule), "at_most": _describe_value(rule.at_most)} for rule in rules],
+        "panels": [_describe_panel(panel, every, start) for panel in panels],
+        "scenes": {"|".join(key): _describe_scene(scene) for key, scene in every.items()},
+    }
+    return Animation(data, alt)
+
+
+def _check_scenes(scenes: Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]) -> None:
+    """Refuse options without a scene, and motions of another length than their scene's time."""
+    wanted: list[tuple[str, ...]] = [()]
+    for choice in choices:
+        wanted = [(*key, option) for key in wanted for option in choice.options]
+    missing = [key for key in wanted if key not in scenes]
+    if missing:
+        raise BadRequest(
+            f"no scene for {', '.join(missing[0]) or 'a figure without choices'}",
+            advice="Give one scene for each combination of options.",
+        )
+    for scene in scenes.values():
+        curves = {"the target": scene.target}
+        for motion in scene.motions:
+            names = ("position", "velocity", "voltage", "heading")
+            curves |= {f"the {name} of {motion.name!r}": getattr(motion, name) for name in names}
+        for name, curve in curves.items():
+            if curve is not None and not isinstance(curve, Gain) and len(curve) != len(scene.time):
+                raise BadRequest(
+                    f"{name} has {len(curve)} values for {len(scene.time)} times",
+                    advice="Give one value for each time.",
+                )
+
+
+def _describe_scene(scene: Scene) -> dict[str, Any]:
+    """A scene as the script reads it; colors and dashes by the order of its motions."""
+    motions: list[dict[str, Any]] = []
+    colored = 0
+    for motion in scene.motions:
+        color = None if motion.asked else colored % len(COLORS)
+        line = LINES[colored % len(LINES)]
+        colored += not motion.asked
+        motions.append(
+            {
+                "name": motion.name,
+                "ghost": motion.ghost or motion.asked,
+                "color": color,
+                "dash": "3 3" if motion.asked else DASHES.get(str(line), "5 2 1 2"),
+                "asked": motion.asked,
+                "turns": motion.turns,
+                "type": motion.type,
+                "start": motion.start,
+                "gains": _describe_gains(motion.gains),
+                "program": _describe_gains(motion.program),
+                "plan": _describe_plan(motion.plan),
+                "voltage": _describe_value(motion.voltage)
+                if isinstance(motion.voltage, Gain)
+                else _numbers(motion.voltage),
+                "velocity": _numbers(motion.velocity),
+                "position": None
+                if motion.gains is not None
+                else _numbers(motion.curve("position", scene, {})),
+                "heading": _numbers(motion.heading),
+            }
+        )
+    return {
+        "title": scene.title,
+        "time": _numbers(scene.time),
+        "target": _numbers(scene.target),
+        "motions": motions,
+    }
+
+
+def _describe_gains(gains: Mapping[str, float | Gain] | None) -> dict[str, Any] | None:
+    if gains is None:
+        return None
+    return {name: _describe_value(gain) for name, gain in gains.items()}
+
+
+def _describe_value(value: float | Gain | None) -> Any:  # noqa: ANN401 - as JSON has it
+    """A number, a knob's, or none; what is endless is none."""
+    if isinstance(value, Gain):
+        return vars(value)
+    return None if value is None or not math.isfinite(value) else float(value)
+
+
+def _describe_plan(plan: TestPlan | None) -> dict[str, Any] | None:
+    return (
+        None if plan is None else {name: _describe_value(one) for name, one in vars(plan).items()}
+    )
+
+
+def _describe_panel(
+    panel: Panel, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
+) -> dict[str, Any]:
+    found = _limits([panel.scale * one for one in _curves(panel.signal, scenes, knobs)])
+    low = found[0] if panel.low is None else panel.low
+    high = found[1] if panel.high is None else panel.high
+    return {**vars(panel), "low": _short(low), "high": _short(high)}
+
+
+def _curves(
+    signal: str, scenes: Mapping[tuple[str, ...], Scene], knobs: Mapping[str, float]
+) -> list[Array]:
+    """A signal of every motion that has it."""
+    found = [one.curve(signal, scene, knobs) for scene in scenes.values() for one in scene.motions]
+    return [curve for curve in found if curve is not None]
+
+
+def _limits(curves: Sequence[Array]) -> tuple[float, float]:
+    """Lowest and highest of some curves, zero among them, and a little room beyond."""
+    values = np.concatenate([np.zeros(1), *curves])
+    low, high = float(values.min()), float(values.max())
+    room = ROOM * ((high - low) or 1.0)
+    return (low - room if low < 0.0 else low), high + room
+
+
+def _numbers(values: Array | None) -> list[float] | None:
+    """(n,) numbers, as short as the eye allows."""
+    return None if values is None else [_short(value) for value in np.asarray(values).tolist()]
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")

@@ -1,0 +1,286 @@
+"""Animations in a real browser: they move, answer at once, and simulate as the engine does."""
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from lab import (
+    BROWSERS,
+    FLAGS,
+    LESSONS,
+    OFTEN,
+    PATIENCE,
+    SCREEN,
+    installed_browser,
+    run_all,
+    serving,
+)
+from matplotlib.image import imread
+
+from sim.plot.animation import (
+    Choice,
+    Gain,
+    Knob,
+    Motion,
+    Panel,
+    Scene,
+    Score,
+    TestPlan,
+    animate_mechanism,
+)
+
+pytestmark = pytest.mark.browser
+
+LEAST_PICTURES = 20.0  # [1/s] while a knob is dragged
+PHONE = {"width": 390, "height": 844}
+TIME = np.arange(0.0, 3.0, 0.02)
+TARGET = np.interp(TIME, [0.0, 0.5, 1.0, 2.0, 2.5], [0.0, 0.0, 2.5, 2.5, -1.0])
+GAINS = {"kS": 0.15, "kV": 2.5, "kA": 0.2}
+KNOBS = (
+    Knob("kS", "kS [V]", low=0.0, high=1.0, step=0.01, value=0.3),
+    Knob("kV", "kV [V·s/m]", low=1.0, high=4.0, step=0.01, value=2.0),
+    Knob("kA", "kA [V·s²/m]", low=0.0, high=0.6, step=0.01, value=0.1),
+)
+PROGRAM = {name: Gain(name) for name in GAINS}
+MOTIONS = {
+    "program": Motion("robot", gains=GAINS, program=PROGRAM),
+    "model": Motion("robot", gains=PROGRAM | {"kA": 0.3}, voltage=4.0 * np.sin(3 * TIME)),
+    "elevator": Motion(
+        "robot", gains=GAINS | {"kG": 1.2}, type="elevator", voltage=Gain("kV", 2.0), start=0.4
+    ),
+    "arm": Motion("robot", gains=GAINS | {"kG": 0.6}, type="arm", voltage=Gain("kS"), start=0.7),
+    "test": Motion(
+        "robot", gains=GAINS, plan=TestPlan(ramp=Gain("kV"), step=0.2, mark=0.8, reaction=0.3)
+    ),
+}
+DRAG = """async ({figure, seconds}) => {
+    const slider = figure.querySelector('.motion-knobs input');
+    const [began, before] = [performance.now(), figure.animation.pictures];
+    while (performance.now() - began < 1000 * seconds) {
+        slider.value = 0.5 + 0.4 * Math.sin((performance.now() - began) / 90);
+        slider.dispatchEvent(new Event('input', {bubbles: true}));
+        await new Promise(requestAnimationFrame);
+    }
+    return (figure.animation.pictures - before) / ((performance.now() - began) / 1000);
+}"""
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A Chromium without a window."""
+    playwright = pytest.importorskip(
+        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
+    )
+    found = installed_browser()
+    if found is None:
+        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
+    with playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
+        yield chromium
+        chromium.close()
+
+
+def race(motion=MOTIONS["program"], **more):
+    """A race against a target, as in lesson 0."""
+    asked = Motion("target", velocity=TARGET, asked=True)
+    given = {"score": Score("robot"), "wall": 6.0} | more
+    return animate_mechanism(
+        "drivetrain",
+        Scene(TIME, (asked, motion), target=TARGET),
+        panels=(Panel("velocity", "velocity [m/s]"), Panel("voltage", "voltage [V]")),
+        knobs=KNOBS,
+        alt="A robot beside a dashed target.",
+        **given,
+    )
+
+
+@pytest.fixture
+def shown(browser, tmp_path):
+    """Shows an animation in a page; the first figure of it."""
+    pages = []
+
+    def show(animation, *, viewport=SCREEN, motion="reduce", scheme="light"):
+        path = tmp_path / "page.html"
+        path.write_text(f'<!DOCTYPE html><meta charset="utf-8">{animation.html}', encoding="utf-8")
+        page = browser.new_page(viewport=viewport, reduced_motion=motion, color_scheme=scheme)
+        page.set_default_timeout(PATIENCE)
+        page.complaints, page.asked = [], []
+        page.on("pageerror", lambda error: page.complaints.append(str(error)))
+        page.on("request", lambda request: page.asked.append(request.url))
+        page.goto(path.as_uri())
+        page.locator("figure[data-alive] .motion-clock").first.wait_for()
+        pages.append(page)
+        return page, page.locator("figure.motion").first
+
+    yield show
+    for page in pages:
+        assert page.complaints == []
+        assert {url.partition(":")[0] for url in page.asked} == {"file"}
+        page.close()
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_the_page_simulates_as_the_engine_does(name, shown):
+    motion = MOTIONS[name]
+    scene = Scene(TIME, (motion,), target=TARGET)
+    knobs = {knob.name: knob.value for knob in KNOBS}
+    kind = motion.type if motion.type != "simple" else "drivetrain"
+    animation = animate_mechanism(
+        kind, scene, panels=(Panel("velocity", "v"),), knobs=KNOBS, alt="It moves."
+    )
+    _, figure = shown(animation)
+
+    for signal in ("velocity", "position", "voltage"):
+        wanted = motion.curve(signal, scene, knobs)
+        found = figure.evaluate(f"figure => figure.animation.scene.motions[0].{signal}")
+        assert np.abs(np.array(found) - wanted).max() < 1e-3 * np.abs(wanted).max(), signal
+
+
+def test_a_knob_changes_the_motion_the_score_and_the_picture(shown):
+    _, figure = shown(race())
+    before = figure.locator("polyline").nth(1).get_attribute("points")
+    score = figure.locator(".motion-score").inner_text()
+    figure.get_by_label("kV [V·s/m]").press("ArrowRight")
+
+    assert figure.evaluate("figure => figure.animation.knobs.kV") == pytest.approx(2.01)
+    assert figure.locator("polyline").nth(1).get_attribute("points") != before
+    assert figure.locator(".motion-score").inner_text() != score
+    assert "best" in figure.locator(".motion-score").inner_text()
+
+
+def test_the_score_is_the_typical_error(shown):
+    animation = race()
+    _, figure = shown(animation)
+    scene = Scene(TIME, (MOTIONS["program"],), target=TARGET)
+    velocity = MOTIONS["program"].curve("velocity", scene, {k.name: k.value for k in KNOBS})
+    wanted = float(np.sqrt(np.mean((velocity - TARGET) ** 2)))
+    assert f"{wanted:.3f} m/s" in figure.locator(".motion-score").inner_text()
+
+
+def test_axes_stay_where_they_are_whatever_a_knob_does(shown):
+    _, figure = shown(race())
+    ticks = figure.locator(".motion-panels text").all_inner_texts()
+    figure.get_by_label("kV [V·s/m]").press("Home")
+    assert figure.locator(".motion-panels text").all_inner_texts() == ticks
+
+
+def test_knobs_answer_at_twenty_pictures_a_second(shown, capsys):
+    _, figure = shown(race())
+    rate = figure.evaluate(f"figure => ({DRAG})({{figure, seconds: 1.5}})")
+    with capsys.disabled():
+        print(f"\n{rate:.0f} pictures a second")  # noqa: T201 - a figure for whoever runs it
+    assert rate >= LEAST_PICTURES
+
+
+def test_the_cursor_moves_robot_and_plots_together(shown):
+    page, figure = shown(race())
+    car = figure.locator("svg").first.locator("g").first
+    line = figure.locator(".motion-panels svg[role=img] line[stroke-width='1.5']").first
+    before = car.get_attribute("transform"), line.get_attribute("x1")
+    panel = figure.locator(".motion-panels svg[role=img]").first
+    box = panel.bounding_box()
+    page.mouse.click(box["x"] + 0.8 * box["width"], box["y"] + 0.5 * box["height"])
+
+    assert car.get_attribute("transform") != before[0]
+    assert line.get_attribute("x1") != before[1]
+    assert 2.0 < figure.evaluate("figure => figure.animation.now") < 2.8
+
+
+def test_the_end_is_a_time_like_any_other(shown):
+    page, figure = shown(race())
+    figure.get_by_label("time", exact=True).focus()
+    page.keyboard.press("End")
+    figure.evaluate("figure => figure.animation.show(figure.animation.duration)")
+    scene = Scene(TIME, (MOTIONS["program"],), target=TARGET)
+    speed = MOTIONS["program"].curve("velocity", scene, {k.name: k.value for k in KNOBS})[-1]
+    shown_speed = figure.locator(".motion-now b").nth(1).inner_text().replace("−", "-")
+    assert float(shown_speed) == pytest.approx(speed, abs=0.006)
+    assert "NaN" not in figure.inner_html()
+
+
+def test_the_keyboard_plays_pauses_and_moves_the_cursor(shown):
+    page, figure = shown(race())
+    cursor = figure.get_by_label("time", exact=True)
+    cursor.focus()
+    page.keyboard.press("ArrowRight")
+    assert cursor.evaluate("cursor => Number(cursor.value)") == pytest.approx(0.0298, abs=1e-6)
+    assert "robot at" in cursor.get_attribute("aria-valuetext")
+    page.keyboard.press("Space")
+    assert figure.evaluate("figure => figure.animation.playing")
+    page.wait_for_function(
+        "figure => figure.animation.now > 0.2", arg=figure.element_handle(), polling=OFTEN
+    )
+    page.keyboard.press("Space")
+    assert not figure.evaluate("figure => figure.animation.playing")
+
+
+@pytest.mark.parametrize(("motion", "plays"), [("no-preference", True), ("reduce", False)])
+def test_it_plays_by_itself_unless_less_motion_is_asked_for(motion, plays, shown):
+    page, figure = shown(race(), motion=motion)
+    page.wait_for_timeout(600)
+    assert figure.evaluate("figure => figure.animation.now > 0") is plays
+
+
+@pytest.mark.parametrize("kind", ["drivetrain", "elevator", "arm", "flywheel", "swerve"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_each_mechanism_is_drawn_moves_and_fits_a_phone(kind, scheme, shown):
+    motion = Motion("robot", velocity=0.5 + 0 * TIME, heading=TIME)
+    scene = Scene(TIME, (motion, replace(motion, name="model", ghost=True)))
+    page, figure = shown(
+        animate_mechanism(kind, scene, panels=(Panel("velocity", "v"),), alt="It moves."),
+        viewport=PHONE,
+        scheme=scheme,
+    )
+    pictures = []
+    for share in (0.0, 0.6):
+        figure.evaluate(f"figure => figure.animation.show({share} * figure.animation.duration)")
+        pictures.append(imread(io.BytesIO(figure.locator("svg").first.screenshot())))
+    assert not np.array_equal(*pictures)
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+    for svg in figure.locator("svg[role=img]").all():
+        assert len(svg.get_attribute("aria-label")) > 3
+
+
+def test_a_menu_picks_the_scene(shown):
+    scenes = {
+        (name,): Scene(TIME, (Motion("robot", velocity=factor + 0 * TIME),))
+        for name, factor in (("slow", 1.0), ("fast", 3.0))
+    }
+    _, figure = shown(
+        animate_mechanism(
+            "drivetrain",
+            scenes,
+            choices=(Choice("drive", ("slow", "fast")),),
+            panels=(Panel("velocity", "v"),),
+            alt="It moves.",
+        )
+    )
+    figure.get_by_role("combobox").select_option("fast")
+    assert figure.locator(".motion-now b").first.inner_text() == "3.00"
+
+
+def test_lesson_0_moves_in_jupyterlab_and_keeps_its_keys_from_the_notebook(browser, tmp_path):
+    (lesson,) = (path for path in LESSONS if path.stem.startswith("00"))
+    with serving(tmp_path) as address:
+        page = browser.new_page(viewport=SCREEN)
+        page.set_default_timeout(PATIENCE)
+        run_all(page, address.format(name=lesson.name))
+        figures = page.locator("figure.motion")
+        assert figures.count() == page.locator("figure[data-alive]").count() > 2
+        figure = figures.first
+        figure.scroll_into_view_if_needed()
+        page.wait_for_function(
+            "figure => figure.animation.now > 0.2", arg=figure.element_handle(), polling=OFTEN
+        )
+        active = (
+            "[...document.querySelectorAll('.jp-Cell')]"
+            ".findIndex(cell => cell.matches('.jp-mod-active'))"
+        )
+        figure.get_by_label("time", exact=True).focus()  # which makes its cell the active one
+        before = page.evaluate(active)
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("ArrowDown")
+        assert page.evaluate(active) == before
+        assert not figure.evaluate("figure => figure.animation.playing")
+        page.close()
