@@ -501,7 +501,6 @@ def test_what_is_not_right_is_told(checked, turret, old, new, check, points, say
     assert says in f"{found.seen} {found.hint}"
 
 
-@pytest.mark.parametrize("kind", ["arm", "elevator"])
 @pytest.mark.parametrize(
     ("settings", "double"),
     [
@@ -526,6 +525,7 @@ def test_a_gain_in_the_code_and_in_the_motor_controller_is_a_double_feedforward(
     assert ("This is a double feedforward" in found.hint) == bool(double)
 
 
+@pytest.mark.parametrize("kind", ["arm", "elevator"])
 @pytest.mark.parametrize(
     ("order", "says"),
     [
