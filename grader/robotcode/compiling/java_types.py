@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from grader.robotcode.compiling.season import HOME, PACKAGES_OF
+from grader.robotcode.compiling.season import HOME, PACKAGES_OF, called_on_class
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Call,
@@ -95,6 +95,8 @@ def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         name = last_name(node.target)
         if isinstance(node.target, Member):
             yield from _one_argument(node, node.target, scope, names)
+            owner, line = last_name(node.target.owner), node.place.line
+            yield from called_on_class(name, owner, held="m_routine", line=line)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
         yield from _routine_part(node, scope, names)
