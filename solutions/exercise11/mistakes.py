@@ -47,7 +47,7 @@ MISTAKES = (
     chose("KC1_answer", "The mechanism hit", "stays there"),
     chose("KC1_reason", "Hardly anything", "Errors are squared", "M-NOISE-AVERAGES"),
     chose("KC1_reason", "R² falls", "stays above 0.9", "M-R2"),
-    chose("KC1_reason", "Nothing, once", "slow forward run is missing", "M-REVERSE-WASTE"),
+    chose("KC1_reason", "Nothing, once", "SysId refuses a log without that run", "M-REVERSE-WASTE"),
     chose("KC2_answer", "Raise kV", "Then kV is right for this speed", "M-FF-EXACT"),
     chose("KC2_answer", "Raise kA", "acceleration is zero"),
     chose("KC2_answer", "Add a kP", "Feedback is part of the answer. But", "M-KP-EXACT"),
