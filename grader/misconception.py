@@ -175,6 +175,18 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         lesson="07_fit_it_yourself",
         section="A filter is not free",
     ),
+    "M-MORE-ROWS": Misconception(
+        "A log knows no more than the sensor sends. Rows that repeat a reading add nothing, and "
+        "SysId takes each repetition for a moment without acceleration: kA becomes too small.",
+        lesson="06_read_the_data",
+        section="How bad are repeated samples?",
+    ),
+    "M-ERROR-BAR": Misconception(
+        "An error bar tells how well one recording determines a gain. It does not know what "
+        "changes until the next recording: battery, heat, a bearing. Only repeating shows that.",
+        lesson="08_from_analyzer_to_robot",
+        section="Your own robot",
+    ),
     "M-LEVER": Misconception(
         "The lever of a wheel is how far its push passes from the middle. For a tank that is half "
         "the trackwidth; the modules of a square swerve push across the diagonal, so it is the "

@@ -741,6 +741,21 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # Also: 7 V is a lot for a first step; the driver's own controller without a guard is dangerous; and
 # no comment says which button does what.
 # </details>
+#
+# **In Python, one more.** WPILib's docs make the commands like this. What stops the robot?
+#
+# ```python
+# def sysid_dynamic(self, direction: SysIdRoutine.Direction) -> commands2.Command:
+#     return SysIdRoutine.dynamic(direction)
+# ```
+#
+# <details><summary>The defect</summary>
+#
+# `SysIdRoutine` is the class, and a class has no motors. Python takes the direction for the routine
+# and stops with a `TypeError` when you bind the buttons: an argument is missing. Ask *your*
+# routine: `self.routine.dynamic(direction)`.
+# ([source of WPILib's docs, at one commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
+# </details>
 
 # %% [markdown]
 # ## 7 System check

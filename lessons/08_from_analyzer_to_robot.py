@@ -307,11 +307,13 @@ share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "k
 print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
 
 # %% [markdown]
-# So the gains are volts per rotation of the *mechanism*, if the ratio is set. And use **FOC as in
-# the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With the license,
-# `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were measured with
-# it are wrong without it.
-# ([CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
+# So the gains are volts per rotation of the *mechanism*, if the ratio is set. Use **one place
+# only.** If your code sends the volts of a feedforward class, too, the motor controller adds its
+# own: a *double feedforward*. And use **FOC as in the tests.** FOC is a mode of CTRE's motors that
+# needs a Phoenix Pro license. With the license, `setVoltage` and `VoltageOut` turn it on unless you
+# say otherwise. Gains that were measured with it are wrong without it.
+# ([CTRE API: VelocityVoltage](https://api.ctr-electronics.com/phoenix6/release/java/src-html/com/ctre/phoenix6/controls/VelocityVoltage.html),
+# [CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
 # [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 
 # %% [markdown]

@@ -216,6 +216,18 @@ WRONG = {  # what is wrong -> the program, the check that fails, and what it say
     "a class as an interface": (
         program(base="implements Mechanism"), "assembled", "Mechanism is a class: write extends"
     ),
+    "a name of Commands v2": (
+        program(mechanism=MECHANISM.replace("SysIdMechanism", "Mechanism")),
+        "assembled",
+        "Commands v3 has no Mechanism. Did you mean SysIdMechanism?",
+    ),
+    "a name of Commands v3 in v2": (
+        program(base="extends SubsystemBase")
+        .replace("command3.Mechanism", "command2.SubsystemBase")
+        .replace("command3", "command2"),
+        "assembled",
+        "Commands v2 has no useDataLog. Did you mean Config?",
+    ),
     "another mechanism": (
         program(
             fields='  private final Mechanism m_other = new Mechanism("other");\n',

@@ -501,6 +501,30 @@ def test_what_is_not_right_is_told(checked, turret, old, new, check, points, say
     assert says in f"{found.seen} {found.hint}"
 
 
+@pytest.mark.parametrize(
+    ("settings", "double"),
+    [
+        (".withKP(CharacterizationConstants.kP)", ""),  # feedback alone is no second feedforward
+        (".withKS(0).withKV(0).withKP(CharacterizationConstants.kP)", ""),
+        (".withKS(CharacterizationConstants.kS)", "kS twice"),
+        (".withKV(CharacterizationConstants.kV)", "kV twice"),
+        (".withKS(0.11).withKV(CharacterizationConstants.kV)", "kS, kV twice"),
+    ],
+)
+def test_a_gain_in_the_code_and_in_the_motor_controller_is_a_double_feedforward(
+    checked, settings, double
+):
+    head = "import com.ctre.phoenix6.configs.Slot0Configs;\n"
+    field = f"  Slot0Configs slot0 = new Slot0Configs(){settings};\n}}\n"
+    text = head + written("ann").removesuffix("}\n") + field
+
+    found = checked(text, student="ann", name=JAVA)["feedforward"]
+
+    assert (found.status == "failed") == bool(double)
+    assert double in found.seen
+    assert ("This is a double feedforward" in found.hint) == bool(double)
+
+
 @pytest.mark.parametrize("kind", ["arm", "elevator"])
 @pytest.mark.parametrize(
     ("order", "says"),

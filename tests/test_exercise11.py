@@ -1,19 +1,27 @@
 """Exercise 11: choosing an answer and a reason, and a decision with a reason that carries it."""
 
 import re
+import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.misconception import MISCONCEPTIONS
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.fit import fit
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise11", ROOT / "exercises" / "exercise11")
+DRAWN = sys.modules[OWN.module.draw.__module__]
 QUESTIONS = OWN.module.QUESTIONS
-POINTS = 9 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
+POINTS = 12 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
 
 
 def graded(exercise, *, student="ann", **answers):
@@ -50,6 +58,34 @@ def test_fifty_students_can_earn_all_points(copy):
 
         assert {check.status for check in results.values()} == {"passed"}
         assert sum(check.points for check in results.values()) == POINTS
+
+
+def test_three_recordings_differ_by_more_than_their_error_bars_for_fifty_students():
+    for number in range(50):
+        numbers = OWN.module.draw(f"student {number}").numbers
+        kas = sorted(numbers[f"ka_{name}"] for name in ("first", "second", "third"))
+        error = numbers["ka_error"]
+
+        assert kas[0] > 0.1  # [V·s²/m] of a light drivetrain
+        assert kas[2] < 0.4  # of a heavy one
+        assert min(kas[1] - kas[0], kas[2] - kas[1]) > 2 * error
+
+
+@pytest.mark.parametrize("frame", [20, 50])
+def test_the_ka_of_repeated_readings_is_what_the_recipe_finds_in_such_a_log(frame):
+    robot = MECHANISMS["drivetrain"]
+    framed = replace(robot, sensor=replace(robot.sensor, frame=frame / 1000.0))
+    routine = Routine(ramp=0.5, step=2.0, timeout=8.0)
+    log = simulate(framed, routine, rng=np.random.default_rng(3), period=0.005)
+    found = fit(log, method="sysid").gains
+
+    share = DRAWN.FRAMES[frame]
+    assert found["kA"] / robot.gains["kA"] == pytest.approx(share, rel=0.05)
+    assert found["kV"] == pytest.approx(robot.gains["kV"], rel=0.01)
+    for number in range(50):
+        numbers = OWN.module.draw(f"student {number}").numbers
+        if numbers["frame"] == frame:
+            assert numbers["ka_frames"] / numbers["ka_mass"] == pytest.approx(share, rel=0.02)
 
 
 def test_the_letters_of_a_neighbor_earn_little(copy):

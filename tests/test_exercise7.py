@@ -89,6 +89,32 @@ def test_twenty_students_get_twelve_solvable_logs_and_all_of_the_faults_come_up(
     assert set(seen) == set(LINE.FAULTS)
 
 
+@pytest.mark.parametrize(
+    ("taken_for", "said"),
+    [
+        ("loop-overrun, whole, rerun", "Count: are samples missing, or are there too many alike?"),
+        ("stuck-sensor, whole, rerun", "Once, or all the time?"),
+        ("clean", "Plot the velocity close up with a dot for each sample: is each one new?"),
+        ("stale-samples, whole, rerun", "What would prevent it from happening again?"),
+    ],
+)
+@pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
+def test_repeated_readings_that_are_taken_for_something_else_are_told(
+    student, taken_for, said, tmp_path
+):
+    cases = CHECKS.draw(student)
+    (place,) = (
+        n for n, one in enumerate(cases) if [d.fault for d in one.damage] == ["stale-samples"]
+    )
+    lines = [right(one) for one in cases]
+    lines[place] = taken_for
+
+    check = graded(tmp_path, lines, student=student).checks[place]
+
+    assert check.status == "failed"
+    assert said in check.hint
+
+
 def test_a_student_gets_the_same_logs_every_time_and_nobody_elses():
     def told(student):
         return [tuple(run.velocity.sum() for run in one.log.runs) for one in CHECKS.draw(student)]

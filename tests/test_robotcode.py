@@ -130,6 +130,16 @@ def test_what_changes_what_it_changes_is_read_once(phrase: str, tmp_path: Path) 
     assert read(tmp_path / "A.java").routine_line == 0
 
 
+def test_an_import_whose_name_no_file_can_have_is_not_found(tmp_path: Path) -> None:
+    name = "comman" + "9" * 400
+    (tmp_path / "arm.py").write_text(
+        f"from {name} import SysIdRoutine\n\nclass Arm:\n    routine = SysIdRoutine()\n",
+        encoding="utf-8",
+    )
+
+    assert read(tmp_path / "arm.py").problems == ()
+
+
 def test_what_is_too_deep_to_follow_is_said(tmp_path: Path) -> None:
     methods = " ".join(f"void f{n}(double v) {{ f{n + 1}(v); }}" for n in range(9))
     (tmp_path / "A.java").write_text(

@@ -15,7 +15,7 @@ from grader.sysid_routine_checks import check_compiles
 from sim.core.errors import UnreadableFile
 
 from .drawn import draw
-from .handed import check_choices, check_order, feedforward_of, place_of
+from .handed import check_choices, check_one_place, check_order, feedforward_of, place_of
 from .key import FEED_FORWARD, FULL, PLACES, SLOT0, Variant, near
 from .outcome import outcome
 from .said import judged
@@ -241,6 +241,7 @@ def _unit_told(one: GainConstant, code: Code) -> bool | None:
 def feedforward(code: Code) -> str:
     """The feedforward is of the class, or has the settings, that fit the mechanism."""
     one = feedforward_of(code.facts, code.variant)
+    check_one_place(code.facts)
     if one.kind == code.variant.made:
         if one.kind in PLACES:
             check_choices(one, code.variant)

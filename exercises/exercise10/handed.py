@@ -34,6 +34,32 @@ def place_of(facts: DeployFacts) -> str:
     return inside[0] if inside and len(inside) == len(kinds) else ""
 
 
+def check_one_place(facts: DeployFacts) -> None:
+    """Whether each gain works in one place: volts of the roboRIO and of a motor controller add up.
+
+    Phoenix 6 and REVLib add what the code sends as a feedforward to what their own gains make of
+    the target. A slot that holds kP alone is no second feedforward.
+
+    Raises:
+        WrongAnswer: a gain is in both places.
+    """
+    code = [one for one in facts.feedforwards if one.kind not in PLACES]
+    inside = [one for one in facts.feedforwards if one.kind in PLACES]
+    for one in code:
+        for other in inside:
+            held = {
+                GRAVITY.get(name, name) for name, arg in other.arguments.items() if arg.value != 0
+            }
+            twice = [gain for gain in one.arguments if gain in held]
+            if twice:
+                raise WrongAnswer(
+                    f"{', '.join(twice)} twice: in {one.kind}, line {one.line}, and in "
+                    f"{other.kind}, line {other.line}",
+                    hint="This is a double feedforward: the motor controller adds its own volts to "
+                    "those that your code sends. Choose one place.",
+                )
+
+
 def check_choices(one: Feedforward, variant: Variant) -> None:
     """Whether gravity and the sign of kS are set for this mechanism in its motor controller.
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from grader.answer import AskedNumber, Band
 from grader.variant import cache_draws, make_student_rng
@@ -11,10 +12,18 @@ from .question import LETTERS, Option, lettered
 from .questions import EVERYDAY
 from .table import REASONS
 
+if TYPE_CHECKING:
+    import numpy as np
+
 KS, KV = (0.08, 0.16), (0.070, 0.125)  # [V], [V·s/rot] of two Kraken X60 on wheels of many ratios
 TARGETS = (3000, 3500, 4000, 4500, 5000)  # [rpm]
 SHORT = (0.02, 0.035)  # [share] that it stays below
 KS_BEFORE, KS_MORE = (0.12, 0.18), (0.40, 0.55)  # [V] of a good drivetrain; what drags on top
+FRAMES = {20: 0.52, 50: 0.235}  # [ms] between readings -> kA / true of SysId's recipe at 5 ms
+KA_DRIVE = (0.18, 0.32)  # [V·s²/m] of a drivetrain
+KA_SPREAD, KA_ERROR = (0.05, 0.09), 0.002  # [share] to either side; [V·s²/m] of one recording
+HOTTER = (40, 50, 60)  # [°C] above the tests; copper takes 20 % more volts at 50
+TIRED, MOST_VOLTS = (11.2, 11.9), 10  # [V] of the battery; that the code sends at most
 VOLTS = Band(0.003, 0.006)  # it is arithmetic; kS alone is 0.8 % of it and more
 QUESTIONS = {one.name: one for one in (*EVERYDAY, *CHECKS)}
 
@@ -62,6 +71,24 @@ class Variant:
         )
 
 
+def _everyday(rng: "np.random.Generator") -> dict[str, float]:
+    """The numbers of the questions about repeated readings, three recordings, and heat."""
+    frame = int(rng.choice(tuple(FRAMES)))
+    of_mass, middle = (float(rng.uniform(*KA_DRIVE)) for _ in range(2))
+    spread = float(rng.uniform(*KA_SPREAD)) * middle
+    kas = [middle + float(share) * spread for share in rng.permutation((-1.0, 0.1, 1.0))]
+    return {
+        "frame": frame,
+        "ka_mass": round(of_mass, 3),
+        "ka_frames": round(FRAMES[frame] * of_mass, 3),
+        **dict(zip(("ka_first", "ka_second", "ka_third"), kas, strict=True)),
+        "ka_error": KA_ERROR,
+        "hotter": int(rng.choice(HOTTER)),
+        "tired": round(float(rng.uniform(*TIRED)), 1),
+        "most": MOST_VOLTS,
+    }
+
+
 @cache_draws
 def draw(student: str) -> Variant:
     """A learner's questions, always the same."""
@@ -76,6 +103,7 @@ def draw(student: str) -> Variant:
         "ks_before": before,
         "ks_today": round(before + float(rng.uniform(*KS_MORE)), 2),
     }
+    numbers |= _everyday(rng)
     letters = {
         name: lettered(one.options, rng.permutation(len(one.options)))
         for name, one in QUESTIONS.items()

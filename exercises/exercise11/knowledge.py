@@ -69,8 +69,8 @@ CHECKS = (
             ),
             Option(
                 "Nothing, once that run is deleted: three runs are enough.",
-                "Then the slow forward run is missing, and with it most of what separates "
-                "friction from speed. First repair the mechanism, then run it again",
+                "SysId refuses a log without that run, and nothing shows any more whether friction "
+                "is the same both ways. First repair the mechanism, then run it again",
                 "M-REVERSE-WASTE",
             ),
             Option(

@@ -2,6 +2,7 @@
 
 from .question import Option, Question
 
+SPREAD = "M-ERROR-BAR"
 WEIGHT = "M-KV-MASS"
 
 GUESS = Option(
@@ -210,6 +211,111 @@ EVERYDAY = (
             Option(
                 "The robot program stops with an error.",
                 "null is allowed there. It means WPILib's default",
+            ),
+        ),
+    ),
+    Question(
+        "status_frames",
+        "A motor controller sends its readings every {frame:d} ms, and the robot program logs "
+        "every 5 ms. The log is sound otherwise. SysId finds kA = {ka_frames:.3f} V·s²/m, but from "
+        "motors and mass you compute {ka_mass:.3f} V·s²/m. kV fits. What do you do?",
+        (
+            Option(
+                "Log as fast as the readings come, or have them sent faster, and record again.",
+                share=1.0,
+            ),
+            Option(
+                "Use SysId's kA: a measured number is better than a computed one.",
+                "Look at the rows: each reading stands in several of them, and between two equal "
+                "rows SysId sees no acceleration. It measured the repetition, too",
+                "M-MORE-ROWS",
+            ),
+            Option(
+                "Log every 1 ms: more rows give a more accurate kA.",
+                "The controller sends no more readings than before. Each one would only stand in "
+                "more rows, and kA would be even smaller",
+                "M-MORE-ROWS",
+            ),
+            Option(
+                "Set a larger window for the median filter.",
+                "A long median cuts off the start of the step, and kA gets smaller still. And "
+                "equal rows stay equal",
+                "M-FILTER-FREE",
+            ),
+            Option(
+                "Find where samples are missing: the robot program is too slow.",
+                "Then the time from row to row would be longer now and then. Here no row is "
+                "missing: too many are alike",
+            ),
+        ),
+    ),
+    Question(
+        "three_logs",
+        "A team records the four tests three times and touches nothing in between. `sysid fit` "
+        "finds kA = {ka_first:.3f}, {ka_second:.3f} and {ka_third:.3f} V·s²/m, each ± "
+        "{ka_error:.3f}. What do these numbers say?",
+        (
+            Option(
+                "Something changes between the recordings, and their spread is the honest error.",
+                share=1.0,
+            ),
+            Option(
+                "That is noise: the mean of all three is right to ± half of one error bar.",
+                "The error bars already contain the noise, and these three differ by more. A mean "
+                "hides what changed; it does not remove it",
+                SPREAD,
+            ),
+            Option(
+                "The error bars are wrong: the same mechanism has the same kA.",
+                "Each error bar tells how well its own recording determines kA. What was warmer, "
+                "emptier or stiffer on the next recording is not in it",
+                SPREAD,
+            ),
+            Option(
+                "The one with the best R² is right; the others are bad recordings.",
+                "All three may follow their own log well. R² compares a model with one log; which "
+                "of the logs is like your next match it cannot know",
+                "M-R2",
+            ),
+            Option(
+                "One recording would have been enough: three only confuse.",
+                "With one recording you would trust its small error bar, and never see how much "
+                "the next one differs",
+                SPREAD,
+            ),
+        ),
+    ),
+    Question(
+        "match_heat",
+        "At the end of a match the copper of an elevator's motors is {hotter:d} °C warmer than in "
+        "your tests, and the battery gives {tired:.1f} V. Your code sends volts, never more than "
+        "{most:d} V. Which gains are different now?",
+        (
+            Option(
+                "kS, kG and kA are larger, as warm copper has more resistance; kV hardly differs.",
+                share=1.0,
+            ),
+            Option(
+                "kV: the tired battery gives less speed for each volt.",
+                "A volt is a volt, whatever battery it comes from. This one can still give all the "
+                "volts that your code sends",
+                "M-SAG-ALWAYS-BAD",
+            ),
+            Option(
+                "All of them, by the share that the battery has lost.",
+                "That would be so if the code sent a share of the battery. It sends volts",
+                "M-DUTY",
+            ),
+            Option(
+                "None: gains belong to the mechanism, and it is the same mechanism.",
+                "The motor belongs to it, and it is warmer now. How many volts does the same force "
+                "take when the copper has more resistance?",
+                "M-FF-EXACT",
+            ),
+            Option(
+                "kG only: the elevator is heavier at the end of a match.",
+                "Its weight is the same. What changed is how many volts a motor needs for a force, "
+                "and three of the terms are forces",
             ),
         ),
     ),

@@ -10,12 +10,13 @@ if TYPE_CHECKING:
 SEEN: Mapping[str, Mapping[str, tuple[str, ...]]] = {  # item -> decision -> what may be seen
     "travel": {
         "go": (
-            "15 m of free carpet ahead and as much behind, the ends marked with tape",
-            "nothing in the way for 12 m ahead and 12 m behind; tape on the floor",
+            "15 m of free carpet ahead and as much behind; the motors are set to brake",
+            "nothing in the way for 12 m ahead and 12 m behind; motors in brake mode",
         ),
         "no-go": (
             "free carpet ahead; the table with the laptops is right behind the robot",
             "the robot stands on blocks, its wheels in the air",
+            "room ahead and behind for the plan, which brakes; the motors are set to coast",
         ),
     },
     "battery": {

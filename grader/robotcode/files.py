@@ -76,7 +76,7 @@ class Files:
             for length in range(len(parts), 0, -1):
                 stem = top.joinpath(*parts[:length])
                 for path in (stem.with_name(f"{stem.name}.py"), stem / "__init__.py"):
-                    if path.is_file() and not path.is_symlink():
+                    if _is_own_file(path):
                         module = self._module(path)
                         return None if module is None else (module, parts[length:])
         return None
@@ -112,6 +112,14 @@ class Files:
                 module = None
             self._modules[path] = None if module is None or module.problems else module
         return self._modules[path]
+
+
+def _is_own_file(path: Path) -> bool:
+    """Whether there is such a file, and no link; a name that no system can hold is no file."""
+    try:
+        return path.is_file() and not path.is_symlink()
+    except OSError:
+        return False
 
 
 def _walk(top: Path, suffix: str) -> list[Path]:

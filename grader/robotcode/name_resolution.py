@@ -85,6 +85,8 @@ def type_of(node: Node, scope: Scope, names: SymbolTable) -> str:
     if isinstance(node, FunctionParameter):
         return node.type
     node = _without_settings(node)
+    while isinstance(node, Element):  # of an array or a list: both types are taken for one
+        node = node.owner
     made = _made(node, scope)
     return made if made is not None else type_from(names.definitions(node, scope), names)
 

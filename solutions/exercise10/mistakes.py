@@ -83,6 +83,26 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
     return make
 
 
+def also_in_slot0(text: str) -> str:
+    """Put the gains into Phoenix 6's Slot0Configs, and keep WPILib's feedforward."""
+    inside = in_slot0("TURN")(text)
+    chain = re.search(r"(?:new )?Slot0Configs\(\)\S*(?: \S+)*?(?=;|$)", inside, re.MULTILINE)
+    if chain is None:
+        raise ValueError("no Slot0Configs was made")
+    java = "new Slot0Configs" in inside
+    line = (
+        f"  private final Slot0Configs m_gains = {chain[0]};\n"
+        if java
+        else f"self.gains = {chain[0]}"
+    )
+    if java:
+        return re.sub(
+            r"^(?=  private final \w+Feedforward)", lambda _: line, text, flags=re.MULTILINE
+        )
+    before = r"^(?= +self\.feedforward = )"
+    return re.sub(before, lambda _: f"        {line}\n", text, flags=re.MULTILINE)
+
+
 def in_spark(order: dict[str, str]) -> Callable[[str], str]:
     """Put the gains into REVLib's FeedForwardConfig.
 
@@ -225,6 +245,20 @@ MISTAKES = (
         in_slot0("TURN", sign="UseClosedLoopSign"),
         "feedforward",
         "Then kS follows the sign of the error",
+    ),
+    Mistake(
+        "gains in the code and in the motor controller",
+        JAVA,
+        also_in_slot0,
+        "feedforward",
+        "This is a double feedforward",
+    ),
+    Mistake(
+        "gains in the code and in the motor controller, Python",
+        PYTHON,
+        also_in_slot0,
+        "feedforward",
+        "This is a double feedforward",
     ),
     Mistake(
         "kV and kA exchanged in a Spark",

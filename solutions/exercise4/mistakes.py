@@ -23,6 +23,16 @@ ROUTINE_PYTHON = (
     f"{DEEP})\n"
 )
 
+COMMANDS_V3 = (  # the same routine as Java of WPILib 2027 has it
+    ("edu.wpi.first.units", "org.wpilib.units"),
+    ("edu.wpi.first.wpilibj.sysid", "org.wpilib.sysid"),
+    ("edu.wpi.first.wpilibj2.command.sysid", "org.wpilib.command3.sysid"),
+    ("edu.wpi.first.wpilibj2.command.SubsystemBase", "org.wpilib.command3.Mechanism"),
+    ("extends SubsystemBase", "extends Mechanism"),
+    ("new SysIdRoutine.Mechanism", "new SysIdRoutine.SysIdMechanism"),
+    (CONFIG, CONFIG.replace("new SysIdRoutine.Config", "SysIdRoutine.Config.useDataLog")),
+)
+
 MISTAKES = (
     Mistake(
         "the routine is never made",
@@ -100,6 +110,42 @@ MISTAKES = (
         replace_text(("Seconds.of(10)", "Minutes.of(1)")),
         "timeout",
         "60 s",
+    ),
+    Mistake(
+        "Commands v3: all numbers left to WPILib",
+        JAVA,
+        replace_text(
+            *COMMANDS_V3,
+            (
+                CONFIG.replace("new SysIdRoutine.Config", "SysIdRoutine.Config.useDataLog"),
+                "SysIdRoutine.Config.defaults()",
+            ),
+        ),
+        "step",
+        "7 V, WPILib's default, is almost always too much",
+        "M-BIG-STEP",
+    ),
+    Mistake(
+        "Commands v3: a slower ramp",
+        JAVA,
+        replace_text(*COMMANDS_V3, ("Volts.of(0.5).per(Second)", "Volts.of(0.25).per(Second)")),
+        "ramp",
+        "Slower is not safer",
+        "M-SLOW-SAFE",
+    ),
+    Mistake(
+        "Commands v3: null for the timeout",
+        JAVA,
+        replace_text(*COMMANDS_V3, ("Seconds.of(10)", "null")),
+        "timeout",
+        "Commands v3 takes no null there",
+    ),
+    Mistake(
+        "Commands v3: a name of Commands v2",
+        JAVA,
+        replace_text(*COMMANDS_V3, ("SysIdRoutine.SysIdMechanism", "SysIdRoutine.Mechanism")),
+        "assembled",
+        "SysIdRoutine of Commands v3 has no Mechanism. Did you mean SysIdMechanism?",
     ),
     Mistake(
         "a share of the battery, Java",

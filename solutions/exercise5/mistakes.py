@@ -66,6 +66,20 @@ MISTAKES = (
         "The button only starts another command, which",
     ),
     Mistake(
+        "a test asked of the class, as in WPILib's documentation",
+        PYTHON,
+        replace_text(("return self.routine.", "return SysIdRoutine.")),
+        "held",
+        "SysIdRoutine is the class, and it has no motors: write self.routine.quasistatic(...)",
+    ),
+    Mistake(
+        "a test asked of the class, in Java",
+        JAVA,
+        replace_text(("return m_routine.", "return SysIdRoutine.")),
+        "held",
+        "SysIdRoutine is the class, and it has no motors: write m_routine.quasistatic(...)",
+    ),
+    Mistake(
         "two tests on one button",
         JAVA,
         replace_text(("m_driverController.b()", "m_driverController.a()")),

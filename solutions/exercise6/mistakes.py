@@ -1,5 +1,6 @@
 """Wrong answers to exercise 6, and what a learner must be told about each."""
 
+import re
 from collections.abc import Callable
 
 from grader.mistake import Mistake, put_value, scale_numbers
@@ -15,6 +16,19 @@ def puts(**values: str) -> Callable[[str], str]:
         for name, value in values.items():
             text = put_value(name, value)(text)
         return text
+
+    return make
+
+
+def turn_around(item: str) -> Callable[[str], str]:
+    """Decide the other way about one thing of the morning."""
+    other = {"go": "no-go", "no-go": "go"}
+
+    def make(text: str) -> str:
+        found = re.search(rf'^check_{item} = "(.*)"$', text, re.MULTILINE)
+        if found is None:
+            raise ValueError(f"the solution decides nothing about {item}")
+        return put_value(f"check_{item}", f'"{other[found[1]]}"')(text)
 
     return make
 
@@ -146,6 +160,13 @@ MISTAKES = (
         puts(**dict.fromkeys((f"check_{item}" for item in MORNING), '"no-go"')),
         "checklist",
         "Read that line of your morning once more",
+    ),
+    Mistake(
+        "room without a look at brake or coast",
+        ANSWERS,
+        turn_around("travel"),
+        "checklist",
+        "In coast mode the robot rolls on",
     ),
     Mistake(
         "a decision that is none",

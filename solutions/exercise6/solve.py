@@ -10,7 +10,7 @@ MOVES = 3.4  # [s] that the ramp moves it
 SHARE = 0.28  # of the free speed that it reaches
 STEPS = ("wire-routine", "run-tests", "inspect-and-fit", "place-gains")
 BAD = {  # what gives a no-go away
-    "travel": ("table", "blocks"),
+    "travel": ("table", "blocks", "coast"),
     "battery": ("11.",),
     "encoder": ("the position falls", "with a jump"),
     "log": ("in the evening", "nobody knows"),

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from grader.robotcode.compiling.season import HOME, PACKAGES_OF
+from grader.robotcode.compiling.season import HOME, PACKAGES_OF, called_on_class
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Call,
@@ -69,6 +69,8 @@ COUNTS = {  # how many arguments the parts of a SysIdRoutine take
     "defaults": (0,),
 }
 COUNT_OF_V3_CONFIG = (4,)  # its shorter forms are useDataLog and defaults
+ONLY_IN_V3 = {"SysIdMechanism": "Mechanism", "useDataLog": "Config", "defaults": "Config"}
+ONLY_IN_V2 = {"Mechanism": "SysIdMechanism"}
 CONFIG_TYPES = (  # of the first arguments of Config: what each is, and its type
     ("the ramp rate", "voltage per time, as in Volts.of(0.5).per(Second)"),
     ("the step", "Voltage"),
@@ -93,6 +95,8 @@ def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         name = last_name(node.target)
         if isinstance(node.target, Member):
             yield from _one_argument(node, node.target, scope, names)
+            owner, line = last_name(node.target.owner), node.place.line
+            yield from called_on_class(name, owner, held="m_routine", line=line)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
         yield from _routine_part(node, scope, names)
@@ -168,7 +172,11 @@ def _routine_part(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Pars
     if part not in COUNTS:
         return
     counts, line = COUNTS[part], call.place.line
-    if part == "Config" and any(one.path.startswith(COMMANDS_V3) for one in scope.module.imports):
+    other = _part_of_other_version(part, line, scope)
+    if other:
+        yield other
+        return
+    if part == "Config" and _is_v3(scope):
         counts = COUNT_OF_V3_CONFIG
     if len(call.args) not in counts:
         wanted = " or ".join(map(str, counts))
@@ -179,13 +187,30 @@ def _routine_part(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Pars
             if isinstance(given, Self):
                 said = f"the {what} callback has to be a method or a lambda, and this is the object"
                 yield ParseProblem(said, given.place.line)
-    if part not in {"Config", "useDataLog"}:
-        return
+    elif part in {"Config", "useDataLog"}:
+        yield from _config_types(call, scope, names)
+
+
+def _config_types(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
+    """Arguments of a Config that are of another type."""
     for given, (what, wanted) in zip(call.args, CONFIG_TYPES, strict=False):
         type_ = type_of_expression(given, scope, names)
         if type_ and type_ != wanted:
             is_ = {NUMBER: "a plain number", SIGNAL: "a signal"}.get(type_, f"a {type_}")
             yield ParseProblem(f"{what} has to be a {wanted}, and this is {is_}", given.place.line)
+
+
+def _part_of_other_version(part: str, line: int, scope: Scope) -> ParseProblem | None:
+    """A part that only the SysIdRoutine of the other version of Commands has."""
+    version, others = (3, ONLY_IN_V2) if _is_v3(scope) else (2, ONLY_IN_V3)
+    if part not in others:
+        return None
+    said = f"SysIdRoutine of Commands v{version} has no {part}. Did you mean {others[part]}?"
+    return ParseProblem(said, line, others[part])
+
+
+def _is_v3(scope: Scope) -> bool:
+    return any(one.path.startswith(COMMANDS_V3) for one in scope.module.imports)
 
 
 def _part_of_routine(call: Call, scope: Scope) -> str:

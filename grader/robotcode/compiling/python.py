@@ -11,6 +11,7 @@ from grader.robotcode.compiling.season import (
     MODULE_OF,
     PLAIN,
     ROBOTPY,
+    called_on_class,
     name_misspelled,
     suggest_name,
 )
@@ -37,6 +38,12 @@ def python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Load) and one.id not in bound:
                 yield ParseProblem(f"{one.id} is not defined or imported", one.lineno)
     yield from _self_in_class_body(every)
+    for one in every:
+        if isinstance(one, ast.Call) and isinstance(one.func, ast.Attribute) and len(one.args) <= 1:
+            owner = one.func.value
+            name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, "id", "")
+            method, line = one.func.attr, one.lineno
+            yield from called_on_class(method, name, held="self.routine", line=line)
     yield from _attributes(every)
 
 

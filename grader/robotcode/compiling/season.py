@@ -4,8 +4,9 @@ No list is whole: a name that is not here is only called wrong where it is nearl
 """
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
+from grader.robotcode.binding_facts import KINDS
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import Import
 from grader.robotcode.vocabulary import COMMANDS, PYTHON_WORDS, SIGNALS
@@ -156,6 +157,22 @@ def name_misspelled(kind: str, name: str, *, meant: str, line: int) -> ParseProb
         line: line in the source, from 1.
     """
     return ParseProblem(f"unknown {kind} {name}. Did you mean {meant}?", line, meant)
+
+
+def called_on_class(method: str, owner: str, *, held: str, line: int) -> Iterator[ParseProblem]:
+    """A test that is asked of the class SysIdRoutine, and not of the routine.
+
+    WPILib's documentation has its Python example so (frc-docs, commit d57699a).
+
+    Args:
+        method: what is called.
+        owner: the last name of what it is called on.
+        held: how this language calls a routine that is kept in a field.
+        line: line in the source, from 1.
+    """
+    if owner == "SysIdRoutine" and method in KINDS:
+        said = f"SysIdRoutine is the class, and it has no motors: write {held}.{method}(...)"
+        yield ParseProblem(said, line)
 
 
 def suggest_name(name: str, known: frozenset[str] | dict[str, str]) -> str:

@@ -1,0 +1,77 @@
+"""What the catalogue of misconceptions says is true of the simulated robot, number by number."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from grader.misconception import MISCONCEPTIONS
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.core.errors import Refusal
+from sim.fit import fit
+
+ROBOT = MECHANISMS["drivetrain"]
+
+
+def recorded(*, step=2.0, seed=0, period=0.02, **sensor):
+    routine = Routine(ramp=0.5, step=step, timeout=8.0)
+    robot = replace(ROBOT, sensor=replace(ROBOT.sensor, **sensor))
+    return simulate(robot, routine, rng=np.random.default_rng(seed), period=period)
+
+
+def share(log, gain="kA", **how):
+    """A gain that SysId's recipe finds in a log, over the true one."""
+    return fit(log, method="sysid", **how).gains[gain] / ROBOT.gains[gain]
+
+
+def test_a_long_median_makes_ka_too_small_and_an_average_too_large():
+    said = MISCONCEPTIONS["M-FILTER-FREE"].says
+    assert "median cuts off the start of a step, and kA becomes too small" in said
+    assert "average makes the velocity late, and kA becomes too large" in said
+
+    log = recorded()
+    found = [share(log, median=window) for window in (1, 5, 9, 15)]
+
+    assert found[0] == pytest.approx(1.0, abs=0.05)
+    assert found == sorted(found, reverse=True)
+    assert found[-1] < 0.6
+    assert share(recorded(filter=0.224)) > 1.1  # [s] of a NEO's own encoder
+
+
+def test_a_smaller_step_shows_ka_as_well_only_above_the_noise():
+    assert "2 V is enough, 0.6 V is not" in MISCONCEPTIONS["M-BIG-STEP"].says
+
+    means = {
+        step: np.mean([share(recorded(step=step, seed=seed)) for seed in range(4)])
+        for step in (2.0, 1.0, 0.6)
+    }
+
+    assert means[2.0] == pytest.approx(1.0, abs=0.04)
+    assert 1.05 < means[1.0] < 1.3
+    assert means[0.6] > 1.4
+
+
+def test_without_the_slow_forward_run_the_gains_are_right_and_sysid_refuses():
+    log = recorded()
+    kept = tuple(run for run in log.runs if run.test != "quasistatic-forward")
+    three = replace(log, runs=kept)
+
+    found = fit(three).gains
+
+    for gain, truth in ROBOT.gains.items():
+        assert found[gain] == pytest.approx(truth, rel=0.02)
+    with pytest.raises(Refusal, match="needs all four"):
+        fit(three, method="sysid")
+    assert "SysId refuses to fit without them" in MISCONCEPTIONS["M-REVERSE-WASTE"].says
+
+
+def test_more_rows_of_the_same_readings_make_ka_smaller():
+    assert "kA becomes too small" in MISCONCEPTIONS["M-MORE-ROWS"].says
+
+    found = [share(recorded(period=period, frame=0.02)) for period in (0.02, 0.005, 0.002)]
+
+    assert found[0] == pytest.approx(1.0, abs=0.1)
+    assert found == sorted(found, reverse=True)
+    assert found[-1] < 0.3
