@@ -33,7 +33,7 @@ def convert_hoot(path: Path, folder: Path) -> Path:
     target = folder / f"{path.stem}.wpilog"
     command = [owlet, str(path.resolve()), str(target), "-f", "wpilog"]
     try:
-        ended = subprocess.run(
+        ended = subprocess.run(  # noqa: S603 - the program that its owner installed
             command, capture_output=True, check=False, stdin=subprocess.DEVNULL, timeout=PATIENCE
         )
     except subprocess.TimeoutExpired:

@@ -29,8 +29,8 @@ LAGS = 1e-5  # [s] a shorter lag is none
 FEWEST = 4  # [samples] a shorter run is no test, and is not simulated
 
 
-def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
-    """Name, unit, type, runs and doubts of a log.
+def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> dict[str, Any]:
+    """Name, unit, type and runs of a log, and what was odd about it unless that is not wanted.
 
     Raises:
         Refusal: it cannot be read in this way.
@@ -58,7 +58,7 @@ def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
         "mechanism": log.mechanism,
         "runs": runs,
         "samples": sum(run["samples"] for run in runs),
-        "doubts": _doubts(log.doubts, one),
+        "doubts": _doubts(log.doubts, one) if doubts else [],
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }

@@ -11,7 +11,7 @@ import json
 import math
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import asdict, replace
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -39,6 +39,7 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+RAW = ("summary", "entries", "samples")  # what a page may ask that shows the data alone
 PIECE = 2**20  # [bytes] that are read at a time
 PATIENCE = 30.0  # [s] for the rest of a request that has begun
 
@@ -143,6 +144,8 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_file("index.html")
             case ["logs"]:
                 self._send_json([_name(one) for one in self.server.session.logs])
+            case ["view"]:
+                self._send_json(asdict(self.server.session.view))
             case ["live"]:
                 self._send_json(page_data.describe_live(self.server.session))
             case ["logs", number, what]:
@@ -179,12 +182,18 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
         """What the page asks about one log."""
-        self.server.session.import_everything()
+        session = self.server.session
+        (session.import_reading if what in RAW else session.import_everything)()
         chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
         reading = Reading(query.get("units") or None, query.get("type") or None, chosen)
+        raw = session.view.raw
+        if raw and what not in RAW:
+            raise BadRequest(
+                "this page shows the data alone", advice="Open the log with sysid open FILE."
+            )
         match what:
             case "summary":
-                self._send_json(page_data.describe_log(one, reading))
+                self._send_json(page_data.describe_log(one, reading, doubts=not raw))
             case "entries":
                 self._send_json(page_data.describe_entries(one.entries()))
             case "samples":

@@ -60,6 +60,41 @@ class LiveView:
     advice: str = ""
 
 
+@dataclass(frozen=True)
+class SpanText:
+    """How the spans that a person marks are written, to be pasted.
+
+    Texts in braces are replaced: ``{log}`` the file without its suffix, ``{test}``, ``{key}`` the
+    test with ``_`` for ``-``, ``{begin}`` and ``{end}`` in seconds since the test began.
+
+    Args:
+        before: what comes first.
+        span: a span; those of several tests come one after another.
+        between: what stands between two of them.
+        after: what comes last.
+        hint: what to do with it, for the person.
+    """
+
+    before: str = ""
+    span: str = "{test}, {begin} to {end}"
+    between: str = "\n"
+    after: str = ""
+    hint: str = ""
+
+
+@dataclass(frozen=True)
+class PageView:
+    """What the page shows of every log.
+
+    Args:
+        raw: the data alone: nothing is detected, fitted or told.
+        span_text: how marked spans are written.
+    """
+
+    raw: bool = False
+    span_text: SpanText = field(default_factory=SpanText)
+
+
 @dataclass(eq=False)
 class OpenLog:
     """One file that is open on the page.
@@ -185,10 +220,14 @@ class Session:
     Args:
         folder: of this session alone, where dropped files are written.
         files: named on the command line.
+        view: what the page shows of them.
     """
 
-    def __init__(self, folder: Path, files: Sequence[Path] = ()) -> None:
+    def __init__(
+        self, folder: Path, files: Sequence[Path] = (), *, view: PageView | None = None
+    ) -> None:
         self.folder = folder
+        self.view = view or PageView()
         self._numbers = count(1)
         self._logs: dict[int, OpenLog] = {}
         self._lock = threading.Lock()
@@ -285,33 +324,42 @@ class Session:
         write(spoiled.log, path)
         return self.add(name, path)
 
-    def import_everything(self) -> None:
-        """Import what requests need, once and in one thread.
+    def import_reading(self) -> None:
+        """Import what it takes to show the data of a log, once and in one thread.
 
         Requests run in threads, and two threads that import modules which import one another can
         find one of them half made.
         """
         with self._imports:
-            import sim.bench.mechanisms  # noqa: PLC0415 - so that the address is printed at once
+            import sim.cli.fit.parts  # noqa: PLC0415 - so that the address is printed at once
+            import sim.cli.options  # noqa: PLC0415 - the same
+            import sim.io.formats.csv  # noqa: PLC0415 - the same
+            import sim.io.formats.revlog  # noqa: PLC0415 - the same
+            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
+            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
+            import sim.physics.engine  # noqa: F401, PLC0415 - the same
+
+    def import_everything(self) -> None:
+        """Import what requests need, as ``import_reading``."""
+        self.import_reading()
+        with self._imports:
+            import sim.bench.mechanisms  # noqa: PLC0415 - as above
             import sim.bench.simulate  # noqa: PLC0415 - the same
             import sim.cli.fit.against  # noqa: PLC0415 - the same
-            import sim.cli.fit.parts  # noqa: PLC0415 - the same
             import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
-            import sim.cli.options  # noqa: PLC0415 - the same
             import sim.cli.reconcile  # noqa: PLC0415 - the same
             import sim.fit.physics  # noqa: PLC0415 - the same
             import sim.fit.pooled  # noqa: PLC0415 - the same
             import sim.inspect.contaminate  # noqa: PLC0415 - the same
-            import sim.inspect.detect_faults  # noqa: PLC0415 - the same
-            import sim.io.formats.csv  # noqa: PLC0415 - the same
-            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
-            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
             import sim.reconcile.dropout_intervals  # noqa: PLC0415 - the same
             import sim.reconcile.story_text  # noqa: PLC0415 - the same
             import sim.report  # noqa: F401, PLC0415 - the same
 
     def warm_up(self) -> None:
         """Load what the first log needs, so that it need not wait for it."""
+        self.import_reading()
+        if self.view.raw:
+            return
         self.import_everything()
         from sim.physics.engine import load_engine  # noqa: PLC0415 - that is the point of it
 

@@ -19,7 +19,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
 from sim.core.log import Array, Log
 from sim.io.entries import assemble_log, assemble_motor_logs
-from sim.io.entries.entry import Numbers, ValuesEntry
+from sim.io.entries.entry import ValuesEntry
 from sim.io.format import ReadOptions
 
 SUFFIXES = (".revlog",)
@@ -28,6 +28,7 @@ SIZES = {FIRMWARE: 10, PERIODIC: 16}  # [bytes] of one frame in a payload
 REV, SPARK = 5, 2  # manufacturer and kind of device in a CAN id
 DEVICES = (SPARK, 7, 12)  # kinds of devices that REV logs: SPARK, encoder, servo hub
 STATUS_CLASS = 46  # API class of the periodic frames of a SPARK
+STATUS_0, STATUS_2 = 0, 2  # API indices: voltage and current; the motor's own encoder
 DUTY_STEP, VOLT_STEP, AMPERE_STEP = 3.082369457075716e-5, 7.3260073260073e-3, 3.66300366300366e-2
 FRAME = np.dtype([("time", "<u4"), ("id", "<u4"), ("data", "<u8")])
 LOW_12 = np.uint64(0xFFF)
@@ -148,7 +149,7 @@ def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Valu
         own = frames[ours & (number & 0x3F == device)]
         own = own[np.argsort(own["time"], kind="stable")]
         index = own["id"] >> 6 & 0xF
-        made += _decode(device, own[index == 0], own[index == 2], default_units=default_units)
+        made += _decode(device, own[index == STATUS_0], own[index == STATUS_2], default_units=default_units)
     return made
 
 
@@ -158,7 +159,7 @@ def _decode(
     """The signals in the frames ``STATUS_0`` and ``STATUS_2`` of a SPARK."""
 
     def entry(name: str, metadata: str, of: NDArray[np.void], values: Array) -> ValuesEntry:
-        time: Numbers = of["time"].astype(np.int64) * 1000
+        time = of["time"].astype(np.int64) * 1000
         return ValuesEntry(f"REV/Spark-{device}/{name}", "double", metadata, time, values)
 
     data = general["data"]

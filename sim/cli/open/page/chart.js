@@ -1,26 +1,39 @@
-// The chart: velocity measured and simulated, what is left between both, and the voltage.
+// The chart: velocity measured and simulated, what is left between both, and the voltage; or the
+// signals of the log alone (signals.js), in which spans can be marked.
 //
 // Two canvases lie on each other. The lower one holds what stands still while a gain is moved; the
 // upper one the simulated curve and the cursor, drawn once a picture.
 
+import { line, rangeOf, short } from "./drawing.js";
+import { listen } from "./hands.js";
+import { SIGNAL_PANELS, deriveSignals, drawSignals, signalMarks, signalRanges, stepTitle } from "./signals.js";
 import { Timeline, firstNotBefore, roundTicks } from "./timeline.js";
 
-const PANELS = [
+const FIT_PANELS = [
   { name: "velocity", share: 0.58 },
   { name: "error", share: 0.17 },
   { name: "voltage", share: 0.25 },
 ];
+const TITLES = {
+  velocity: ({ symbol }) => `velocity, ${symbol}/s`,
+  error: ({ symbol }) => `measured − simulated, ${symbol}/s`,
+  voltage: () => "voltage, V",
+  position: ({ symbol }) => `position, ${symbol}`,
+  step: stepTitle,
+};
 const TOP = 44, GAP = 26, AXIS = 24, OVERVIEW = 34; // [px]
 const CLOSEST = 0.08; // [s] a view is never shorter
-const ZOOM = 1.25; // by one step of a key or a wheel
 const DOTS = 5; // [px] between samples from which each is a dot of its own
-const CURSOR_STEP = 10; // [samples] with Shift
 
 export class Chart {
-  constructor(still, moving, { onCursor }) {
+  constructor(still, moving, { onCursor, onSpans }) {
     this.still = still;
     this.moving = moving;
     this.onCursor = onCursor;
+    this.onSpans = onSpans;
+    this.showsSignals = false;
+    this.dragMarks = true; // in the view of the signals; Shift turns it round
+    this.spans = new Map();
     this.pictures = 0;
     this.runs = [];
     this.faults = [];
@@ -28,9 +41,8 @@ export class Chart {
     this.simulated = [];
     this.noise = null;
     this.cursor = null;
-    this.pointers = new Map();
     new ResizeObserver(() => this.resize()).observe(still.parentElement);
-    this.listen();
+    listen(this);
   }
 
   /** Show a log: its runs, with samples in the log's own unit. */
@@ -42,12 +54,49 @@ export class Chart {
     this.noise = null;
     this.cursor = null;
     this.timeline = new Timeline(runs);
+    this.spans = new Map();
+    this.derived = null;
     const [low, high] = rangeOf(runs.map((run) => run.velocity));
     const pad = 0.07 * (high - low || 1);
-    this.speeds = [Math.min(low, 0) - pad, Math.max(high, 0) + pad];
     const [least, most] = rangeOf(runs.map((run) => run.voltage));
-    this.volts = [Math.min(least, 0) - 0.6, Math.max(most, 0) + 0.6];
+    this.ranges = {
+      velocity: [Math.min(low, 0) - pad, Math.max(high, 0) + pad],
+      voltage: [Math.min(least, 0) - 0.6, Math.max(most, 0) + 0.6],
+    };
+    this.prepareSignals();
     this.showAll();
+  }
+
+  /** Show the signals of the log alone, or what was measured against what is simulated. */
+  showSignals(on) {
+    this.showsSignals = on;
+    this.prepareSignals();
+    this.resize();
+  }
+
+  /** Time steps and slopes, once they are needed. */
+  prepareSignals() {
+    if (!this.showsSignals || !this.timeline || this.derived) return;
+    this.derived = deriveSignals(this.runs);
+    this.signalRanges = signalRanges(this.runs, this.derived, this.ranges);
+  }
+
+  get panelsShown() {
+    return this.showsSignals ? SIGNAL_PANELS : FIT_PANELS;
+  }
+
+  /** The lowest and the highest value that a panel shows. */
+  rangeOfPanel(name) {
+    if (name === "error") return this.errors();
+    return (this.showsSignals ? this.signalRanges : this.ranges)[name];
+  }
+
+  /** Mark a span of a run, from one sample to another; null removes it. */
+  setSpan(run, span) {
+    if (span) this.spans.set(run, span);
+    else this.spans.delete(run);
+    this.onSpans(this.spans);
+    this.requestMoving();
   }
 
   /** Mark faults: {run, start, end, name}. */
@@ -139,12 +188,13 @@ export class Chart {
     this.left = clientWidth < 560 ? 40 : 54;
     this.right = clientWidth - (clientWidth < 560 ? 8 : 14);
     let y = TOP;
-    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (PANELS.length - 1) - 10;
+    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (this.panelsShown.length - 1) - 10;
     this.panels = {};
-    for (const { name, share } of PANELS) {
+    for (const { name, share } of this.panelsShown) {
       this.panels[name] = { top: y, bottom: y + share * room };
       y += share * room + GAP;
     }
+    this.bottom = y - GAP;
     this.overview = { top: clientHeight - OVERVIEW, bottom: clientHeight - 4 };
     this.redraw();
   }
@@ -152,7 +202,7 @@ export class Chart {
   /** Read the colors of the theme anew. */
   readColors() {
     const style = getComputedStyle(document.documentElement);
-    const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe"];
+    const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe", "position", "mark"];
     this.colors = Object.fromEntries(names.map((one) => [one, style.getPropertyValue(`--${one}`).trim()]));
     this.redraw();
   }
@@ -168,7 +218,7 @@ export class Chart {
   /** From a value to a height in a panel. */
   heights(name) {
     const { top, bottom } = this.panels[name];
-    const [low, high] = { velocity: this.speeds, voltage: this.volts, error: this.errors() }[name];
+    const [low, high] = this.rangeOfPanel(name);
     return (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
   }
 
@@ -183,7 +233,7 @@ export class Chart {
         if (left > most) most = left;
       }
     }
-    most = Math.min(most, this.speeds[1] - this.speeds[0]) || 1;
+    most = Math.min(most, this.ranges.velocity[1] - this.ranges.velocity[0]) || 1;
     const power = 10 ** Math.floor(Math.log10(most));
     const round = [1, 1.5, 2, 3, 5, 7, 10].map((one) => one * power).find((one) => one >= most);
     return [-round, round];
@@ -197,20 +247,22 @@ export class Chart {
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
     this.drawRuns(to);
     this.drawFaults(to);
-    this.drawGrid(to, "velocity", `velocity, ${this.symbol}/s`);
-    this.drawGrid(to, "voltage", "voltage, V");
+    for (const { name } of this.panelsShown) if (name !== "error") this.drawGrid(to, name);
+    if (this.showsSignals) drawSignals(this, to);
     this.clip(to, () => {
-      for (const run of this.runs.keys()) this.drawMeasured(to, run);
+      if (!this.showsSignals) for (const run of this.runs.keys()) this.drawMeasured(to, run);
       for (const other of this.others) this.drawOther(to, other);
     });
     this.drawTimes(to);
     this.drawOverview(to);
   }
 
-  clip(to, draw) {
+  /** Draw nothing beside the runs; with the name of a panel, nothing beside that panel. */
+  clip(to, draw, name) {
+    const { top, bottom } = this.panels[name] ?? { top: 8, bottom: this.overview.top - AXIS - 2 };
     to.save();
     to.beginPath();
-    to.rect(this.left - 3, 0, this.right - this.left + 3, this.overview.top - AXIS + 4);
+    to.rect(this.left - 3, top - 8, this.right - this.left + 3, bottom - top + 14);
     to.clip();
     draw();
     to.restore();
@@ -219,7 +271,7 @@ export class Chart {
   /** A stripe and a name for each run. */
   drawRuns(to) {
     const { stripe, ink, quiet } = this.colors;
-    const bottom = this.panels.voltage.bottom;
+    const { bottom } = this;
     this.clip(to, () => {
       for (const [k, run] of this.runs.entries()) {
         const [from, end] = this.timeline.spanOf(k).map((place) => this.xOf(place));
@@ -252,7 +304,7 @@ export class Chart {
         const end = Math.max(this.xOf(this.timeline.placeOf(one.run, one.end)), from + 2);
         to.globalAlpha = 0.14;
         to.fillStyle = fault;
-        to.fillRect(from, TOP - 22, end - from, this.panels.voltage.bottom - TOP + 26);
+        to.fillRect(from, TOP - 22, end - from, this.bottom - TOP + 26);
         to.globalAlpha = 1;
         to.fillRect(from, TOP - 22, end - from, 3);
         const width = to.measureText(one.name).width;
@@ -265,10 +317,11 @@ export class Chart {
     });
   }
 
-  drawGrid(to, name, title) {
+  drawGrid(to, name) {
     const { rule, quiet } = this.colors;
+    const title = TITLES[name](this);
     const y = this.heights(name);
-    const [low, high] = name === "velocity" ? this.speeds : name === "voltage" ? this.volts : this.errors();
+    const [low, high] = this.rangeOfPanel(name);
     to.textBaseline = "middle";
     const { top, bottom } = this.panels[name];
     const count = Math.max(2, Math.floor((bottom - top) / (name === "velocity" ? 38 : 20)));
@@ -286,7 +339,7 @@ export class Chart {
     to.fillStyle = quiet;
     to.globalAlpha = 0.9;
     to.textBaseline = "top";
-    if (name === "velocity") {
+    if (name === this.panelsShown[0].name) {
       to.fillText(title, this.left + 5, top - 3);
     } else {
       to.textBaseline = "alphabetic";
@@ -364,25 +417,26 @@ export class Chart {
     to.globalAlpha = 1;
   }
 
-  /** Times of the log below the runs; each run counts on in the log's own time. */
+  /** Times below the runs: in the log's own time, or since each test began in the view of the signals. */
   drawTimes(to) {
     const { quiet, rule } = this.colors;
-    const at = this.panels.voltage.bottom + 17;
+    const at = this.bottom + 17;
     to.fillStyle = quiet;
     to.textAlign = "center";
     const apart = (70 / (this.right - this.left)) * (this.view[1] - this.view[0]);
     let free = this.left;
     for (const [k, run] of this.runs.entries()) {
       if (!run.time.length) continue;
-      const [from, end] = [run.time[0], run.time[run.time.length - 1]];
+      const begins = this.showsSignals ? run.time[0] : 0;
+      const [from, end] = [run.time[0] - begins, run.time[run.time.length - 1] - begins];
       for (const tick of roundTicks(from, end, Math.max((end - from) / apart, 1))) {
-        const x = this.xOf(this.timeline.placeOf(k, tick));
+        const x = this.xOf(this.timeline.placeOf(k, begins + tick));
         const text = `${short(tick)} s`;
         const half = to.measureText(text).width / 2;
         if (x - half < free || x + half > this.right + 6) continue;
         to.fillText(text, x, at);
         to.strokeStyle = rule;
-        line(to, x, this.panels.voltage.bottom + 3, x, this.panels.voltage.bottom + 6);
+        line(to, x, this.bottom + 3, x, this.bottom + 6);
         free = x + half + 10;
       }
     }
@@ -394,7 +448,7 @@ export class Chart {
     const { top, bottom } = this.overview;
     const { measured, simulated, rule, fault, stripe } = this.colors;
     const x = (place) => this.left + (place / this.timeline.end) * (this.right - this.left);
-    const [low, high] = this.speeds;
+    const [low, high] = this.ranges.velocity;
     const y = (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
     to.strokeStyle = measured;
     to.globalAlpha = 0.85;
@@ -437,7 +491,12 @@ export class Chart {
     const to = this.moving.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
-    this.drawGrid(to, "error", `measured − simulated, ${this.symbol}/s`);
+    if (this.showsSignals) {
+      this.clip(to, () => this.drawSpans(to));
+      if (this.cursor) this.drawCursor(to, signalMarks(this, this.cursor));
+      return;
+    }
+    this.drawGrid(to, "error");
     const [y, height] = [this.heights("velocity"), this.heights("error")];
     this.clip(to, () => {
       if (this.noise) {
@@ -448,32 +507,54 @@ export class Chart {
         if (!one) continue;
         const left = one.velocity.map((value, i) => this.runs[k].velocity[one.first + i] - value);
         this.curve(to, k, one.first, left, height, { color: this.colors.simulated, width: 1.2, alpha: 0.9 });
-        to.save();
-        to.beginPath();
-        to.rect(this.left, this.panels.velocity.top - 8, this.right - this.left, this.panels.velocity.bottom - this.panels.velocity.top + 14);
-        to.clip();
-        this.curve(to, k, one.first, one.velocity, y, { color: this.colors.simulated, width: 1.8 });
-        to.restore();
+        this.clip(to, () => {
+          this.curve(to, k, one.first, one.velocity, y, { color: this.colors.simulated, width: 1.8 });
+        }, "velocity");
       }
     });
-    if (this.cursor) this.drawCursor(to, y, height);
+    if (this.cursor) this.drawCursor(to, this.fitMarks(y, height));
   }
 
-  drawCursor(to, y, height) {
+  /** Height and color of each value at the cursor. */
+  fitMarks(y, height) {
     const { run, sample } = this.cursor;
-    const { time, velocity, voltage } = this.runs[run];
-    const x = this.xOf(this.timeline.placeOf(run, time[sample]));
-    if (x < this.left - 1 || x > this.right + 1) return;
-    const { ink, card, measured, simulated, volts } = this.colors;
-    to.strokeStyle = ink;
-    to.globalAlpha = 0.55;
-    to.lineWidth = 1;
-    line(to, Math.round(x) + 0.5, TOP - 22, Math.round(x) + 0.5, this.panels.voltage.bottom + 4);
-    to.globalAlpha = 1;
+    const { velocity, voltage } = this.runs[run];
+    const { measured, simulated, volts } = this.colors;
     const one = this.simulated[run];
     const guess = one && sample >= one.first ? one.velocity[sample - one.first] : null;
     const marks = [[y(velocity[sample]), measured], [this.heights("voltage")(voltage[sample]), volts]];
     if (guess !== null) marks.push([y(guess), simulated], [height(velocity[sample] - guess), simulated]);
+    return marks;
+  }
+
+  /** The spans that a person marked, each with two edges to take hold of. */
+  drawSpans(to) {
+    const { mark } = this.colors;
+    for (const [run, span] of this.spans) {
+      const [from, end] = span.map((sample) => this.xOf(this.timeline.placeOf(run, this.runs[run].time[sample])));
+      to.fillStyle = mark;
+      to.globalAlpha = 0.2;
+      to.fillRect(from, TOP - 22, Math.max(end - from, 1), this.bottom - TOP + 26);
+      to.globalAlpha = 1;
+      for (const x of [from, end]) {
+        to.fillRect(x - 0.75, TOP - 22, 1.5, this.bottom - TOP + 26);
+        to.beginPath();
+        to.roundRect(x - 3, TOP + 2, 6, 22, 3);
+        to.fill();
+      }
+    }
+  }
+
+  drawCursor(to, marks) {
+    const { run, sample } = this.cursor;
+    const x = this.xOf(this.timeline.placeOf(run, this.runs[run].time[sample]));
+    if (x < this.left - 1 || x > this.right + 1) return;
+    const { ink, card } = this.colors;
+    to.strokeStyle = ink;
+    to.globalAlpha = 0.55;
+    to.lineWidth = 1;
+    line(to, Math.round(x) + 0.5, TOP - 22, Math.round(x) + 0.5, this.bottom + 4);
+    to.globalAlpha = 1;
     for (const [at, color] of marks) {
       to.beginPath();
       to.arc(x, at, 4, 0, 7);
@@ -485,67 +566,7 @@ export class Chart {
     }
   }
 
-  // ---- hands
-
-  listen() {
-    const { moving } = this;
-    moving.addEventListener("wheel", (event) => {
-      if (!this.timeline) return;
-      event.preventDefault();
-      if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) this.pan(event.deltaX);
-      else this.zoomAt(event.offsetX, Math.exp(0.0016 * event.deltaY));
-    }, { passive: false });
-    moving.addEventListener("pointerdown", (event) => {
-      if (!this.timeline) return;
-      moving.setPointerCapture(event.pointerId);
-      this.pointers.set(event.pointerId, event);
-      this.inOverview = event.offsetY > this.overview.top - 4;
-      if (this.inOverview) this.centerOn(event.offsetX);
-    });
-    moving.addEventListener("pointermove", (event) => this.movePointer(event));
-    for (const name of ["pointerup", "pointercancel"]) {
-      moving.addEventListener(name, (event) => this.pointers.delete(event.pointerId));
-    }
-    moving.addEventListener("dblclick", () => this.showAll());
-    moving.addEventListener("keydown", (event) => {
-      if (!this.timeline || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (this.pressKey(event.key, event.shiftKey)) event.preventDefault();
-    });
-  }
-
-  movePointer(event) {
-    if (!this.timeline) return;
-    const before = this.pointers.get(event.pointerId);
-    if (!before || event.pointerType !== "mouse") {
-      this.setCursor(this.timeline.sampleAt(this.placeOfX(event.offsetX)));
-    }
-    if (!before) return;
-    const others = [...this.pointers.values()].filter((one) => one.pointerId !== event.pointerId);
-    this.pointers.set(event.pointerId, event);
-    if (this.inOverview) this.centerOn(event.offsetX);
-    else if (others.length) {
-      const [was, is] = [before, event].map((one) => Math.max(Math.abs(one.offsetX - others[0].offsetX), 20));
-      this.zoomAt(0.5 * (event.offsetX + others[0].offsetX), was / is);
-    } else this.pan(before.offsetX - event.offsetX);
-  }
-
-  pressKey(key, shift) {
-    const step = (shift ? CURSOR_STEP : 1);
-    const middle = this.cursor
-      ? this.xOf(this.timeline.placeOf(this.cursor.run, this.runs[this.cursor.run].time[this.cursor.sample]))
-      : 0.5 * (this.left + this.right);
-    switch (key) {
-      case "ArrowLeft": return this.stepCursor(-step);
-      case "ArrowRight": return this.stepCursor(step);
-      case "+": case "=": case "ArrowUp": this.zoomAt(middle, 1 / ZOOM); return true;
-      case "-": case "_": case "ArrowDown": this.zoomAt(middle, ZOOM); return true;
-      case "0": case "Escape": this.showAll(); return true;
-      case "PageDown": case "PageUp": return this.stepRun(key === "PageDown" ? 1 : -1);
-      case "Home": this.setCursor({ run: 0, sample: 0 }); return true;
-      case "End": this.setCursor({ run: this.runs.length - 1, sample: this.runs.at(-1).time.length - 1 }); return true;
-      default: return false;
-    }
-  }
+  // ---- moving about
 
   stepCursor(by) {
     let { run, sample } = this.cursor ?? this.timeline.sampleAt(this.view[0]);
@@ -586,28 +607,4 @@ export class Chart {
     const [from, to] = this.view;
     this.setView(place - (place - from) * factor, place + (to - place) * factor);
   }
-}
-
-function line(to, x, y, toX, toY) {
-  to.beginPath();
-  to.moveTo(x, y);
-  to.lineTo(toX, toY);
-  to.stroke();
-}
-
-/** The lowest and the highest number of several arrays. */
-function rangeOf(arrays) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const values of arrays) {
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
-  return low <= high ? [low, high] : [-1, 1];
-}
-
-/** A tick's number without noise of the arithmetic, with a true minus. */
-function short(value) {
-  return String(Number(value.toPrecision(6))).replace("-", "−");
 }

@@ -1,9 +1,12 @@
 // The page: which logs are open, which one is seen, and what is known of it.
 
-import { Refused, addressOf, askLive, askLog, askSamples, closeLog, listLogs, openExample, openFile } from "./api.js";
+import {
+  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile,
+} from "./api.js";
 import { Chart } from "./chart.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
+import { writeSpans } from "./spans.js";
 
 const MOST_SHOWN = 12; // faults in the list before the rest is folded away
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
@@ -11,8 +14,9 @@ const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 const at = (id) => document.getElementById(id);
 const logs = new Map();
 let active = null;
+let view = { raw: false, span_text: {} }; // what the server says that this page shows
 
-const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor });
+const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor, onSpans: showSpans });
 const sliders = new Sliders(at("sliders"), moveGains);
 window.sysid = { chart, sliders, logs }; // for tests, and for the curious
 
@@ -54,7 +58,7 @@ async function load(log) {
   log.choice = null;
   if (active === log.id) activate(log.id);
   showTabs();
-  await Promise.all([askFaults(log, asked), askFit(log, asked)]);
+  if (!view.raw) await Promise.all([askFaults(log, asked), askFit(log, asked)]);
   setLoading(log, false);
 }
 
@@ -308,12 +312,46 @@ function showLog() {
   at("units").value = summary.units.name;
   chart.setLog({ runs: log.runs, faults: marks(log), symbol: summary.units.symbol });
   showRuns(log);
+  showCursor(null);
+  showSpans(chart.spans);
+  showOthers();
+  if (view.raw) return;
   showFaults();
   showFit();
   showStory();
-  showOthers();
   setLoading(log, !(log.faults && (log.fit || log.fitRefused)));
 }
+
+// ---- the signals alone
+
+/** Show the signals of a log, or its fit. */
+function showSignals(on) {
+  chart.showSignals(on);
+  document.body.classList.toggle("signals", on);
+  for (const one of at("views").children) one.setAttribute("aria-pressed", String((one.value === "signals") === on));
+  showCursor(chart.cursor);
+  showSpans(chart.spans);
+}
+
+function setDrag(marks) {
+  chart.dragMarks = marks;
+  for (const one of at("drag").children) one.setAttribute("aria-pressed", String((one.value === "mark") === marks));
+}
+
+/** What was marked, as it is pasted. */
+function showSpans(spans) {
+  const log = logs.get(active);
+  if (!log?.runs) return;
+  const words = writeSpans(view.span_text, log, spans);
+  at("span-text").textContent = words;
+  at("span-text").hidden = at("span-copy").hidden = at("span-clear").hidden = !words;
+  at("span-hint").textContent = words ? view.span_text.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
+}
+
+at("views").addEventListener("click", ({ target }) => { if (target.value) showSignals(target.value === "signals"); });
+at("drag").addEventListener("click", ({ target }) => { if (target.value) setDrag(target.value === "mark"); });
+at("span-copy").addEventListener("click", () => copy(at("span-text")));
+at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });
 
 function showRuns(log) {
   const chips = log.runs.map((run, k) => {
@@ -537,16 +575,33 @@ function showCursor(cursor) {
   const run = cursor && log.runs[cursor.run];
   const k = cursor?.sample;
   const one = cursor && log.simulated?.[cursor.run];
-  const guess = one && k >= one.first ? one.velocity[k - one.first] : null;
-  const rows = [
-    ["run", run ? run.test : "point at the curve", "run"],
-    ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""],
-    ["voltage", run ? `${figure(run.voltage[k])} V` : "–", "volts"],
-    ["measured", run ? `${figure(run.velocity[k])} ${symbol}/s` : "–", "measured"],
-    ["simulated", guess === null || guess === undefined ? "–" : `${figure(guess)} ${symbol}/s`, "simulated"],
-    ["error", guess === null || guess === undefined ? "–" : `${figure(run.velocity[k] - guess)} ${symbol}/s`, "left"],
-    ["position", run ? `${figure(run.position[k])} ${symbol}` : "–", ""],
-  ];
+  const guess = one && k >= one.first ? one.velocity[k - one.first] : undefined;
+  const derived = run && chart.derived?.runs[cursor.run];
+  const value = (number, unit) => (number === undefined ? "–" : `${figure(number)} ${unit}`);
+  const time = ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""];
+  const of = {
+    run: ["run", run ? run.test : "point at the curve", "run"],
+    volts: ["voltage", value(run?.voltage[k], "V"), "volts"],
+    position: ["position", value(run?.position[k], symbol), chart.showsSignals ? "place" : ""],
+    measured: [chart.showsSignals ? "velocity" : "measured", value(run?.velocity[k], `${symbol}/s`), "measured"],
+  };
+  const rows = chart.showsSignals
+    ? [
+        of.run,
+        ["time in the test", run ? `${(run.time[k] - run.time[0]).toFixed(3)} s` : "–", ""],
+        of.volts,
+        of.measured,
+        ["slope of position", value(derived?.slope[k], `${symbol}/s`), "place"],
+        of.position,
+        ["time step", run && k ? `${derived.step[k - 1].toFixed(1)} ms` : "–", ""],
+        ["time in the log", time[1], ""],
+      ]
+    : [
+        of.run, time, of.volts, of.measured,
+        ["simulated", value(guess, `${symbol}/s`), "simulated"],
+        ["error", value(guess === undefined ? undefined : run.velocity[k] - guess, `${symbol}/s`), "left"],
+        of.position,
+      ];
   at("readout").replaceChildren(...rows.map(([name, value, kind]) => {
     const pair = text("div", "", kind);
     pair.append(text("dt", name), text("dd", value));
@@ -673,12 +728,12 @@ async function showCode() {
   }
 }
 
-async function copyCode() {
+async function copy(place) {
   try {
-    await navigator.clipboard.writeText(at("code-text").textContent);
+    await navigator.clipboard.writeText(place.textContent);
     say("Copied.");
   } catch {
-    getSelection().selectAllChildren(at("code-text"));
+    getSelection().selectAllChildren(place);
     say("Selected. Copy it with the keyboard.");
   }
 }
@@ -692,7 +747,7 @@ at("file").addEventListener("change", (event) => {
 at("example").addEventListener("click", () => guarded("example", async () => begin(await openExample())));
 at("reset").addEventListener("click", () => sliders.reset());
 at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
-at("copy").addEventListener("click", copyCode);
+at("copy").addEventListener("click", () => copy(at("code-text")));
 for (const id of ["language", "season"]) at(id).addEventListener("change", showCode);
 for (const id of ["type", "units"]) {
   at(id).addEventListener("change", () => {
@@ -780,6 +835,9 @@ try {
 } catch { /* a browser that keeps nothing */ }
 setTheme(kept);
 guarded("logs", async () => {
+  view = await askView();
+  document.body.classList.toggle("raw", view.raw);
+  showSignals(view.raw);
   const named = await listLogs();
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));
 });
