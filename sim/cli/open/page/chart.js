@@ -364,8 +364,9 @@ export class Chart {
     to.globalAlpha = 0.75;
     to.beginPath();
     const stride = Math.max(1, Math.floor(time.length / 4000));
-    for (let k = 0; k < time.length; k += stride) {
-      to.lineTo(this.xOf(this.timeline.offsets[run] + time[k] - time[0]), y(velocity[k]));
+    const [begins, end] = this.timeline.spanOf(run); // a longer run of another log ends with ours
+    for (let k = 0; k < time.length && begins + time[k] - time[0] <= end; k += stride) {
+      to.lineTo(this.xOf(begins + time[k] - time[0]), y(velocity[k]));
     }
     to.stroke();
     to.globalAlpha = 1;

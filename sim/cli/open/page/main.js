@@ -13,6 +13,7 @@ const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 
 const at = (id) => document.getElementById(id);
 const logs = new Map();
+const begun = new Set(); // numbers of the logs that are or were open
 let active = null;
 let view = { raw: false, span_text: {} }; // what the server says that this page shows
 
@@ -28,8 +29,13 @@ async function openAll(files) {
   }));
 }
 
-/** Take a log that the server opened: read it, show it, then ask for faults and gains. */
+/** Take a log that the server opened: read it, show it, then ask for faults and gains.
+ *
+ * One that was dropped while the page asked which logs are open is named twice, and begun once.
+ */
 async function begin({ id, name, revision = 0 }) {
+  if (begun.has(id)) return;
+  begun.add(id);
   const log = { id, name, revision, query: {}, others: false };
   logs.set(id, log);
   if (active === null) activate(id);
@@ -152,7 +158,9 @@ async function followLive() {
 
 function showLive({ status, counts, next }) {
   at("live").hidden = false;
-  at("empty").querySelector(".or").hidden = true;
+  at("empty").querySelector(".or").hidden = at("empty").querySelector(".primary").hidden = true;
+  at("empty-title").textContent = "Waiting for the first test.";
+  at("empty-lead").textContent = "Run the four tests in any order. The log appears here when one has ended.";
   at("live-status").textContent = status;
   const words = Object.entries(counts).map(([test, count]) => {
     const one = item(count ? "done" : "", `${test}${count > 1 ? ` (${count})` : ""}`);
@@ -378,7 +386,8 @@ function showFaults() {
     return;
   }
   chart.setFaults(marks(log));
-  const { faults } = log.faults;
+  const growing = log.revision > 0; // a test that is not recorded yet is no fault
+  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(one));
   if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   if (!faults.length) {
@@ -529,7 +538,10 @@ function showStory() {
   });
   const rest = [...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
     .map((words) => { const made = item("look"); made.append(...prose(words)); return made; });
-  place.replaceChildren(head, gapBars(story), ...found, list(rest), list(story.places.map((one) => item("busy", one))), text("p", story.how, "quiet"));
+  const places = story.places.length
+    ? [text("p", "Where the base model is wrong most", "quiet places"), list(story.places.map((one) => item("busy", one)))]
+    : [];
+  place.replaceChildren(head, gapBars(story), ...found, list(rest), ...places, text("p", story.how, "quiet"));
 }
 
 /** The gap of each model as a bar: in times the noise, 1 is nothing but noise. */
@@ -591,8 +603,8 @@ function showCursor(cursor) {
         ["time in the test", run ? `${(run.time[k] - run.time[0]).toFixed(3)} s` : "–", ""],
         of.volts,
         of.measured,
-        ["slope of position", value(derived?.slope[k], `${symbol}/s`), "place"],
         of.position,
+        ["slope of position", value(derived?.slope[k], `${symbol}/s`), "place"],
         ["time step", run && k ? `${derived.step[k - 1].toFixed(1)} ms` : "–", ""],
         ["time in the log", time[1], ""],
       ]
