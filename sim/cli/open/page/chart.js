@@ -324,7 +324,8 @@ export class Chart {
     const [low, high] = this.rangeOfPanel(name);
     to.textBaseline = "middle";
     const { top, bottom } = this.panels[name];
-    const count = Math.max(2, Math.floor((bottom - top) / (name === "velocity" ? 38 : 20)));
+    const apart = name === "velocity" && !this.showsSignals ? 38 : 22; // [px]
+    const count = Math.max(3, Math.floor((bottom - top) / apart));
     for (const tick of roundTicks(low, high, count)) {
       const at = Math.round(y(tick)) + 0.5;
       to.strokeStyle = rule;
