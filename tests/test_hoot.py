@@ -40,7 +40,9 @@ def make_owlet(folder, *, body):
         program.write_text(f'@"{sys.executable}" "{script}" %*\n', encoding="utf-8")
     else:
         program = folder / "owlet"
-        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" "{script}" "$@"\n', encoding="utf-8")
+        program.write_text(
+            f'#!/bin/sh\nexec "{sys.executable}" "{script}" "$@"\n', encoding="utf-8"
+        )
         program.chmod(0o755)
     return program
 

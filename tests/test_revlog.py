@@ -81,9 +81,7 @@ def test_with_units_a_velocity_is_in_them_per_second(tmp_path, run):
     frames = b"".join(frames_of(run, velocity=1.0))
     log = read(write(tmp_path / "dynamic-forward.revlog", record(frames)), units="meters")
 
-    np.testing.assert_allclose(
-        log.runs[0].velocity, run.velocity[: len(log.runs[0])], atol=1e-5
-    )
+    np.testing.assert_allclose(log.runs[0].velocity, run.velocity[: len(log.runs[0])], atol=1e-5)
     assert "conversion-factor" not in {doubt.code for doubt in log.doubts}
 
 
@@ -102,8 +100,11 @@ def test_frames_of_others_and_unknown_records_are_passed_over(tmp_path, run):
     firmware = record(struct.pack("<I6s", can_id(3, 0), b"\x1a\0\0\0\0\0"), kind=1)
     path = write(
         tmp_path / "dynamic-forward.revlog",
-        firmware, record(other + encoder), record(b"later", kind=7), record(b"".join(frames_of(run))),
-    )  # fmt: skip
+        firmware,
+        record(other + encoder),
+        record(b"later", kind=7),
+        record(b"".join(frames_of(run))),
+    )
 
     assert {entry.name.split("/")[1] for entry in list_entries(path)} == {"Spark-3"}
     assert len(read(path).runs) == 1

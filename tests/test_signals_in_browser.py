@@ -1,4 +1,4 @@
-"""The log viewer of the course in a real browser: signals alone, spans to mark, no answers given."""
+"""The log viewer of the course in a real browser: signals, spans to mark, no answers given."""
 
 import re
 import tomllib
@@ -8,7 +8,7 @@ import pytest
 from open_page import ask, ask_json, drive_log, served, slipped_log, write_log
 from test_open_in_browser import DESKTOP, PHONE, browser, opened, wait_until
 
-from sim.cli.open.session import PageView, SpanText
+from sim.cli.open.view import PageView, SpanText
 from sim.inspect.contaminate import contaminate
 
 pytestmark = pytest.mark.browser
@@ -46,7 +46,8 @@ def place_of(page, run, seconds, *, panel="velocity"):
     """Where a time of a run is on the screen."""
     x, y = page.evaluate(
         f"""(() => {{
-            const {{chart}} = sysid, run = chart.runs[{run}], box = chart.moving.getBoundingClientRect();
+            const {{chart}} = sysid, run = chart.runs[{run}];
+            const box = chart.moving.getBoundingClientRect();
             const panel = chart.panels['{panel}'];
             return [box.x + chart.xOf(chart.timeline.placeOf({run}, run.time[0] + {seconds})),
                     box.y + 0.5 * (panel.top + panel.bottom)];
@@ -70,7 +71,9 @@ def test_a_dragged_span_becomes_the_line_of_the_answers(viewer):
     page.get_by_role("button", name="Show run 2, dynamic-forward").click()
     drag(page, 2, 0.5, 1.3)
     said = tomllib.loads(page.locator("#span-text").inner_text())["log04"]
-    begin, end = map(float, re.fullmatch(r"WHAT, dynamic-forward, (.+) to (.+), WHAT-TO-DO", said).groups())
+    begin, end = map(
+        float, re.fullmatch(r"WHAT, dynamic-forward, (.+) to (.+), WHAT-TO-DO", said).groups()
+    )
 
     assert (begin, end) == (pytest.approx(0.5, abs=0.03), pytest.approx(1.3, abs=0.03))
     drag(page, 2, end, 1.6)  # an edge is taken hold of, and moved

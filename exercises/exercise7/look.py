@@ -22,7 +22,7 @@ import numpy as np
 
 from sim.bench.dataset.student import make_folder_name
 from sim.cli.open import serve_page
-from sim.cli.open.session import PageView, SpanText
+from sim.cli.open.view import PageView, SpanText
 from sim.core.errors import Refusal
 from sim.core.units import find_unit
 from sim.io import read

@@ -15,7 +15,7 @@ from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import NamedTuple, Protocol, cast
+from typing import Protocol, cast
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
@@ -24,6 +24,7 @@ from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
+from sim.io.foreign import FOREIGN
 from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
 from sim.io.hoot import SUFFIX, convert_hoot
 from sim.io.velocity import velocity_from_position
@@ -51,48 +52,6 @@ class _Writer(Format, Protocol):
 
     def write(self, log: Log, path: Path) -> None:
         """Write the log as a file."""
-
-
-class _ForeignFormat(NamedTuple):
-    """How to know a file that is of no format here, and what to tell its owner."""
-
-    starts: tuple[bytes, ...]
-    suffixes: tuple[str, ...]
-    what: str
-    advice: str
-
-
-_ROBOT_LOG = "Give the robot's own log: the .wpilog that DataLogManager writes."
-_FOREIGN = (
-    _ForeignFormat(
-        (b"\x00\x00\x00\x04",),  # both kinds of the Driver Station's files open with their version
-        (".dslog", ".dsevents"),
-        "a log of the Driver Station, which holds no motor's voltage or position",
-        _ROBOT_LOG,
-    ),
-    _ForeignFormat(
-        (),
-        (".rlog",),
-        "a log of AdvantageKit's own format",
-        "Open it in AdvantageScope, export it as WPILOG, and give that.",
-    ),
-    _ForeignFormat(
-        (b"PK\x03\x04", b"PK\x05\x06"),
-        (),
-        "a zip archive or a workbook of a spreadsheet program",
-        "Unpack it, or save the sheet as CSV.",
-    ),
-    _ForeignFormat((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
-    _ForeignFormat((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
-    _ForeignFormat((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
-    _ForeignFormat((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
-    _ForeignFormat(
-        (b"<!doctype html", b"<html"),
-        (),
-        "a web page (HTML)",
-        "Download the file itself: on GitHub that is the button Raw.",
-    ),
-)
 
 
 def read(
@@ -338,7 +297,7 @@ def _reader(path: Path, head: bytes) -> Format:
         seen.append(module)
     suffix = path.suffix.lower()
     opening = head.lstrip().lower()
-    for foreign in _FOREIGN:
+    for foreign in FOREIGN:
         if (
             suffix in foreign.suffixes
             or head.startswith(foreign.starts)

@@ -15,7 +15,7 @@ from sim.cli.options import FILE
 from sim.support.command_line import DONE
 
 if TYPE_CHECKING:
-    from sim.cli.open.session import PageView
+    from sim.cli.open.view import PageView
 
 
 def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -46,7 +46,7 @@ def open(files: tuple[Path, ...], *, raw: bool, port: int, no_browser: bool) -> 
 
     For example: sysid open drive.wpilog
     """
-    from sim.cli.open.session import PageView  # noqa: PLC0415 - --help must not wait for it
+    from sim.cli.open.view import PageView  # noqa: PLC0415 - --help must not wait for it
 
     serve_page(files, view=PageView(raw=raw), port=port, no_browser=no_browser)
     return DONE

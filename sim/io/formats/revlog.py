@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from sim.core.doubt import Doubt
 from sim.core.errors import UnreadableFile
-from sim.core.log import Array, Log
+from sim.core.log import Log
 from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.entry import ValuesEntry
 from sim.io.format import ReadOptions
@@ -149,7 +149,9 @@ def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[Valu
         own = frames[ours & (number & 0x3F == device)]
         own = own[np.argsort(own["time"], kind="stable")]
         index = own["id"] >> 6 & 0xF
-        made += _decode(device, own[index == STATUS_0], own[index == STATUS_2], default_units=default_units)
+        made += _decode(
+            device, own[index == STATUS_0], own[index == STATUS_2], default_units=default_units
+        )
     return made
 
 
@@ -158,16 +160,17 @@ def _decode(
 ) -> Iterator[ValuesEntry]:
     """The signals in the frames ``STATUS_0`` and ``STATUS_2`` of a SPARK."""
 
-    def entry(name: str, metadata: str, of: NDArray[np.void], values: Array) -> ValuesEntry:
+    def entry(name: str, metadata: str, of: NDArray[np.void], values: ArrayLike) -> ValuesEntry:
         time = of["time"].astype(np.int64) * 1000
-        return ValuesEntry(f"REV/Spark-{device}/{name}", "double", metadata, time, values)
+        numbers = np.asarray(values, dtype=np.float64)
+        return ValuesEntry(f"REV/Spark-{device}/{name}", "double", metadata, time, numbers)
 
     data = general["data"]
     duty = (data & np.uint64(0xFFFF)).astype(np.uint16).view(np.int16) * DUTY_STEP
     yield entry("APPLIED_OUTPUT", "", general, duty)
     yield entry("VOLTAGE", "V", general, (data >> np.uint64(16) & LOW_12) * VOLT_STEP)
     yield entry("CURRENT", "A", general, (data >> np.uint64(28) & LOW_12) * AMPERE_STEP)
-    floats = motion["data"].copy().view("<f4").reshape(-1, 2).astype(np.float64)
+    floats = motion["data"].copy().view("<f4").reshape(-1, 2)
     units = ("rpm", "rotations") if default_units else ("", "")
     yield entry("PRIMARY_ENCODER_VELOCITY", units[0], motion, floats[:, 0])
     yield entry("PRIMARY_ENCODER_POSITION", units[1], motion, floats[:, 1])

@@ -19,7 +19,7 @@ let view = { raw: false, span_text: {} }; // what the server says that this page
 
 const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor, onSpans: showSpans });
 const sliders = new Sliders(at("sliders"), moveGains);
-window.sysid = { chart, sliders, logs }; // for tests, and for the curious
+window.sysid = { chart, sliders, logs, begin }; // for tests, and for the curious
 
 // ---- opening logs
 
