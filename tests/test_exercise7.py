@@ -286,7 +286,7 @@ def test_a_little_jitter_and_noise_look_little_in_a_picture():
 @pytest.mark.parametrize(
     ("place", "line"),
     [
-        ("exercise7/data/me/log04.wpilog", 'log04 = "WHAT, dynamic-forward, 1.20 to 1.66, WHAT-TO-DO"'),
+        ("exercise7/me/log04.csv", 'log04 = "WHAT, dynamic-forward, 1.20 to 1.66, WHAT-TO-DO"'),
         ("exercise8/data/me/log.wpilog", 'dynamic_forward = "1.20 to 1.66"'),
         ("mystery/log.wpilog", "WHAT, dynamic-forward, 1.20 to 1.66, WHAT-TO-DO"),
     ],
