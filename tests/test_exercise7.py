@@ -23,7 +23,7 @@ from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import LogInterval
 from sim.inspect.faults import FAULTS
-from sim.io import read
+from sim.io import read, write
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")
@@ -250,6 +250,8 @@ def test_a_log_is_drawn_whole_and_close_up(tmp_path):
     assert close.read_bytes() != whole
     assert (folder / "data" / "ann" / "log04.svg").read_bytes() == whole
     assert look("13").returncode == 1
+    assert look("13", "--page").returncode == 1
+    assert look("4", "dynamic-forward", "--page").returncode == 2
     assert look(str(folder / "data" / "ann" / "log07.csv")).returncode == 0
     assert (folder / "data" / "ann" / "log07.svg").is_file()
 
@@ -296,6 +298,7 @@ def test_the_page_writes_a_line_as_the_exercise_reads_it(place, line, monkeypatc
     seen = []
     monkeypatch.setattr(look, "serve_page", lambda files, *, view: seen.append((files, view)))
     (tmp_path / place).parent.mkdir(parents=True)
+    write(simulate(MECHANISMS["turret"], Routine(), rng=np.random.default_rng(1)), tmp_path / place)
     look.main.callback(str(tmp_path / place), "", 0.0, look.ALL, "me", page=True)
     (files, view), text = seen[0], seen[0][1].span_text
     words = {"test": "dynamic-forward", "key": "dynamic_forward", "begin": "1.20", "end": "1.66"}

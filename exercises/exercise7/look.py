@@ -60,11 +60,13 @@ def main(log: str, test: str, begin: float, end: float, student: str, *, page: b
     """Draw one log, or a part of it."""
     own = DATA / make_folder_name(student) / f"log{int(log):02}.wpilog" if log.isdecimal() else None
     place = own or Path(log)
+    if page and test:
+        raise click.UsageError("On the page you zoom with the mouse: leave out the test.")
     try:
+        found = read(place)
         if page:
             serve_page([place], view=PageView(raw=True, span_text=_span_text(place)))
             return
-        found = read(place)
         runs = [run for run in found.runs if test in ("", run.test)]
         picture = drawn(found, runs, begin=begin, end=end)
         target = place.with_name(f"{place.stem}{_suffix(test, begin, end)}.svg")
