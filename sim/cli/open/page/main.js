@@ -4,9 +4,12 @@ import {
   Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile,
 } from "./api.js";
 import { Chart } from "./chart.js";
+import { makeSignalRows } from "./choices.js";
+import { button, figure, item, prose, sentence, text } from "./elements.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
 import { writeSpans } from "./spans.js";
+import { storyParts } from "./story.js";
 
 const MOST_SHOWN = 12; // faults in the list before the rest is folded away
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
@@ -175,13 +178,6 @@ function showLive({ status, counts, next }) {
 
 // ---- signals that are not found by name
 
-const ROLES = [
-  ["voltage", "Voltage at the motor", false],
-  ["position", "Position", false],
-  ["velocity", "Velocity", false],
-  ["state", "Name of the running test", true],
-];
-
 /** Where signals are missing and the file has entries, let a person choose; whether it is so. */
 async function offerChoice(log, problem) {
   if (problem.kind !== "MissingSignal") return false;
@@ -196,42 +192,7 @@ async function offerChoice(log, problem) {
 function showChoice(log) {
   const { entries, why, chosen } = log.choice;
   at("choose-why").textContent = `${log.name}: ${why}`;
-  at("signal-rows").replaceChildren(...ROLES.map(([role, words, isText]) => {
-    const row = text("label", "", "signal");
-    const select = document.createElement("select");
-    select.name = role;
-    select.setAttribute("aria-label", words);
-    select.append(new Option(role === "velocity" ? "the slope of the position" : "found by its name", ""));
-    for (const one of entries.filter((entry) => entry.text === isText)) {
-      select.append(new Option(`${one.name}${one.unit ? ` [${one.unit}]` : ""}`, one.name));
-    }
-    select.value = chosen[role] ?? "";
-    const place = text("div", "", "spark");
-    const draw = () => {
-      const one = entries.find((entry) => entry.name === select.value);
-      place.replaceChildren(...(one ? [isText ? text("span", `${one.samples} times`) : sparkline(one.picture)] : []));
-    };
-    select.addEventListener("change", draw);
-    draw();
-    row.append(text("span", words, "role"), select, place);
-    return row;
-  }));
-}
-
-/** A small picture of an entry. */
-function sparkline(values) {
-  const svg = "http://www.w3.org/2000/svg";
-  const [low, high] = [Math.min(...values), Math.max(...values)];
-  const points = values.map((value, k) => `${((200 * k) / Math.max(values.length - 1, 1)).toFixed(1)} ${(34 - (30 * (value - low)) / (high - low || 1)).toFixed(1)}`);
-  const picture = document.createElementNS(svg, "svg");
-  const path = document.createElementNS(svg, "path");
-  picture.setAttribute("viewBox", "0 0 200 38");
-  picture.setAttribute("preserveAspectRatio", "none");
-  picture.setAttribute("role", "img");
-  picture.setAttribute("aria-label", `from ${figure(low)} to ${figure(high)}`);
-  path.setAttribute("d", `M${points.join("L")}`);
-  picture.append(path);
-  return picture;
+  at("signal-rows").replaceChildren(...makeSignalRows(entries, chosen));
 }
 
 at("signals").addEventListener("submit", (event) => {
@@ -524,45 +485,7 @@ function showStory() {
     place.replaceChildren(text("p", `${search.words}…`, "quiet"), bar);
     return;
   }
-  const { story } = search;
-  const head = text("p", "", "headline");
-  head.append(...prose(story.headline));
-  const found = story.findings.map((one) => {
-    const card = text("article", "", "finding");
-    const name = text("h3", one.name.replaceAll("-", " "));
-    name.append(text("span", one.kind === "fault" ? "damage" : one.size, "badge"));
-    card.append(name, text("p", one.sentence));
-    for (const words of one.parameters) card.append(text("p", words, "where"));
-    for (const [title, words] of one.look) card.append(text("p", `${title}: ${words}`, "advice"));
-    return card;
-  });
-  const rest = [...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
-    .map((words) => { const made = item("look"); made.append(...prose(words)); return made; });
-  const places = story.places.length
-    ? [text("p", "Where the base model is wrong most", "quiet places"), list(story.places.map((one) => item("busy", one)))]
-    : [];
-  place.replaceChildren(head, gapBars(story), ...found, list(rest), ...places, text("p", story.how, "quiet"));
-}
-
-/** The gap of each model as a bar: in times the noise, 1 is nothing but noise. */
-function gapBars({ gaps }) {
-  const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
-  const rows = gaps.map(({ name, text: words, gap }, k) => {
-    const row = text("div", "", k === gaps.length - 1 ? "last" : "");
-    const bar = text("i", "");
-    bar.style.setProperty("--share", (gap ?? most) / most);
-    row.append(text("span", name), bar, text("b", words));
-    return row;
-  });
-  const bars = text("div", "", "gaps");
-  bars.append(text("p", "Simulation error, in times the noise of the velocity", "quiet"), ...rows);
-  return bars;
-}
-
-function list(rows) {
-  const made = text("ul", "", "doubts");
-  made.append(...rows);
-  return made;
+  place.replaceChildren(...storyParts(search.story));
 }
 
 function showMeter(log, error) {
@@ -679,42 +602,6 @@ function setLoading(log, busy) {
 }
 
 // ---- small things
-
-/** A sentence of the command line for this page: code set apart, a number kept with its sign. */
-function prose(words) {
-  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2")
-    .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)
-    .replace(/--(type|units)\b/g, "$1");
-  return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
-}
-
-function text(tag, words, kind = "") {
-  const made = document.createElement(tag);
-  made.textContent = words;
-  if (kind) made.className = kind;
-  return made;
-}
-
-function item(kind, words = "") {
-  return text("li", words, kind);
-}
-
-function button(kind, words, press) {
-  const made = text("button", words, kind);
-  made.type = "button";
-  made.addEventListener("click", press);
-  return made;
-}
-
-function figure(value) {
-  const size = Math.abs(value);
-  const digits = size >= 100 ? 0 : size >= 10 ? 2 : size >= 1 ? 3 : size >= 0.001 ? 4 : 5;
-  return value.toFixed(digits).replace("-", "−");
-}
-
-function sentence(problem) {
-  return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`;
-}
 
 function say(words) {
   const toast = at("toast");
