@@ -17,10 +17,11 @@ const NEAR_ZERO = 1; // [ranges] from the positions within which their axis reac
 
 /** The title of the panel of the time steps: it names the dashed line. */
 export function stepTitle({ derived }) {
-  return `time step, ms; dashed: 1.5 × the median, ${short(Number((LATE * derived.median).toPrecision(3)))} ms`;
+  return `time step, ms; dashed: 1.5 × the median, ${short(Number(derived.late.toPrecision(3)))} ms`;
 }
 
-/** Of each run the time before each sample [ms] and the slope of the position. */
+/** Of each run the time before each sample [ms] and the slope of the position; of all runs the median
+ * time step [ms], and from where one is too long. */
 export function deriveSignals(runs) {
   const runsWith = runs.map(({ time, position }) => {
     const last = time.length - 1;
@@ -31,7 +32,8 @@ export function deriveSignals(runs) {
     });
     return { step, slope };
   });
-  return { runs: runsWith, median: share(runsWith.map(({ step }) => step), 0.5) };
+  const median = share(runsWith.map(({ step }) => step), 0.5);
+  return { runs: runsWith, median, late: LATE * median };
 }
 
 /** From where to where each panel reaches. */
@@ -73,8 +75,7 @@ export function drawSignals(chart, to) {
 
 /** The line above which a time step is longer than it may be. */
 function drawLate(chart, to) {
-  const limit = LATE * chart.derived.median;
-  const y = Math.round(chart.heights("step")(limit)) + 0.5;
+  const y = Math.round(chart.heights("step")(chart.derived.late)) + 0.5;
   to.strokeStyle = chart.colors.quiet;
   to.lineWidth = 1;
   to.setLineDash([5, 4]);
