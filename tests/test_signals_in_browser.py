@@ -189,6 +189,7 @@ def test_nothing_is_told_of_a_damaged_log(viewer):
         assert not page.locator(hidden).is_visible()
     assert not {url.rpartition("/")[2].partition("?")[0] for url in page.asked} & {*GIVES_ANSWERS}
     assert "slip" not in page.locator("body").inner_text().lower()
+    assert all(url.startswith("http://127.0.0.1:") for url in page.asked)
 
 
 def test_the_server_refuses_what_would_give_the_answers(tmp_path):
