@@ -856,7 +856,8 @@ quick
 # ## 9 Practice
 #
 # **Exercise 7, Detective** ([exercises/exercise7/README.md](../exercises/exercise7/README.md)). You
-# get twelve logs, most of them damaged. Name the fault, where it is, and what to do.
+# get twelve logs, most of them damaged. Name the fault, where it is, and what to do. To look at
+# one, run `python exercises/exercise7/look.py 4 --page`: drag over a part, and copy its times.
 #
 # ```
 # grade exercise7

@@ -20,6 +20,7 @@ SLOW = (  # files that take long; begun first, they keep no core waiting at the 
     "test_install",
     "test_without_numba",
     "test_open_in_browser",
+    "test_signals_in_browser",
     "test_open_server",
     "test_reconcile_real",
     "test_engine",

@@ -32,9 +32,9 @@ BROKEN = {
 
 
 @contextmanager
-def served(folder, *files):
+def served(folder, *files, view=None):
     """A server of the page with these files open."""
-    server = PageServer(Session(folder, files))
+    server = PageServer(Session(folder, files, view=view))
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.02})
     thread.start()
     try:

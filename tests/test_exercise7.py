@@ -23,7 +23,7 @@ from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.detect_faults import inspect
 from sim.inspect.fault import LogInterval
 from sim.inspect.faults import FAULTS
-from sim.io import read
+from sim.io import read, write
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise7", ROOT / "exercises" / "exercise7")
@@ -276,14 +276,22 @@ def test_a_log_is_drawn_whole_and_close_up(tmp_path):
     assert close.read_bytes() != whole
     assert (folder / "data" / "ann" / "log04.svg").read_bytes() == whole
     assert look("13").returncode == 1
+    assert look("13", "--page").returncode == 1
+    assert look("4", "dynamic-forward", "--page").returncode == 2
     assert look(str(folder / "data" / "ann" / "log07.csv")).returncode == 0
     assert (folder / "data" / "ann" / "log07.svg").is_file()
 
 
-def test_a_little_jitter_and_noise_look_little_in_a_picture():
+def load_look():
+    """The script that draws logs."""
     spec = importlib.util.spec_from_file_location("_look", OWN.folder / "look.py")
     look = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(look)
+    return look
+
+
+def test_a_little_jitter_and_noise_look_little_in_a_picture():
+    look = load_look()
     rng = np.random.default_rng(3)
     clean = simulate(MECHANISMS["drivetrain"], Routine(1.0, 1.8, 5.0), rng=rng, period=0.02)
     runs = tuple(
@@ -301,3 +309,38 @@ def test_a_little_jitter_and_noise_look_little_in_a_picture():
         assert axes.get_ylim()[1] >= 2.4 * 20.0  # ±1 ms is a twentieth of it
     top = max(np.abs(run.velocity).max() for run in log.runs)
     assert np.diff(close[1].get_ylim()) >= 0.1 * top
+
+
+@pytest.mark.parametrize(
+    ("place", "line"),
+    [
+        ("exercise7/me/log04.csv", 'log04 = "WHAT, dynamic-forward, 1.20 to 1.66, WHAT-TO-DO"'),
+        ("exercise8/data/me/log.wpilog", 'dynamic_forward = "1.20 to 1.66"'),
+        ("mystery/log.wpilog", "WHAT, dynamic-forward, 1.20 to 1.66, WHAT-TO-DO"),
+    ],
+)  # fmt: skip
+def test_the_page_writes_a_line_as_the_exercise_reads_it(place, line, monkeypatch, tmp_path):
+    look = load_look()
+    seen = []
+    monkeypatch.setattr(look, "serve_page", lambda files, *, view: seen.append((files, view)))
+    (tmp_path / place).parent.mkdir(parents=True)
+    write(simulate(MECHANISMS["turret"], Routine(), rng=np.random.default_rng(1)), tmp_path / place)
+    look.main.callback(str(tmp_path / place), "", 0.0, look.ALL, "me", page=True)
+    (files, view), text = seen[0], seen[0][1].span_text
+    words = {"test": "dynamic-forward", "key": "dynamic_forward", "begin": "1.20", "end": "1.66"}
+
+    assert files == [tmp_path / place]
+    assert view.raw
+    assert (text.before + text.span + text.after).format(log="log04", **words) == line
+
+
+def test_the_line_of_the_page_is_understood_once_its_words_are_filled_in():
+    text = load_look().FAULTS
+    words = {"test": "dynamic-forward", "begin": "1.20", "end": "1.66"}
+    line = text.between.join(
+        [text.span.replace("WHAT-TO-DO", "trim").replace("WHAT", "hard-stop").format(**words)] * 2
+    )
+
+    assert [(one.fault, one.places, one.times, one.action) for one in LINE.read_claims(line)] == [
+        ("hard-stop", ("dynamic-forward",), (1.2, 1.66), "trim")
+    ] * 2

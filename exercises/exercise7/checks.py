@@ -58,7 +58,7 @@ def draw_mystery(rng: "np.random.Generator", *, level: int) -> Mystery:
             f"{'This log may be damaged' if sound else 'This log is damaged'}. What is wrong, "
             "where, and what should you do? Exercise 7 explains the words."
         ),
-        tool="python exercises/exercise7/look.py {folder}/log.wpilog",
+        tool="python exercises/exercise7/look.py {folder}/log.wpilog --page",
         example="hard-stop, dynamic-forward, 1.20 to 1.66, trim",
         solution=describe_case(case),
         checks=(_of(1),),

@@ -3,13 +3,17 @@
     python exercises/exercise7/look.py 4
     python exercises/exercise7/look.py 4 dynamic-forward 1.0 1.6
     python exercises/exercise7/look.py any/other/log.wpilog
+    python exercises/exercise7/look.py 4 --page
 
 The first draws log 4, all of it. The second draws a part of one test, with a dot for each sample;
 its times count from the beginning of the test. The third draws any log. Each saves a picture next
 to the log, and no picture replaces another one: log04.svg, log04-dynamic-forward-1-1.6.svg.
+The last shows log 4 on a page in your browser: zoom, read values, and drag over a part to get the
+line for answers.toml.
 """
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +21,8 @@ import click
 import numpy as np
 
 from sim.bench.dataset.student import make_folder_name
+from sim.cli.open import serve_page
+from sim.cli.open.view import PageView, SpanText
 from sim.core.errors import Refusal
 from sim.core.units import find_unit
 from sim.io import read
@@ -33,6 +39,13 @@ DOTS = 150  # samples in a picture up to which each gets a dot
 MARGIN = 0.05  # [share] of an axis above and below what is drawn
 CLOSEST = 0.1  # [share of the whole log's range] an axis shows at least: noise stays small
 ALL = 1e9  # [s] later than any log ends
+FAULTS = SpanText(
+    span="WHAT, {test}, {begin} to {end}, WHAT-TO-DO",
+    between=" + ",
+    hint="Write the fault and what to do into it.",
+)
+NAMED_FAULTS = replace(FAULTS, before='{log} = "', after='"')
+PARTS = SpanText(span='{key} = "{begin} to {end}"', hint="These parts are kept.")
 STEPS = 2.5  # [median time steps] which the axis of the time steps reaches at least
 
 
@@ -42,12 +55,18 @@ STEPS = 2.5  # [median time steps] which the axis of the time steps reaches at l
 @click.argument("begin", default=0.0)
 @click.argument("end", default=ALL)
 @click.option("--student", default="me", help="The name your logs are under.")
-def main(log: str, test: str, begin: float, end: float, student: str) -> None:
+@click.option("--page", is_flag=True, help="Show it on a page in your browser.")
+def main(log: str, test: str, begin: float, end: float, student: str, *, page: bool) -> None:
     """Draw one log, or a part of it."""
     own = DATA / make_folder_name(student) / f"log{int(log):02}.wpilog" if log.isdecimal() else None
     place = own or Path(log)
+    if page and test:
+        raise click.UsageError("On the page you zoom with the mouse: leave out the test.")
     try:
         found = read(place)
+        if page:
+            serve_page([place], view=PageView(raw=True, span_text=_span_text(place)))
+            return
         runs = [run for run in found.runs if test in ("", run.test)]
         picture = drawn(found, runs, begin=begin, end=end)
         target = place.with_name(f"{place.stem}{_suffix(test, begin, end)}.svg")
@@ -55,6 +74,13 @@ def main(log: str, test: str, begin: float, end: float, student: str) -> None:
     except Refusal as refusal:
         raise click.ClickException(str(refusal)) from None
     click.echo(f"{picture.alt} Open {target} in a browser.")
+
+
+def _span_text(place: Path) -> SpanText:
+    """How a marked part is written in the answers of the exercise that a log belongs to."""
+    if "exercise8" in place.resolve().parts:
+        return PARTS
+    return NAMED_FAULTS if re.fullmatch(r"log\d\d", place.stem) else FAULTS
 
 
 def _suffix(test: str, begin: float, end: float) -> str:

@@ -7,6 +7,7 @@ gets imported.
 
 import os
 import stat
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -14,7 +15,7 @@ from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import NamedTuple, Protocol, cast
+from typing import Protocol, cast
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, Refusal, UnreadableFile
@@ -23,7 +24,9 @@ from sim.core.units import find_unit
 from sim.core.vocabulary import TYPES
 from sim.io import formats
 from sim.io.entries.entry import Entry
+from sim.io.foreign import FOREIGN
 from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
+from sim.io.hoot import SUFFIX, convert_hoot
 from sim.io.velocity import velocity_from_position
 from sim.support.atomic_file import atomic_path
 
@@ -49,54 +52,6 @@ class _Writer(Format, Protocol):
 
     def write(self, log: Log, path: Path) -> None:
         """Write the log as a file."""
-
-
-class _ForeignFormat(NamedTuple):
-    """How to know a file that is of no format here, and what to tell its owner."""
-
-    starts: tuple[bytes, ...]
-    suffixes: tuple[str, ...]
-    what: str
-    advice: str
-
-
-_ROBOT_LOG = "Give the robot's own log: the .wpilog that DataLogManager writes."
-_FOREIGN = (
-    _ForeignFormat(
-        (),
-        (".hoot",),
-        "a log of CTRE's SignalLogger (.hoot), which only CTRE's tools can read",
-        "Convert it to WPILOG with Phoenix Tuner X (Log Extractor) or with owlet, and give that.",
-    ),
-    _ForeignFormat(
-        (b"\x00\x00\x00\x04",),  # both kinds of the Driver Station's files open with their version
-        (".dslog", ".dsevents"),
-        "a log of the Driver Station, which holds no motor's voltage or position",
-        _ROBOT_LOG,
-    ),
-    _ForeignFormat(
-        (),
-        (".revlog", ".rlog"),
-        "a log of REV's or AdvantageKit's own format",
-        "Open it in AdvantageScope, export it as WPILOG, and give that.",
-    ),
-    _ForeignFormat(
-        (b"PK\x03\x04", b"PK\x05\x06"),
-        (),
-        "a zip archive or a workbook of a spreadsheet program",
-        "Unpack it, or save the sheet as CSV.",
-    ),
-    _ForeignFormat((b"\x1f\x8b",), (), "packed with gzip", "Unpack it first."),
-    _ForeignFormat((b"\x89PNG", b"\xff\xd8\xff", b"GIF8"), (), "a picture", _ROBOT_LOG),
-    _ForeignFormat((b"%PDF",), (), "a PDF document", _ROBOT_LOG),
-    _ForeignFormat((b"\xff\xfe", b"\xfe\xff"), (), "text in UTF-16", "Save it as UTF-8."),
-    _ForeignFormat(
-        (b"<!doctype html", b"<html"),
-        (),
-        "a web page (HTML)",
-        "Download the file itself: on GitHub that is the button Raw.",
-    ),
-)
 
 
 def read(
@@ -127,9 +82,9 @@ def read(
     """
     asked = _asked(units=units, type=type, motor=motor, entries=entries)
     given = os.fspath(path)
-    with _name_file_in_refusals(given):
-        log = _reader(Path(given), _head(given)).read(Path(given), asked)
-    return _set_type(replace(log, source=given), type)
+    with _readable(given) as (module, file):
+        log = _name_source(module.read(file, asked), file, given)
+    return _set_type(log, type)
 
 
 def read_motors(
@@ -169,13 +124,13 @@ def read_motors(
         pick=pick,
     )
     given = os.fspath(path)
-    with _name_file_in_refusals(given):
-        module = _reader(Path(given), _head(given))
+    with _readable(given) as (module, file):
         if hasattr(module, "read_motors"):
-            logs = cast("_WithMotors", module).read_motors(Path(given), asked)
+            logs = cast("_WithMotors", module).read_motors(file, asked)
         else:
-            logs = {"": module.read(Path(given), asked)}
-    found = {name: _set_type(replace(log, source=given), type) for name, log in logs.items()}
+            logs = {"": module.read(file, asked)}
+        logs = {name: _name_source(log, file, given) for name, log in logs.items()}
+    found = {name: _set_type(log, type) for name, log in logs.items()}
     if not ignore_velocity:
         return found
     return {name: velocity_from_position(log) for name, log in found.items()}
@@ -214,14 +169,43 @@ def list_entries(path: str | os.PathLike[str]) -> list[Entry]:
         BadRequest: a log of its format has no entries with names of their own.
     """
     given = os.fspath(path)
-    with _name_file_in_refusals(given):
-        module = _reader(Path(given), _head(given))
+    with _readable(given) as (module, file):
         if not hasattr(module, "entries"):
             raise BadRequest(
                 "a log of this format has fixed signals and no entries",
                 advice="Read it with `sysid fit` or `sysid inspect`.",
             )
-        return list(cast("_WithEntries", module).entries(Path(given)))
+        return list(cast("_WithEntries", module).entries(file))
+
+
+@contextmanager
+def _readable(given: str) -> Iterator[tuple[Format, Path]]:
+    """The format of a file and where it can be read: itself, or what it was converted to.
+
+    Raises:
+        Refusal: it cannot be read; every refusal names the file as it was given.
+    """
+    path = Path(given)
+    with _name_file_in_refusals(given):
+        head = _head(given)
+        if path.suffix.lower() != SUFFIX or head.startswith(b"WPILOG"):
+            yield _reader(path, head), path
+            return
+        with tempfile.TemporaryDirectory(prefix="sysid-hoot-") as folder:
+            made = convert_hoot(path, Path(folder))
+            try:
+                yield _reader(made, _head(str(made))), made
+            except Refusal as refusal:
+                where = refusal.where.replace(str(made), given)
+                raise refusal.__class__(refusal.what, where=where, advice=refusal.advice) from None
+
+
+def _name_source(log: Log, file: Path, given: str) -> Log:
+    """The log, its source and its doubts naming the file as it was given."""
+    doubts = tuple(
+        replace(doubt, message=doubt.message.replace(str(file), given)) for doubt in log.doubts
+    )
+    return replace(log, source=given, doubts=doubts)
 
 
 @contextmanager
@@ -313,7 +297,7 @@ def _reader(path: Path, head: bytes) -> Format:
         seen.append(module)
     suffix = path.suffix.lower()
     opening = head.lstrip().lower()
-    for foreign in _FOREIGN:
+    for foreign in FOREIGN:
         if (
             suffix in foreign.suffixes
             or head.startswith(foreign.starts)

@@ -5,14 +5,17 @@ import sys
 import tempfile
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from sim.cli.options import FILE
 from sim.support.command_line import DONE
+
+if TYPE_CHECKING:
+    from sim.cli.open.view import PageView
 
 
 def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -33,8 +36,9 @@ def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 @click.command(name="open")
 @click.argument("files", nargs=-1, type=FILE)
+@click.option("--raw", is_flag=True, help="Show the data alone: no faults, no fit.")
 @page_options
-def open(files: tuple[Path, ...], *, port: int, no_browser: bool) -> int:  # noqa: A001 - the command's own name
+def open(files: tuple[Path, ...], *, raw: bool, port: int, no_browser: bool) -> int:  # noqa: A001 - the command's own name
     """Show logs on a page of this machine: faults, runs, gains to move over the measured curve.
 
     Drop logs on the page, or name them here. Nothing leaves this machine, and no network is
@@ -42,11 +46,31 @@ def open(files: tuple[Path, ...], *, port: int, no_browser: bool) -> int:  # noq
 
     For example: sysid open drive.wpilog
     """
+    from sim.cli.open.view import PageView  # noqa: PLC0415 - --help must not wait for it
+
+    serve_page(files, view=PageView(raw=raw), port=port, no_browser=no_browser)
+    return DONE
+
+
+def serve_page(
+    files: Sequence[Path], *, view: "PageView", port: int = 0, no_browser: bool = False
+) -> None:
+    """Serve the page until Ctrl-C, and print its address.
+
+    Args:
+        files: that are open from the beginning.
+        view: what the page shows of them.
+        port: on this machine; 0 takes a free one.
+        no_browser: print the address only.
+
+    Raises:
+        BadRequest: the port is taken, or there are too many files.
+    """
     from sim.cli.open.server import PageServer  # noqa: PLC0415 - --help must not wait for it
     from sim.cli.open.session import Session  # noqa: PLC0415 - the same
 
     with tempfile.TemporaryDirectory(prefix="sysid-open-", ignore_cleanup_errors=True) as folder:
-        session = Session(Path(folder), files)
+        session = Session(Path(folder), files, view=view)
         with PageServer(session, port=port) as server:
             click.echo(f"The page is at {server.address}\nCtrl-C here ends it.")
             sys.stdout.flush()
@@ -57,7 +81,6 @@ def open(files: tuple[Path, ...], *, port: int, no_browser: bool) -> int:  # noq
                 server.serve_forever()
             except KeyboardInterrupt:
                 click.echo("")
-    return DONE
 
 
 def open_browser(address: str) -> None:

@@ -4,7 +4,8 @@ Samples are in SI; gains and their unit are those of the log, with the factor be
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,8 +30,8 @@ LAGS = 1e-5  # [s] a shorter lag is none
 FEWEST = 4  # [samples] a shorter run is no test, and is not simulated
 
 
-def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
-    """Name, unit, type, runs and doubts of a log.
+def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> dict[str, Any]:
+    """Name, unit, type and runs of a log, and what was odd about it unless that is not wanted.
 
     Raises:
         Refusal: it cannot be read in this way.
@@ -58,7 +59,7 @@ def describe_log(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
         "mechanism": log.mechanism,
         "runs": runs,
         "samples": sum(run["samples"] for run in runs),
-        "doubts": _doubts(log.doubts, one),
+        "doubts": _doubts(log.doubts, one) if doubts else [],
         "compiles": not engine_is_cached(),
         "compiled": engine_can_compile(),
     }
@@ -177,6 +178,53 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
             }
         )
     return {"starts": starts, "noise": noise}
+
+
+def write_code(one: "OpenLog", reading: "Reading", query: Mapping[str, str]) -> dict[str, str]:
+    """Robot code for the gains of a log, or for those that a person moved away from them.
+
+    Raises:
+        Refusal: the log cannot be fitted, or its gains cannot be written as code.
+    """
+    from sim.report.robot_code_snippet import LANGUAGES, SEASONS, write_robot_code  # noqa: PLC0415 - once needed
+
+    language, season = query.get("language", "java"), query.get("season", "2026")
+    if language not in LANGUAGES or season not in map(str, SEASONS):
+        raise BadRequest("there is no such language or season", advice="Choose java and 2026.")
+    found = one.fit(reading).found.in_log_units()
+    moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
+    errors = {name: error for name, error in found.errors.items() if name not in moved}
+    found = replace(found, gains={**found.gains, **moved}, errors=errors)  # a hand has no error
+    code = write_robot_code(found, language=language, season=int(season))
+    if moved:
+        code = (
+            f"{LANGUAGES[language].comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
+        )
+    return {"code": code}
+
+
+def _is_number(text: str) -> bool:
+    """Whether a text is a finite number."""
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def write_report(one: "OpenLog", reading: "Reading") -> str:
+    """The page that ``sysid fit --html`` writes.
+
+    Raises:
+        Refusal: the log cannot be fitted.
+    """
+    from sim.feedback import PRESETS  # noqa: PLC0415 - once it is needed
+    from sim.fit.feedback_trial import try_feedback_gains  # noqa: PLC0415 - the same
+    from sim.report import Report, render_page  # noqa: PLC0415 - draws
+
+    pooled, preset = one.fit(reading), PRESETS["default"]
+    found = pooled.found.in_log_units()
+    tried = try_feedback_gains(found, preset)
+    return render_page(Report(one.name, found, one.log(reading), preset, tried, pooled.notes))
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:

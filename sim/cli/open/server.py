@@ -8,10 +8,9 @@ Python's own ``http.server`` is enough for one person's browser, and adds nothin
 """
 
 import json
-import math
 import secrets
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import asdict
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -40,6 +39,7 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+RAW = ("summary", "entries", "samples")  # what a page may ask that shows the data alone
 PIECE = 2**20  # [bytes] that are read at a time
 PATIENCE = 30.0  # [s] for the rest of a request that has begun
 
@@ -144,6 +144,8 @@ class PageRequest(BaseHTTPRequestHandler):
                 self._send_file("index.html")
             case ["logs"]:
                 self._send_json([_name(one) for one in self.server.session.logs])
+            case ["view"]:
+                self._send_json(asdict(self.server.session.view))
             case ["live"]:
                 self._send_json(page_data.describe_live(self.server.session))
             case ["logs", number, what]:
@@ -180,17 +182,36 @@ class PageRequest(BaseHTTPRequestHandler):
 
     def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
         """What the page asks about one log."""
-        self.server.session.import_everything()
+        session = self.server.session
         chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
         reading = Reading(query.get("units") or None, query.get("type") or None, chosen)
+        if what in RAW:
+            session.import_reading()
+            self._send_data(one, reading, what)
+        elif session.view.raw:
+            raise BadRequest(
+                "this page shows the data alone", advice="Open the log with sysid open FILE."
+            )
+        else:
+            session.import_everything()
+            self._send_findings(one, reading, what, query)
+
+    def _send_data(self, one: OpenLog, reading: Reading, what: str) -> None:
+        """The data of a log."""
+        if what == "summary":
+            doubts = not self.server.session.view.raw
+            self._send_json(page_data.describe_log(one, reading, doubts=doubts))
+        elif what == "entries":
+            self._send_json(page_data.describe_entries(one.entries()))
+        else:
+            content = page_data.pack_samples(one.log(reading))
+            self._send(content, "application/octet-stream")
+
+    def _send_findings(
+        self, one: OpenLog, reading: Reading, what: str, query: Mapping[str, str]
+    ) -> None:
+        """What is found out of a log."""
         match what:
-            case "summary":
-                self._send_json(page_data.describe_log(one, reading))
-            case "entries":
-                self._send_json(page_data.describe_entries(one.entries()))
-            case "samples":
-                content = page_data.pack_samples(one.log(reading))
-                self._send(content, "application/octet-stream")
             case "faults":
                 found = page_data.describe_faults(one.inspection(reading), one)
                 self._send_json(found)
@@ -201,9 +222,9 @@ class PageRequest(BaseHTTPRequestHandler):
             case "reconcile":
                 self._send_json(one.reconcile(reading).to_json())
             case "code":
-                self._send_json(_write_code(one, reading, query))
+                self._send_json(page_data.write_code(one, reading, query))
             case "report.html":
-                self._send(_write_report(one, reading).encode(), KINDS[".html"], page=True)
+                self._send(page_data.write_report(one, reading).encode(), KINDS[".html"], page=True)
             case _:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is nothing here")
 
@@ -276,50 +297,3 @@ class PageRequest(BaseHTTPRequestHandler):
 
 def _name(one: OpenLog) -> dict[str, Any]:
     return {"id": one.number, "name": one.name}
-
-
-def _write_code(one: OpenLog, reading: Reading, query: Mapping[str, str]) -> dict[str, str]:
-    """Robot code for the gains of a log, or for those that a person moved away from them.
-
-    Raises:
-        Refusal: the log cannot be fitted, or its gains cannot be written as code.
-    """
-    from sim.report.robot_code_snippet import LANGUAGES, SEASONS, write_robot_code  # noqa: PLC0415 - once needed
-
-    language, season = query.get("language", "java"), query.get("season", "2026")
-    if language not in LANGUAGES or season not in map(str, SEASONS):
-        raise BadRequest("there is no such language or season", advice="Choose java and 2026.")
-    found = one.fit(reading).found.in_log_units()
-    moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
-    errors = {name: error for name, error in found.errors.items() if name not in moved}
-    found = replace(found, gains={**found.gains, **moved}, errors=errors)  # a hand has no error
-    code = write_robot_code(found, language=language, season=int(season))
-    if moved:
-        code = (
-            f"{LANGUAGES[language].comment} Moved by hand, not measured: {', '.join(moved)}\n{code}"
-        )
-    return {"code": code}
-
-
-def _is_number(text: str) -> bool:
-    """Whether a text is a finite number."""
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
-
-
-def _write_report(one: OpenLog, reading: Reading) -> str:
-    """The page that ``sysid fit --html`` writes.
-
-    Raises:
-        Refusal: the log cannot be fitted.
-    """
-    from sim.feedback import PRESETS  # noqa: PLC0415 - once it is needed
-    from sim.fit.feedback_trial import try_feedback_gains  # noqa: PLC0415 - the same
-    from sim.report import Report, render_page  # noqa: PLC0415 - draws
-
-    pooled, preset = one.fit(reading), PRESETS["default"]
-    found = pooled.found.in_log_units()
-    tried = try_feedback_gains(found, preset)
-    return render_page(Report(one.name, found, one.log(reading), preset, tried, pooled.notes))

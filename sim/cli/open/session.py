@@ -9,6 +9,7 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from sim.cli.open.view import PageView
 from sim.core.errors import BadRequest, Refusal
 
 if TYPE_CHECKING:
@@ -185,10 +186,14 @@ class Session:
     Args:
         folder: of this session alone, where dropped files are written.
         files: named on the command line.
+        view: what the page shows of them.
     """
 
-    def __init__(self, folder: Path, files: Sequence[Path] = ()) -> None:
+    def __init__(
+        self, folder: Path, files: Sequence[Path] = (), *, view: PageView | None = None
+    ) -> None:
         self.folder = folder
+        self.view = view or PageView()
         self._numbers = count(1)
         self._logs: dict[int, OpenLog] = {}
         self._lock = threading.Lock()
@@ -285,33 +290,42 @@ class Session:
         write(spoiled.log, path)
         return self.add(name, path)
 
-    def import_everything(self) -> None:
-        """Import what requests need, once and in one thread.
+    def import_reading(self) -> None:
+        """Import what it takes to show the data of a log, once and in one thread.
 
         Requests run in threads, and two threads that import modules which import one another can
         find one of them half made.
         """
         with self._imports:
-            import sim.bench.mechanisms  # noqa: PLC0415 - so that the address is printed at once
+            import sim.cli.fit.parts  # noqa: PLC0415 - so that the address is printed at once
+            import sim.cli.options  # noqa: PLC0415 - the same
+            import sim.io.formats.csv  # noqa: PLC0415 - the same
+            import sim.io.formats.revlog  # noqa: PLC0415 - the same
+            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
+            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
+            import sim.physics.engine  # noqa: F401, PLC0415 - the same
+
+    def import_everything(self) -> None:
+        """Import what requests need, as ``import_reading``."""
+        self.import_reading()
+        with self._imports:
+            import sim.bench.mechanisms  # noqa: PLC0415 - as above
             import sim.bench.simulate  # noqa: PLC0415 - the same
             import sim.cli.fit.against  # noqa: PLC0415 - the same
-            import sim.cli.fit.parts  # noqa: PLC0415 - the same
             import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
-            import sim.cli.options  # noqa: PLC0415 - the same
             import sim.cli.reconcile  # noqa: PLC0415 - the same
             import sim.fit.physics  # noqa: PLC0415 - the same
             import sim.fit.pooled  # noqa: PLC0415 - the same
             import sim.inspect.contaminate  # noqa: PLC0415 - the same
-            import sim.inspect.detect_faults  # noqa: PLC0415 - the same
-            import sim.io.formats.csv  # noqa: PLC0415 - the same
-            import sim.io.formats.sysid_json  # noqa: PLC0415 - the same
-            import sim.io.formats.wpilog  # noqa: PLC0415 - the same
             import sim.reconcile.dropout_intervals  # noqa: PLC0415 - the same
             import sim.reconcile.story_text  # noqa: PLC0415 - the same
             import sim.report  # noqa: F401, PLC0415 - the same
 
     def warm_up(self) -> None:
         """Load what the first log needs, so that it need not wait for it."""
+        self.import_reading()
+        if self.view.raw:
+            return
         self.import_everything()
         from sim.physics.engine import load_engine  # noqa: PLC0415 - that is the point of it
 

@@ -43,6 +43,7 @@ FILLERS = frozenset(
         "stator",
         "sensor",
         "encoder",
+        "primary",
     }
 )
 OTHERS = frozenset(
@@ -136,6 +137,8 @@ def identify_signal(entry: Entry) -> tuple[str, str] | None:
     if OTHERS.intersection(words) or SENSORS.intersection(folder):
         return None
     signal = _signal(words, find_unit_in_metadata(entry.metadata) or unit)
+    if folder[:1] == ["spark"] and words == ["voltage"]:
+        signal = "bus_voltage"  # REV/Spark-3/VOLTAGE: REV's converter means the battery's
     if not signal:
         return None
     spent = {

@@ -26,6 +26,11 @@ export function listLogs() {
   return ask("logs");
 }
 
+/** What this page shows of every log: the data alone, and how marked spans are written. */
+export function askView() {
+  return ask("view");
+}
+
 /** What sysid watch follows, and the logs that grow. */
 export function askLive() {
   return ask("live");

@@ -1,26 +1,29 @@
-// The chart: velocity measured and simulated, what is left between both, and the voltage.
+// The chart: velocity measured and simulated, what is left between both, and the voltage; or the
+// signals of the log alone (signals.js), in which spans can be marked.
 //
 // Two canvases lie on each other. The lower one holds what stands still while a gain is moved; the
 // upper one the simulated curve and the cursor, drawn once a picture.
 
-import { Timeline, firstNotBefore, roundTicks } from "./timeline.js";
+import { rangeOf } from "./drawing.js";
+import { FIT_PANELS, drawFit, drawMeasured, drawOther, errorRange, fitMarks } from "./fit_panels.js";
+import { AXIS, TOP, drawCursor, drawFaults, drawGrid, drawOverview, drawRuns, drawSpans, drawTimes } from "./frame.js";
+import { listen } from "./hands.js";
+import { SIGNAL_PANELS, deriveSignals, drawSignals, signalMarks, signalRanges } from "./signals.js";
+import { Timeline, firstNotBefore } from "./timeline.js";
 
-const PANELS = [
-  { name: "velocity", share: 0.58 },
-  { name: "error", share: 0.17 },
-  { name: "voltage", share: 0.25 },
-];
-const TOP = 44, GAP = 26, AXIS = 24, OVERVIEW = 34; // [px]
+const GAP = 26, OVERVIEW = 34; // [px]
 const CLOSEST = 0.08; // [s] a view is never shorter
-const ZOOM = 1.25; // by one step of a key or a wheel
 const DOTS = 5; // [px] between samples from which each is a dot of its own
-const CURSOR_STEP = 10; // [samples] with Shift
 
 export class Chart {
-  constructor(still, moving, { onCursor }) {
+  constructor(still, moving, { onCursor, onSpans }) {
     this.still = still;
     this.moving = moving;
     this.onCursor = onCursor;
+    this.onSpans = onSpans;
+    this.showsSignals = false;
+    this.dragMarks = true; // in the view of the signals; Shift turns it round
+    this.spans = new Map();
     this.pictures = 0;
     this.runs = [];
     this.faults = [];
@@ -28,9 +31,8 @@ export class Chart {
     this.simulated = [];
     this.noise = null;
     this.cursor = null;
-    this.pointers = new Map();
     new ResizeObserver(() => this.resize()).observe(still.parentElement);
-    this.listen();
+    listen(this);
   }
 
   /** Show a log: its runs, with samples in the log's own unit. */
@@ -42,12 +44,49 @@ export class Chart {
     this.noise = null;
     this.cursor = null;
     this.timeline = new Timeline(runs);
+    this.spans = new Map();
+    this.derived = null;
     const [low, high] = rangeOf(runs.map((run) => run.velocity));
     const pad = 0.07 * (high - low || 1);
-    this.speeds = [Math.min(low, 0) - pad, Math.max(high, 0) + pad];
     const [least, most] = rangeOf(runs.map((run) => run.voltage));
-    this.volts = [Math.min(least, 0) - 0.6, Math.max(most, 0) + 0.6];
+    this.ranges = {
+      velocity: [Math.min(low, 0) - pad, Math.max(high, 0) + pad],
+      voltage: [Math.min(least, 0) - 0.6, Math.max(most, 0) + 0.6],
+    };
+    this.prepareSignals();
     this.showAll();
+  }
+
+  /** Show the signals of the log alone, or what was measured against what is simulated. */
+  showSignals(on) {
+    this.showsSignals = on;
+    this.prepareSignals();
+    this.resize();
+  }
+
+  /** Time steps and slopes, once they are needed. */
+  prepareSignals() {
+    if (!this.showsSignals || !this.timeline || this.derived) return;
+    this.derived = deriveSignals(this.runs);
+    this.signalRanges = signalRanges(this.runs, this.derived, this.ranges);
+  }
+
+  get panelsShown() {
+    return this.showsSignals ? SIGNAL_PANELS : FIT_PANELS;
+  }
+
+  /** The lowest and the highest value that a panel shows. */
+  rangeOfPanel(name) {
+    if (name === "error") return errorRange(this);
+    return (this.showsSignals ? this.signalRanges : this.ranges)[name];
+  }
+
+  /** Mark a span of a run, from one sample to another; null removes it. */
+  setSpan(run, span) {
+    if (span) this.spans.set(run, span);
+    else this.spans.delete(run);
+    this.onSpans(this.spans);
+    this.requestMoving();
   }
 
   /** Mark faults: {run, start, end, name}. */
@@ -139,12 +178,13 @@ export class Chart {
     this.left = clientWidth < 560 ? 40 : 54;
     this.right = clientWidth - (clientWidth < 560 ? 8 : 14);
     let y = TOP;
-    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (PANELS.length - 1) - 10;
+    const room = clientHeight - TOP - AXIS - OVERVIEW - GAP * (this.panelsShown.length - 1) - 10;
     this.panels = {};
-    for (const { name, share } of PANELS) {
+    for (const { name, share } of this.panelsShown) {
       this.panels[name] = { top: y, bottom: y + share * room };
       y += share * room + GAP;
     }
+    this.bottom = y - GAP;
     this.overview = { top: clientHeight - OVERVIEW, bottom: clientHeight - 4 };
     this.redraw();
   }
@@ -152,7 +192,7 @@ export class Chart {
   /** Read the colors of the theme anew. */
   readColors() {
     const style = getComputedStyle(document.documentElement);
-    const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe"];
+    const names = ["ink", "quiet", "rule", "card", "measured", "simulated", "volts", "fault", "band", "stripe", "position", "mark"];
     this.colors = Object.fromEntries(names.map((one) => [one, style.getPropertyValue(`--${one}`).trim()]));
     this.redraw();
   }
@@ -168,25 +208,8 @@ export class Chart {
   /** From a value to a height in a panel. */
   heights(name) {
     const { top, bottom } = this.panels[name];
-    const [low, high] = { velocity: this.speeds, voltage: this.volts, error: this.errors() }[name];
+    const [low, high] = this.rangeOfPanel(name);
     return (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
-  }
-
-  /** How far the error's panel reaches, in round steps so that it does not tremble. */
-  errors() {
-    let most = 6 * (this.noise ?? 0);
-    for (const [k, one] of this.simulated.entries()) {
-      if (!one) continue;
-      const { velocity } = this.runs[k];
-      for (let i = 0; i < one.velocity.length; i++) {
-        const left = Math.abs(velocity[one.first + i] - one.velocity[i]);
-        if (left > most) most = left;
-      }
-    }
-    most = Math.min(most, this.speeds[1] - this.speeds[0]) || 1;
-    const power = 10 ** Math.floor(Math.log10(most));
-    const round = [1, 1.5, 2, 3, 5, 7, 10].map((one) => one * power).find((one) => one >= most);
-    return [-round, round];
   }
 
   // ---- what stands still
@@ -195,127 +218,27 @@ export class Chart {
     const to = this.still.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
-    this.drawRuns(to);
-    this.drawFaults(to);
-    this.drawGrid(to, "velocity", `velocity, ${this.symbol}/s`);
-    this.drawGrid(to, "voltage", "voltage, V");
+    drawRuns(this, to);
+    drawFaults(this, to);
+    for (const { name } of this.panelsShown) if (name !== "error") drawGrid(this, to, name);
+    if (this.showsSignals) drawSignals(this, to);
     this.clip(to, () => {
-      for (const run of this.runs.keys()) this.drawMeasured(to, run);
-      for (const other of this.others) this.drawOther(to, other);
+      if (!this.showsSignals) for (const run of this.runs.keys()) drawMeasured(this, to, run);
+      for (const other of this.others) drawOther(this, to, other);
     });
-    this.drawTimes(to);
-    this.drawOverview(to);
+    drawTimes(this, to);
+    drawOverview(this, to);
   }
 
-  clip(to, draw) {
+  /** Draw nothing beside the runs; with the name of a panel, nothing beside that panel. */
+  clip(to, draw, name) {
+    const { top, bottom } = this.panels[name] ?? { top: 8, bottom: this.overview.top - AXIS - 2 };
     to.save();
     to.beginPath();
-    to.rect(this.left - 3, 0, this.right - this.left + 3, this.overview.top - AXIS + 4);
+    to.rect(this.left - 3, top - 8, this.right - this.left + 3, bottom - top + 14);
     to.clip();
     draw();
     to.restore();
-  }
-
-  /** A stripe and a name for each run. */
-  drawRuns(to) {
-    const { stripe, ink, quiet } = this.colors;
-    const bottom = this.panels.voltage.bottom;
-    this.clip(to, () => {
-      for (const [k, run] of this.runs.entries()) {
-        const [from, end] = this.timeline.spanOf(k).map((place) => this.xOf(place));
-        if (end < this.left || from > this.right) continue;
-        to.fillStyle = stripe;
-        to.beginPath();
-        to.roundRect(from - 3, TOP - 22, Math.max(end - from + 6, 3), bottom - TOP + 26, 6);
-        to.fill();
-        const begins = Math.max(from, this.left) + 2;
-        const room = Math.min(end, this.right) - begins;
-        const [kind, way] = [run.test.replace(/-\w+$/, ""), run.test.endsWith("forward") ? "→" : "←"];
-        to.textBaseline = "alphabetic";
-        for (const text of [`${run.part ? `${run.part} ` : ""}${kind} ${way}`, `${kind.slice(0, 4)}. ${way}`, way]) {
-          if (to.measureText(text).width > room) continue;
-          to.fillStyle = k === this.cursor?.run ? ink : quiet;
-          to.fillText(text, begins, TOP - 30);
-          break;
-        }
-      }
-    });
-  }
-
-  drawFaults(to) {
-    const { fault } = this.colors;
-    let free = 0;
-    to.textBaseline = "alphabetic";
-    this.clip(to, () => {
-      for (const one of this.faults) {
-        const from = this.xOf(this.timeline.placeOf(one.run, one.start));
-        const end = Math.max(this.xOf(this.timeline.placeOf(one.run, one.end)), from + 2);
-        to.globalAlpha = 0.14;
-        to.fillStyle = fault;
-        to.fillRect(from, TOP - 22, end - from, this.panels.voltage.bottom - TOP + 26);
-        to.globalAlpha = 1;
-        to.fillRect(from, TOP - 22, end - from, 3);
-        const width = to.measureText(one.name).width;
-        const at = Math.max(Math.min(from, this.right - width - 6), this.left);
-        if (from < this.right && end > this.left && at > free) {
-          to.fillText(one.name, at + 1, TOP - 7);
-          free = at + width + 8;
-        }
-      }
-    });
-  }
-
-  drawGrid(to, name, title) {
-    const { rule, quiet } = this.colors;
-    const y = this.heights(name);
-    const [low, high] = name === "velocity" ? this.speeds : name === "voltage" ? this.volts : this.errors();
-    to.textBaseline = "middle";
-    const { top, bottom } = this.panels[name];
-    const count = Math.max(2, Math.floor((bottom - top) / (name === "velocity" ? 38 : 20)));
-    for (const tick of roundTicks(low, high, count)) {
-      const at = Math.round(y(tick)) + 0.5;
-      to.strokeStyle = rule;
-      to.lineWidth = Math.abs(tick) < 1e-9 * (high - low) ? 1.6 : 0.8;
-      line(to, this.left, at, this.right, at);
-      to.fillStyle = quiet;
-      to.textAlign = "right";
-      to.fillText(short(tick), this.left - 7, at);
-    }
-    to.textAlign = "left";
-    to.textBaseline = "alphabetic";
-    to.fillStyle = quiet;
-    to.globalAlpha = 0.9;
-    to.textBaseline = "top";
-    if (name === "velocity") {
-      to.fillText(title, this.left + 5, top - 3);
-    } else {
-      to.textBaseline = "alphabetic";
-      to.fillText(title, this.left + 5, top - 6);
-    }
-    to.textBaseline = "alphabetic";
-    to.globalAlpha = 1;
-  }
-
-  drawMeasured(to, run) {
-    const { measured, volts } = this.colors;
-    const { velocity, voltage } = this.runs[run];
-    const y = this.heights("velocity");
-    this.curve(to, run, 0, velocity, y, { color: measured, width: 5, alpha: 0.42, dots: true });
-    this.curve(to, run, 0, voltage, this.heights("voltage"), { color: volts, width: 1.5, steps: true });
-  }
-
-  drawOther(to, { color, run, time, velocity }) {
-    const y = this.heights("velocity");
-    to.strokeStyle = color;
-    to.lineWidth = 1.3;
-    to.globalAlpha = 0.75;
-    to.beginPath();
-    const stride = Math.max(1, Math.floor(time.length / 4000));
-    for (let k = 0; k < time.length; k += stride) {
-      to.lineTo(this.xOf(this.timeline.offsets[run] + time[k] - time[0]), y(velocity[k]));
-    }
-    to.stroke();
-    to.globalAlpha = 1;
   }
 
   /** One curve of one run; where samples are closer than pixels, from lowest to highest. */
@@ -364,188 +287,16 @@ export class Chart {
     to.globalAlpha = 1;
   }
 
-  /** Times of the log below the runs; each run counts on in the log's own time. */
-  drawTimes(to) {
-    const { quiet, rule } = this.colors;
-    const at = this.panels.voltage.bottom + 17;
-    to.fillStyle = quiet;
-    to.textAlign = "center";
-    const apart = (70 / (this.right - this.left)) * (this.view[1] - this.view[0]);
-    let free = this.left;
-    for (const [k, run] of this.runs.entries()) {
-      if (!run.time.length) continue;
-      const [from, end] = [run.time[0], run.time[run.time.length - 1]];
-      for (const tick of roundTicks(from, end, Math.max((end - from) / apart, 1))) {
-        const x = this.xOf(this.timeline.placeOf(k, tick));
-        const text = `${short(tick)} s`;
-        const half = to.measureText(text).width / 2;
-        if (x - half < free || x + half > this.right + 6) continue;
-        to.fillText(text, x, at);
-        to.strokeStyle = rule;
-        line(to, x, this.panels.voltage.bottom + 3, x, this.panels.voltage.bottom + 6);
-        free = x + half + 10;
-      }
-    }
-    to.textAlign = "left";
-  }
-
-  /** The whole log in small, and which part of it is seen. */
-  drawOverview(to) {
-    const { top, bottom } = this.overview;
-    const { measured, simulated, rule, fault, stripe } = this.colors;
-    const x = (place) => this.left + (place / this.timeline.end) * (this.right - this.left);
-    const [low, high] = this.speeds;
-    const y = (value) => bottom - ((value - low) / (high - low)) * (bottom - top);
-    to.strokeStyle = measured;
-    to.globalAlpha = 0.85;
-    to.lineWidth = 1.2;
-    for (const [k, run] of this.runs.entries()) {
-      const [from, end] = this.timeline.spanOf(k).map(x);
-      to.fillStyle = stripe;
-      to.fillRect(from, top, Math.max(end - from, 1), bottom - top);
-      const stride = Math.max(1, Math.floor(run.time.length / 400));
-      to.beginPath();
-      for (let i = 0; i < run.time.length; i += stride) {
-        to.lineTo(x(this.timeline.placeOf(k, run.time[i])), y(run.velocity[i]));
-      }
-      to.stroke();
-    }
-    to.globalAlpha = 1;
-    to.fillStyle = fault;
-    for (const one of this.faults) {
-      const from = x(this.timeline.placeOf(one.run, one.start));
-      to.fillRect(from, top, Math.max(x(this.timeline.placeOf(one.run, one.end)) - from, 2), 3);
-    }
-    const seen = this.view.map((place) => Math.min(Math.max(x(place), this.left), this.right));
-    to.strokeStyle = rule;
-    to.lineWidth = 1;
-    to.strokeRect(this.left + 0.5, top + 0.5, this.right - this.left - 1, bottom - top - 1);
-    if (seen[1] - seen[0] < this.right - this.left - 2) {
-      to.globalAlpha = 0.12;
-      to.fillStyle = simulated;
-      to.fillRect(seen[0], top, seen[1] - seen[0], bottom - top);
-      to.globalAlpha = 1;
-      to.strokeStyle = simulated;
-      to.lineWidth = 1.5;
-      to.strokeRect(seen[0] + 0.5, top + 0.5, seen[1] - seen[0] - 1, bottom - top - 1);
-    }
-  }
-
-  // ---- what moves
-
   drawMoving() {
     const to = this.moving.getContext("2d");
     to.clearRect(0, 0, this.width, this.height);
     to.font = "11px ui-sans-serif, system-ui, sans-serif";
-    this.drawGrid(to, "error", `measured − simulated, ${this.symbol}/s`);
-    const [y, height] = [this.heights("velocity"), this.heights("error")];
-    this.clip(to, () => {
-      if (this.noise) {
-        to.fillStyle = this.colors.band;
-        to.fillRect(this.left, height(2 * this.noise), this.right - this.left, height(-2 * this.noise) - height(2 * this.noise));
-      }
-      for (const [k, one] of this.simulated.entries()) {
-        if (!one) continue;
-        const left = one.velocity.map((value, i) => this.runs[k].velocity[one.first + i] - value);
-        this.curve(to, k, one.first, left, height, { color: this.colors.simulated, width: 1.2, alpha: 0.9 });
-        to.save();
-        to.beginPath();
-        to.rect(this.left, this.panels.velocity.top - 8, this.right - this.left, this.panels.velocity.bottom - this.panels.velocity.top + 14);
-        to.clip();
-        this.curve(to, k, one.first, one.velocity, y, { color: this.colors.simulated, width: 1.8 });
-        to.restore();
-      }
-    });
-    if (this.cursor) this.drawCursor(to, y, height);
+    if (this.showsSignals) this.clip(to, () => drawSpans(this, to));
+    else drawFit(this, to);
+    if (this.cursor) drawCursor(this, to, (this.showsSignals ? signalMarks : fitMarks)(this, this.cursor));
   }
 
-  drawCursor(to, y, height) {
-    const { run, sample } = this.cursor;
-    const { time, velocity, voltage } = this.runs[run];
-    const x = this.xOf(this.timeline.placeOf(run, time[sample]));
-    if (x < this.left - 1 || x > this.right + 1) return;
-    const { ink, card, measured, simulated, volts } = this.colors;
-    to.strokeStyle = ink;
-    to.globalAlpha = 0.55;
-    to.lineWidth = 1;
-    line(to, Math.round(x) + 0.5, TOP - 22, Math.round(x) + 0.5, this.panels.voltage.bottom + 4);
-    to.globalAlpha = 1;
-    const one = this.simulated[run];
-    const guess = one && sample >= one.first ? one.velocity[sample - one.first] : null;
-    const marks = [[y(velocity[sample]), measured], [this.heights("voltage")(voltage[sample]), volts]];
-    if (guess !== null) marks.push([y(guess), simulated], [height(velocity[sample] - guess), simulated]);
-    for (const [at, color] of marks) {
-      to.beginPath();
-      to.arc(x, at, 4, 0, 7);
-      to.fillStyle = color;
-      to.fill();
-      to.lineWidth = 1.5;
-      to.strokeStyle = card;
-      to.stroke();
-    }
-  }
-
-  // ---- hands
-
-  listen() {
-    const { moving } = this;
-    moving.addEventListener("wheel", (event) => {
-      if (!this.timeline) return;
-      event.preventDefault();
-      if (Math.abs(event.deltaX) > Math.abs(event.deltaY)) this.pan(event.deltaX);
-      else this.zoomAt(event.offsetX, Math.exp(0.0016 * event.deltaY));
-    }, { passive: false });
-    moving.addEventListener("pointerdown", (event) => {
-      if (!this.timeline) return;
-      moving.setPointerCapture(event.pointerId);
-      this.pointers.set(event.pointerId, event);
-      this.inOverview = event.offsetY > this.overview.top - 4;
-      if (this.inOverview) this.centerOn(event.offsetX);
-    });
-    moving.addEventListener("pointermove", (event) => this.movePointer(event));
-    for (const name of ["pointerup", "pointercancel"]) {
-      moving.addEventListener(name, (event) => this.pointers.delete(event.pointerId));
-    }
-    moving.addEventListener("dblclick", () => this.showAll());
-    moving.addEventListener("keydown", (event) => {
-      if (!this.timeline || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (this.pressKey(event.key, event.shiftKey)) event.preventDefault();
-    });
-  }
-
-  movePointer(event) {
-    if (!this.timeline) return;
-    const before = this.pointers.get(event.pointerId);
-    if (!before || event.pointerType !== "mouse") {
-      this.setCursor(this.timeline.sampleAt(this.placeOfX(event.offsetX)));
-    }
-    if (!before) return;
-    const others = [...this.pointers.values()].filter((one) => one.pointerId !== event.pointerId);
-    this.pointers.set(event.pointerId, event);
-    if (this.inOverview) this.centerOn(event.offsetX);
-    else if (others.length) {
-      const [was, is] = [before, event].map((one) => Math.max(Math.abs(one.offsetX - others[0].offsetX), 20));
-      this.zoomAt(0.5 * (event.offsetX + others[0].offsetX), was / is);
-    } else this.pan(before.offsetX - event.offsetX);
-  }
-
-  pressKey(key, shift) {
-    const step = (shift ? CURSOR_STEP : 1);
-    const middle = this.cursor
-      ? this.xOf(this.timeline.placeOf(this.cursor.run, this.runs[this.cursor.run].time[this.cursor.sample]))
-      : 0.5 * (this.left + this.right);
-    switch (key) {
-      case "ArrowLeft": return this.stepCursor(-step);
-      case "ArrowRight": return this.stepCursor(step);
-      case "+": case "=": case "ArrowUp": this.zoomAt(middle, 1 / ZOOM); return true;
-      case "-": case "_": case "ArrowDown": this.zoomAt(middle, ZOOM); return true;
-      case "0": case "Escape": this.showAll(); return true;
-      case "PageDown": case "PageUp": return this.stepRun(key === "PageDown" ? 1 : -1);
-      case "Home": this.setCursor({ run: 0, sample: 0 }); return true;
-      case "End": this.setCursor({ run: this.runs.length - 1, sample: this.runs.at(-1).time.length - 1 }); return true;
-      default: return false;
-    }
-  }
+  // ---- moving about
 
   stepCursor(by) {
     let { run, sample } = this.cursor ?? this.timeline.sampleAt(this.view[0]);
@@ -586,28 +337,4 @@ export class Chart {
     const [from, to] = this.view;
     this.setView(place - (place - from) * factor, place + (to - place) * factor);
   }
-}
-
-function line(to, x, y, toX, toY) {
-  to.beginPath();
-  to.moveTo(x, y);
-  to.lineTo(toX, toY);
-  to.stroke();
-}
-
-/** The lowest and the highest number of several arrays. */
-function rangeOf(arrays) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const values of arrays) {
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
-  return low <= high ? [low, high] : [-1, 1];
-}
-
-/** A tick's number without noise of the arithmetic, with a true minus. */
-function short(value) {
-  return String(Number(value.toPrecision(6))).replace("-", "−");
 }

@@ -1,20 +1,28 @@
 // The page: which logs are open, which one is seen, and what is known of it.
 
-import { Refused, addressOf, askLive, askLog, askSamples, closeLog, listLogs, openExample, openFile } from "./api.js";
+import {
+  Refused, addressOf, askLive, askLog, askSamples, askView, closeLog, listLogs, openExample, openFile,
+} from "./api.js";
 import { Chart } from "./chart.js";
+import { makeSignalRows } from "./choices.js";
+import { button, figure, item, prose, sentence, text } from "./elements.js";
 import { makeModel, rms, simulateRun } from "./simulate.js";
 import { Sliders } from "./sliders.js";
+import { writeSpans } from "./spans.js";
+import { storyParts } from "./story.js";
 
 const MOST_SHOWN = 12; // faults in the list before the rest is folded away
 const SIGNALS = 4; // arrays of a run: time, voltage, position, velocity
 
 const at = (id) => document.getElementById(id);
 const logs = new Map();
+const begun = new Set(); // numbers of the logs that are or were open
 let active = null;
+let view = { raw: false, span_text: {} }; // what the server says that this page shows
 
-const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor });
+const chart = new Chart(at("still"), at("moving"), { onCursor: showCursor, onSpans: showSpans });
 const sliders = new Sliders(at("sliders"), moveGains);
-window.sysid = { chart, sliders, logs }; // for tests, and for the curious
+window.sysid = { chart, sliders, logs, begin }; // for tests, and for the curious
 
 // ---- opening logs
 
@@ -24,8 +32,13 @@ async function openAll(files) {
   }));
 }
 
-/** Take a log that the server opened: read it, show it, then ask for faults and gains. */
+/** Take a log that the server opened: read it, show it, then ask for faults and gains.
+ *
+ * One that was dropped while the page asked which logs are open is named twice, and begun once.
+ */
 async function begin({ id, name, revision = 0 }) {
+  if (begun.has(id)) return;
+  begun.add(id);
   const log = { id, name, revision, query: {}, others: false };
   logs.set(id, log);
   if (active === null) activate(id);
@@ -54,7 +67,7 @@ async function load(log) {
   log.choice = null;
   if (active === log.id) activate(log.id);
   showTabs();
-  await Promise.all([askFaults(log, asked), askFit(log, asked)]);
+  if (!view.raw) await Promise.all([askFaults(log, asked), askFit(log, asked)]);
   setLoading(log, false);
 }
 
@@ -148,7 +161,9 @@ async function followLive() {
 
 function showLive({ status, counts, next }) {
   at("live").hidden = false;
-  at("empty").querySelector(".or").hidden = true;
+  at("empty").querySelector(".or").hidden = at("empty").querySelector(".primary").hidden = true;
+  at("empty-title").textContent = "Waiting for the first test.";
+  at("empty-lead").textContent = "Run the four tests in any order. The log appears here when one has ended.";
   at("live-status").textContent = status;
   const words = Object.entries(counts).map(([test, count]) => {
     const one = item(count ? "done" : "", `${test}${count > 1 ? ` (${count})` : ""}`);
@@ -162,13 +177,6 @@ function showLive({ status, counts, next }) {
 }
 
 // ---- signals that are not found by name
-
-const ROLES = [
-  ["voltage", "Voltage at the motor", false],
-  ["position", "Position", false],
-  ["velocity", "Velocity", false],
-  ["state", "Name of the running test", true],
-];
 
 /** Where signals are missing and the file has entries, let a person choose; whether it is so. */
 async function offerChoice(log, problem) {
@@ -184,42 +192,7 @@ async function offerChoice(log, problem) {
 function showChoice(log) {
   const { entries, why, chosen } = log.choice;
   at("choose-why").textContent = `${log.name}: ${why}`;
-  at("signal-rows").replaceChildren(...ROLES.map(([role, words, isText]) => {
-    const row = text("label", "", "signal");
-    const select = document.createElement("select");
-    select.name = role;
-    select.setAttribute("aria-label", words);
-    select.append(new Option(role === "velocity" ? "the slope of the position" : "found by its name", ""));
-    for (const one of entries.filter((entry) => entry.text === isText)) {
-      select.append(new Option(`${one.name}${one.unit ? ` [${one.unit}]` : ""}`, one.name));
-    }
-    select.value = chosen[role] ?? "";
-    const place = text("div", "", "spark");
-    const draw = () => {
-      const one = entries.find((entry) => entry.name === select.value);
-      place.replaceChildren(...(one ? [isText ? text("span", `${one.samples} times`) : sparkline(one.picture)] : []));
-    };
-    select.addEventListener("change", draw);
-    draw();
-    row.append(text("span", words, "role"), select, place);
-    return row;
-  }));
-}
-
-/** A small picture of an entry. */
-function sparkline(values) {
-  const svg = "http://www.w3.org/2000/svg";
-  const [low, high] = [Math.min(...values), Math.max(...values)];
-  const points = values.map((value, k) => `${((200 * k) / Math.max(values.length - 1, 1)).toFixed(1)} ${(34 - (30 * (value - low)) / (high - low || 1)).toFixed(1)}`);
-  const picture = document.createElementNS(svg, "svg");
-  const path = document.createElementNS(svg, "path");
-  picture.setAttribute("viewBox", "0 0 200 38");
-  picture.setAttribute("preserveAspectRatio", "none");
-  picture.setAttribute("role", "img");
-  picture.setAttribute("aria-label", `from ${figure(low)} to ${figure(high)}`);
-  path.setAttribute("d", `M${points.join("L")}`);
-  picture.append(path);
-  return picture;
+  at("signal-rows").replaceChildren(...makeSignalRows(entries, chosen));
 }
 
 at("signals").addEventListener("submit", (event) => {
@@ -308,12 +281,46 @@ function showLog() {
   at("units").value = summary.units.name;
   chart.setLog({ runs: log.runs, faults: marks(log), symbol: summary.units.symbol });
   showRuns(log);
+  showCursor(null);
+  showSpans(chart.spans);
+  showOthers();
+  if (view.raw) return;
   showFaults();
   showFit();
   showStory();
-  showOthers();
   setLoading(log, !(log.faults && (log.fit || log.fitRefused)));
 }
+
+// ---- the signals alone
+
+/** Show the signals of a log, or its fit. */
+function showSignals(on) {
+  chart.showSignals(on);
+  document.body.classList.toggle("signals", on);
+  for (const one of at("views").children) one.setAttribute("aria-pressed", String((one.value === "signals") === on));
+  showCursor(chart.cursor);
+  showSpans(chart.spans);
+}
+
+function setDrag(marks) {
+  chart.dragMarks = marks;
+  for (const one of at("drag").children) one.setAttribute("aria-pressed", String((one.value === "mark") === marks));
+}
+
+/** What was marked, as it is pasted. */
+function showSpans(spans) {
+  const log = logs.get(active);
+  if (!log?.runs) return;
+  const words = writeSpans(view.span_text, log, spans);
+  at("span-text").textContent = words;
+  at("span-text").hidden = at("span-copy").hidden = at("span-clear").hidden = !words;
+  at("span-hint").textContent = words ? view.span_text.hint : "Drag across a test to mark a part of it. Its times then stand here, ready to copy.";
+}
+
+at("views").addEventListener("click", ({ target }) => { if (target.value) showSignals(target.value === "signals"); });
+at("drag").addEventListener("click", ({ target }) => { if (target.value) setDrag(target.value === "mark"); });
+at("span-copy").addEventListener("click", () => copy(at("span-text")));
+at("span-clear").addEventListener("click", () => { for (const run of [...chart.spans.keys()]) chart.setSpan(run, null); });
 
 function showRuns(log) {
   const chips = log.runs.map((run, k) => {
@@ -340,7 +347,8 @@ function showFaults() {
     return;
   }
   chart.setFaults(marks(log));
-  const { faults } = log.faults;
+  const growing = log.revision > 0; // a test that is not recorded yet is no fault
+  const faults = log.faults.faults.filter(({ fault }) => !(growing && fault === "missing-test"));
   const rows = faults.slice(0, MOST_SHOWN).map((one) => faultCard(one));
   if (faults.length > MOST_SHOWN) rows.push(item("busy", `${faults.length - MOST_SHOWN} more are marked on the time axis.`));
   if (!faults.length) {
@@ -477,42 +485,7 @@ function showStory() {
     place.replaceChildren(text("p", `${search.words}…`, "quiet"), bar);
     return;
   }
-  const { story } = search;
-  const head = text("p", "", "headline");
-  head.append(...prose(story.headline));
-  const found = story.findings.map((one) => {
-    const card = text("article", "", "finding");
-    const name = text("h3", one.name.replaceAll("-", " "));
-    name.append(text("span", one.kind === "fault" ? "damage" : one.size, "badge"));
-    card.append(name, text("p", one.sentence));
-    for (const words of one.parameters) card.append(text("p", words, "where"));
-    for (const [title, words] of one.look) card.append(text("p", `${title}: ${words}`, "advice"));
-    return card;
-  });
-  const rest = [...story.next.map((one) => `Test to run next: ${one}`), ...story.remarks]
-    .map((words) => { const made = item("look"); made.append(...prose(words)); return made; });
-  place.replaceChildren(head, gapBars(story), ...found, list(rest), list(story.places.map((one) => item("busy", one))), text("p", story.how, "quiet"));
-}
-
-/** The gap of each model as a bar: in times the noise, 1 is nothing but noise. */
-function gapBars({ gaps }) {
-  const most = Math.max(1, ...gaps.map(({ gap }) => gap ?? 0));
-  const rows = gaps.map(({ name, text: words, gap }, k) => {
-    const row = text("div", "", k === gaps.length - 1 ? "last" : "");
-    const bar = text("i", "");
-    bar.style.setProperty("--share", (gap ?? most) / most);
-    row.append(text("span", name), bar, text("b", words));
-    return row;
-  });
-  const bars = text("div", "", "gaps");
-  bars.append(text("p", "Simulation error, in times the noise of the velocity", "quiet"), ...rows);
-  return bars;
-}
-
-function list(rows) {
-  const made = text("ul", "", "doubts");
-  made.append(...rows);
-  return made;
+  place.replaceChildren(...storyParts(search.story));
 }
 
 function showMeter(log, error) {
@@ -537,16 +510,33 @@ function showCursor(cursor) {
   const run = cursor && log.runs[cursor.run];
   const k = cursor?.sample;
   const one = cursor && log.simulated?.[cursor.run];
-  const guess = one && k >= one.first ? one.velocity[k - one.first] : null;
-  const rows = [
-    ["run", run ? run.test : "point at the curve", "run"],
-    ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""],
-    ["voltage", run ? `${figure(run.voltage[k])} V` : "–", "volts"],
-    ["measured", run ? `${figure(run.velocity[k])} ${symbol}/s` : "–", "measured"],
-    ["simulated", guess === null || guess === undefined ? "–" : `${figure(guess)} ${symbol}/s`, "simulated"],
-    ["error", guess === null || guess === undefined ? "–" : `${figure(run.velocity[k] - guess)} ${symbol}/s`, "left"],
-    ["position", run ? `${figure(run.position[k])} ${symbol}` : "–", ""],
-  ];
+  const guess = one && k >= one.first ? one.velocity[k - one.first] : undefined;
+  const derived = run && chart.derived?.runs[cursor.run];
+  const value = (number, unit) => (number === undefined ? "–" : `${figure(number)} ${unit}`);
+  const time = ["time", run ? `${run.time[k].toFixed(3)} s` : "–", ""];
+  const of = {
+    run: ["run", run ? run.test : "point at the curve", "run"],
+    volts: ["voltage", value(run?.voltage[k], "V"), "volts"],
+    position: ["position", value(run?.position[k], symbol), chart.showsSignals ? "place" : ""],
+    measured: [chart.showsSignals ? "velocity" : "measured", value(run?.velocity[k], `${symbol}/s`), "measured"],
+  };
+  const rows = chart.showsSignals
+    ? [
+        of.run,
+        ["time in the test", run ? `${(run.time[k] - run.time[0]).toFixed(3)} s` : "–", ""],
+        of.volts,
+        of.measured,
+        of.position,
+        ["slope of position", value(derived?.slope[k], `${symbol}/s`), "place"],
+        ["time step", run && k ? `${derived.step[k - 1].toFixed(1)} ms` : "–", ""],
+        ["time in the log", time[1], ""],
+      ]
+    : [
+        of.run, time, of.volts, of.measured,
+        ["simulated", value(guess, `${symbol}/s`), "simulated"],
+        ["error", value(guess === undefined ? undefined : run.velocity[k] - guess, `${symbol}/s`), "left"],
+        of.position,
+      ];
   at("readout").replaceChildren(...rows.map(([name, value, kind]) => {
     const pair = text("div", "", kind);
     pair.append(text("dt", name), text("dd", value));
@@ -613,42 +603,6 @@ function setLoading(log, busy) {
 
 // ---- small things
 
-/** A sentence of the command line for this page: code set apart, a number kept with its sign. */
-function prose(words) {
-  const here = words.replaceAll("± ", "±\u00a0").replaceAll(" %", "\u00a0%").replace(/(\d) (V|rad)\b/g, "$1\u00a0$2")
-    .replace(/([Ss])ay --(type|units)\b/g, (_, s, what) => `${s === "S" ? "Choose" : "choose"} the ${what} above`)
-    .replace(/--(type|units)\b/g, "$1");
-  return here.split("`").map((part, k) => (k % 2 ? text("code", part) : part));
-}
-
-function text(tag, words, kind = "") {
-  const made = document.createElement(tag);
-  made.textContent = words;
-  if (kind) made.className = kind;
-  return made;
-}
-
-function item(kind, words = "") {
-  return text("li", words, kind);
-}
-
-function button(kind, words, press) {
-  const made = text("button", words, kind);
-  made.type = "button";
-  made.addEventListener("click", press);
-  return made;
-}
-
-function figure(value) {
-  const size = Math.abs(value);
-  const digits = size >= 100 ? 0 : size >= 10 ? 2 : size >= 1 ? 3 : size >= 0.001 ? 4 : 5;
-  return value.toFixed(digits).replace("-", "−");
-}
-
-function sentence(problem) {
-  return `${problem.what ?? problem.message}. ${problem.advice ?? ""}`;
-}
-
 function say(words) {
   const toast = at("toast");
   toast.textContent = words;
@@ -673,12 +627,12 @@ async function showCode() {
   }
 }
 
-async function copyCode() {
+async function copy(place) {
   try {
-    await navigator.clipboard.writeText(at("code-text").textContent);
+    await navigator.clipboard.writeText(place.textContent);
     say("Copied.");
   } catch {
-    getSelection().selectAllChildren(at("code-text"));
+    getSelection().selectAllChildren(place);
     say("Selected. Copy it with the keyboard.");
   }
 }
@@ -692,7 +646,7 @@ at("file").addEventListener("change", (event) => {
 at("example").addEventListener("click", () => guarded("example", async () => begin(await openExample())));
 at("reset").addEventListener("click", () => sliders.reset());
 at("paste").addEventListener("click", async () => { await showCode(); at("code").showModal(); });
-at("copy").addEventListener("click", copyCode);
+at("copy").addEventListener("click", () => copy(at("code-text")));
 for (const id of ["language", "season"]) at(id).addEventListener("change", showCode);
 for (const id of ["type", "units"]) {
   at(id).addEventListener("change", () => {
@@ -780,6 +734,9 @@ try {
 } catch { /* a browser that keeps nothing */ }
 setTheme(kept);
 guarded("logs", async () => {
+  view = await askView();
+  document.body.classList.toggle("raw", view.raw);
+  showSignals(view.raw);
   const named = await listLogs();
   await Promise.all(named.map((one) => guarded(one.name, () => begin(one))));
 });

@@ -1,6 +1,8 @@
 // The gains: a slider and a number for each, with the fit's own value and its error marked.
 
 const STEPS = 2000; // of a slider from end to end
+const TINY = 0.0001; // smaller errors are told as smaller than that
+const MOST_DECIMALS = 9;
 const DIGITS = 5; // of a gain that is shown; of a small one fewer, so that it has room
 
 /** Rows of sliders in a form; calls back with {kS: 0.2, …} whenever a gain is moved. */
@@ -43,7 +45,7 @@ export class Sliders {
     const means = element("p", "means", gain.means);
     means.id = `${id}-means`;
     means.title = gain.means;
-    const error = element("span", "error", `± ${gain.error_text}`);
+    const error = element("span", "error", `± ${errorText(gain)}`);
     error.title = "one standard error";
     const share = (one) => Math.min(Math.max((one - low) / (high - low), 0), 1);
     slider.style.setProperty("--fit", share(gain.value));
@@ -52,8 +54,8 @@ export class Sliders {
       row.value = to;
       slider.value = to;
       slider.style.setProperty("--at", share(to));
-      if (!typed) number.value = short(to);
-      slider.setAttribute("aria-valuetext", `${short(to)} ${gain.unit}`);
+      if (!typed) number.value = rounded(to, gain.error);
+      slider.setAttribute("aria-valuetext", `${rounded(to, gain.error)} ${gain.unit}`);
       place.classList.toggle("moved", to !== gain.value);
     };
     slider.addEventListener("input", () => { put(Number(slider.value)); this.onMove(this.values); });
@@ -64,7 +66,7 @@ export class Sliders {
       number.toggleAttribute("aria-invalid", !fine);
       if (fine) { put(typed, { typed: true }); this.onMove(this.values); }
     });
-    number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); number.value = short(row.value); });
+    number.addEventListener("blur", () => { number.removeAttribute("aria-invalid"); number.value = rounded(row.value, gain.error); });
     row.put = put;
     place.className = "gain";
     put(value);
@@ -94,9 +96,17 @@ function endsOf({ name, value }) {
   return value > 0 ? [0.02 * value, 2 * value] : [2 * value, Math.max(-0.5 * value, 0.1)];
 }
 
-function short(value) {
+/** A gain with as many digits as its error leaves, and no more than have room. */
+function rounded(value, error) {
   const digits = Math.abs(value) < 0.01 ? DIGITS - 2 : DIGITS;
-  return String(Number(value.toPrecision(digits))).replace("-", "−");
+  const kept = error > 0 ? Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), MOST_DECIMALS) : MOST_DECIMALS;
+  return String(Number(Number(value.toPrecision(digits)).toFixed(kept))).replace("-", "−");
+}
+
+/** A standard error in two digits; a tiny one only as tiny. */
+function errorText({ error, error_text: words }) {
+  if (error === null) return words;
+  return error < TINY ? `< ${TINY}` : String(Number(error.toPrecision(2)));
 }
 
 function element(tag, kind, text) {

@@ -26,11 +26,16 @@ export class Timeline {
   sampleAt(place) {
     let run = 0;
     while (run + 1 < this.runs.length && middleOfGap(this, run) < place) run++;
+    return { run, sample: this.sampleIn(run, place) };
+  }
+
+  /** The sample of a run nearest to a place. */
+  sampleIn(run, place) {
     const { time } = this.runs[run];
     const when = place - this.offsets[run] + time[0];
     const after = Math.min(firstNotBefore(time, when), time.length - 1);
     const before = Math.max(after - 1, 0);
-    return { run, sample: when - time[before] < time[after] - when ? before : after };
+    return when - time[before] < time[after] - when ? before : after;
   }
 
   /** The first and last place of a run. */

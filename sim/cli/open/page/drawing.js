@@ -1,0 +1,25 @@
+// Small things of drawing that the chart and its panels share.
+
+export function line(to, x, y, toX, toY) {
+  to.beginPath();
+  to.moveTo(x, y);
+  to.lineTo(toX, toY);
+  to.stroke();
+}
+
+/** The lowest and the highest number of several arrays. */
+export function rangeOf(arrays) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const values of arrays) {
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return low <= high ? [low, high] : [-1, 1];
+}
+
+/** A tick's number without noise of the arithmetic, with a true minus. */
+export function short(value) {
+  return String(Number(value.toPrecision(6))).replace("-", "−");
+}

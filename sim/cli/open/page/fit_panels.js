@@ -1,0 +1,81 @@
+// The view of a fit: velocity measured and simulated, what is left between both, and the voltage.
+
+import { drawGrid } from "./frame.js";
+
+export const FIT_PANELS = [
+  { name: "velocity", share: 0.58 },
+  { name: "error", share: 0.17 },
+  { name: "voltage", share: 0.25 },
+];
+
+/** Draw what moves with a gain: the simulated curve, and what is left between it and the measured. */
+export function drawFit(chart, to) {
+  drawGrid(chart, to, "error");
+  const [y, height] = [chart.heights("velocity"), chart.heights("error")];
+  chart.clip(to, () => {
+    if (chart.noise) {
+      to.fillStyle = chart.colors.band;
+      to.fillRect(chart.left, height(2 * chart.noise), chart.right - chart.left, height(-2 * chart.noise) - height(2 * chart.noise));
+    }
+    for (const [k, one] of chart.simulated.entries()) {
+      if (!one) continue;
+      const left = one.velocity.map((value, i) => chart.runs[k].velocity[one.first + i] - value);
+      chart.curve(to, k, one.first, left, height, { color: chart.colors.simulated, width: 1.2, alpha: 0.9 });
+      chart.clip(to, () => {
+        chart.curve(to, k, one.first, one.velocity, y, { color: chart.colors.simulated, width: 1.8 });
+      }, "velocity");
+    }
+  });
+}
+
+/** How far the error's panel reaches, in round steps so that it does not tremble. */
+export function errorRange(chart) {
+  let most = 6 * (chart.noise ?? 0);
+  for (const [k, one] of chart.simulated.entries()) {
+    if (!one) continue;
+    const { velocity } = chart.runs[k];
+    for (let i = 0; i < one.velocity.length; i++) {
+      const left = Math.abs(velocity[one.first + i] - one.velocity[i]);
+      if (left > most) most = left;
+    }
+  }
+  most = Math.min(most, chart.ranges.velocity[1] - chart.ranges.velocity[0]) || 1;
+  const power = 10 ** Math.floor(Math.log10(most));
+  const round = [1, 1.5, 2, 3, 5, 7, 10].map((one) => one * power).find((one) => one >= most);
+  return [-round, round];
+}
+
+export function drawMeasured(chart, to, run) {
+  const { measured, volts } = chart.colors;
+  const { velocity, voltage } = chart.runs[run];
+  const y = chart.heights("velocity");
+  chart.curve(to, run, 0, velocity, y, { color: measured, width: 5, alpha: 0.42, dots: true });
+  chart.curve(to, run, 0, voltage, chart.heights("voltage"), { color: volts, width: 1.5, steps: true });
+}
+
+export function drawOther(chart, to, { color, run, time, velocity }) {
+  const y = chart.heights("velocity");
+  to.strokeStyle = color;
+  to.lineWidth = 1.3;
+  to.globalAlpha = 0.75;
+  to.beginPath();
+  const stride = Math.max(1, Math.floor(time.length / 4000));
+  const [begins, end] = chart.timeline.spanOf(run); // a longer run of another log ends with ours
+  for (let k = 0; k < time.length && begins + time[k] - time[0] <= end; k += stride) {
+    to.lineTo(chart.xOf(begins + time[k] - time[0]), y(velocity[k]));
+  }
+  to.stroke();
+  to.globalAlpha = 1;
+}
+
+/** Height and color of each value at the cursor. */
+export function fitMarks(chart, { run, sample }) {
+  const [y, height] = [chart.heights("velocity"), chart.heights("error")];
+  const { velocity, voltage } = chart.runs[run];
+  const { measured, simulated, volts } = chart.colors;
+  const one = chart.simulated[run];
+  const guess = one && sample >= one.first ? one.velocity[sample - one.first] : null;
+  const marks = [[y(velocity[sample]), measured], [chart.heights("voltage")(voltage[sample]), volts]];
+  if (guess !== null) marks.push([y(guess), simulated], [height(velocity[sample] - guess), simulated]);
+  return marks;
+}

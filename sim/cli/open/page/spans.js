@@ -1,0 +1,23 @@
+// The spans that a person marks in a log, written as an exercise asks for them.
+
+const FINEST = 100; // steps of a second in which times are written
+
+/** The text to paste: of every span its test, and its seconds since the test began. */
+export function writeSpans({ before, span, between, after }, { name, runs }, spans) {
+  const log = name.replace(/\.[^.]*$/, "");
+  const fill = (pattern, words) => pattern.replace(/\{(\w+)\}/g, (whole, key) => words[key] ?? whole);
+  const parts = [...spans.keys()].sort((a, b) => a - b).map((run) => {
+    const { test } = runs[run];
+    const [begin, end] = secondsOf(runs[run], spans.get(run));
+    return fill(span, { log, test, key: test.replaceAll("-", "_"), begin, end });
+  });
+  return parts.length ? fill(before, { log }) + parts.join(between) + after : "";
+}
+
+/** From and to in seconds since the test began, rounded outward so that both samples are in it. */
+function secondsOf({ time }, [first, last]) {
+  const since = (sample) => FINEST * (time[sample] - time[0]);
+  const begin = Math.floor(since(first) + 0.01) / FINEST;
+  const end = Math.ceil(since(last) - 0.01) / FINEST;
+  return [begin.toFixed(2), end.toFixed(2)];
+}

@@ -1,0 +1,193 @@
+"""REVLOG: what REV's StatusLogger writes, the periodic CAN frames of SPARK motor controllers.
+
+A file is a row of records: a byte with the lengths of the next two numbers, the record's kind, the
+length of its payload, the payload. A payload of periodic frames has 16 bytes for each: time [ms],
+CAN id, data. Sources: github.com/REVrobotics/node-revlog-converter (records) and
+github.com/REVrobotics/can-specs (frames ``STATUS_0`` and ``STATUS_2``, version 2.0.2).
+
+The format names no tests, so a file is one test, and its name says which.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from sim.core.doubt import Doubt
+from sim.core.errors import UnreadableFile
+from sim.core.log import Log
+from sim.io.entries import assemble_log, assemble_motor_logs
+from sim.io.entries.entry import ValuesEntry
+from sim.io.format import ReadOptions
+
+SUFFIXES = (".revlog",)
+FIRMWARE, PERIODIC = 1, 2  # kinds of records
+SIZES = {FIRMWARE: 10, PERIODIC: 16}  # [bytes] of one frame in a payload
+REV, SPARK = 5, 2  # manufacturer and kind of device in a CAN id
+DEVICES = (SPARK, 7, 12)  # kinds of devices that REV logs: SPARK, encoder, servo hub
+STATUS_CLASS = 46  # API class of the periodic frames of a SPARK
+STATUS_0, STATUS_2 = 0, 2  # API indices: voltage and current; the motor's own encoder
+DUTY_STEP, VOLT_STEP, AMPERE_STEP = 3.082369457075716e-5, 7.3260073260073e-3, 3.66300366300366e-2
+FRAME = np.dtype([("time", "<u4"), ("id", "<u4"), ("data", "<u8")])
+LOW_12 = np.uint64(0xFFF)
+
+
+class _Frames(NamedTuple):
+    """The periodic frames of a file, and what is left behind the last whole record [bytes]."""
+
+    frames: NDArray[np.void]
+    unread: int
+
+
+def recognizes(head: bytes) -> bool:
+    """Whether a file starts with a record whose first frame is of a device of REV's."""
+    try:
+        kind, payload, _ = next(_follow_records(head, whole=False))
+    except StopIteration:
+        return False
+    at = {FIRMWARE: 0, PERIODIC: 4}.get(kind)
+    if at is None or len(payload) < at + 4:
+        return False
+    number = int.from_bytes(payload[at : at + 4], "little")
+    return number >> 29 == 0 and number >> 16 & 0xFF == REV and number >> 24 & 0x1F in DEVICES
+
+
+def entries(path: Path) -> list[ValuesEntry]:
+    """The signals of all SPARKs of a file.
+
+    Raises:
+        UnreadableFile: it holds no periodic frame.
+    """
+    return _make_entries(_load(path).frames, default_units=True)
+
+
+def read(path: Path, asked: ReadOptions) -> Log:
+    """Read the one test that a file holds; its name says which.
+
+    Args:
+        path: the file.
+        asked: what its reader knows: units, motor, and the names of entries.
+
+    Raises:
+        Refusal: it holds no periodic frame, or its name no test; as ``assemble_log`` otherwise.
+    """
+    found = _load(path)
+    made = _make_entries(found.frames, default_units=asked.units is None)
+    log, _ = assemble_log(made, asked=asked, where=str(path))
+    return log.add_doubts(*_doubts(found, asked, path))
+
+
+def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+    """Read the one test that a file holds, a log for each motor.
+
+    Args:
+        path: the file.
+        asked: what its reader knows: units, motor, and the names of entries.
+
+    Raises:
+        Refusal: as ``read``.
+    """
+    found = _load(path)
+    made = _make_entries(found.frames, default_units=asked.units is None)
+    logs, _ = assemble_motor_logs(made, asked=asked, where=str(path))
+    return {name: log.add_doubts(*_doubts(found, asked, path)) for name, log in logs.items()}
+
+
+def _follow_records(content: bytes, *, whole: bool = True) -> Iterator[tuple[int, bytes, int]]:
+    """Kind, payload and end of each record; without ``whole`` the last payload may be cut off."""
+    at = 0
+    while at < len(content) and content[at] < 16:  # the upper four bits have no meaning yet  # noqa: PLR2004 - 2**4
+        lengths = (content[at] & 3) + 1, (content[at] >> 2 & 3) + 1
+        begin = at + 1 + sum(lengths)
+        if begin > len(content):
+            return
+        kind = int.from_bytes(content[at + 1 : at + 1 + lengths[0]], "little")
+        end = begin + int.from_bytes(content[at + 1 + lengths[0] : begin], "little")
+        if whole and end > len(content):
+            return
+        yield kind, content[begin:end], end
+        at = end
+
+
+def _load(path: Path) -> _Frames:
+    """The periodic frames of a file.
+
+    Raises:
+        UnreadableFile: there are none.
+    """
+    content = path.read_bytes()
+    pieces, end = [], 0
+    for kind, payload, after in _follow_records(content):
+        end = after
+        if kind == PERIODIC:
+            pieces.append(payload[: len(payload) // FRAME.itemsize * FRAME.itemsize])
+    frames = np.frombuffer(b"".join(pieces), dtype=FRAME)
+    if not frames.size:
+        raise UnreadableFile(
+            "no periodic frame of a SPARK is in it",
+            where=str(path),
+            advice="Copy it from the robot again, or open it with REV's revlog-converter to see "
+            "what it holds.",
+        )
+    return _Frames(frames, len(content) - end)
+
+
+def _make_entries(frames: NDArray[np.void], *, default_units: bool) -> list[ValuesEntry]:
+    """Voltage, current, position and velocity of each SPARK.
+
+    Args:
+        frames: of all devices.
+        default_units: whether they are in rotations and RPM, as without conversion factors.
+    """
+    number = frames["id"]
+    ours = (number >> 16 & 0xFF == REV) & (number >> 24 & 0x1F == SPARK)
+    ours &= number >> 10 & 0x3F == STATUS_CLASS
+    made: list[ValuesEntry] = []
+    for device in np.unique(number[ours] & 0x3F).tolist():
+        own = frames[ours & (number & 0x3F == device)]
+        own = own[np.argsort(own["time"], kind="stable")]
+        index = own["id"] >> 6 & 0xF
+        made += _decode(
+            device, own[index == STATUS_0], own[index == STATUS_2], default_units=default_units
+        )
+    return made
+
+
+def _decode(
+    device: int, general: NDArray[np.void], motion: NDArray[np.void], *, default_units: bool
+) -> Iterator[ValuesEntry]:
+    """The signals in the frames ``STATUS_0`` and ``STATUS_2`` of a SPARK."""
+
+    def entry(name: str, metadata: str, of: NDArray[np.void], values: ArrayLike) -> ValuesEntry:
+        time = of["time"].astype(np.int64) * 1000
+        numbers = np.asarray(values, dtype=np.float64)
+        return ValuesEntry(f"REV/Spark-{device}/{name}", "double", metadata, time, numbers)
+
+    data = general["data"]
+    duty = (data & np.uint64(0xFFFF)).astype(np.uint16).view(np.int16) * DUTY_STEP
+    yield entry("APPLIED_OUTPUT", "", general, duty)
+    yield entry("VOLTAGE", "V", general, (data >> np.uint64(16) & LOW_12) * VOLT_STEP)
+    yield entry("CURRENT", "A", general, (data >> np.uint64(28) & LOW_12) * AMPERE_STEP)
+    floats = motion["data"].copy().view("<f4").reshape(-1, 2)
+    units = ("rpm", "rotations") if default_units else ("", "")
+    yield entry("PRIMARY_ENCODER_VELOCITY", units[0], motion, floats[:, 0])
+    yield entry("PRIMARY_ENCODER_POSITION", units[1], motion, floats[:, 1])
+
+
+def _doubts(found: _Frames, asked: ReadOptions, path: Path) -> Iterator[Doubt]:
+    """What the format leaves open, and what was not read."""
+    if asked.units is None:
+        yield Doubt(
+            "conversion-factor",
+            f"{path}: REV's log does not contain its units, so rotations and RPM were assumed. If "
+            "your program sets conversion factors, say --units: the velocity is then in that unit "
+            "per second.",
+        )
+    if found.unread:
+        yield Doubt(
+            "truncated",
+            f"{path}: the file ends too soon: its last {found.unread} bytes are no whole record "
+            "and were left out. Copy the file from the robot again.",
+        )

@@ -1,0 +1,150 @@
+"""CTRE's `.hoot`: converted by owlet where it is installed, refused in one line where it is not."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from open_page import drive_log, write_log
+
+from sim.core.errors import UnreadableFile
+from sim.io import list_entries, read, read_motors
+
+ADVICE = "Phoenix Tuner X"
+HOOT = b"can_s0".ljust(70, b"\x00") + b"\x13" + bytes(range(200))
+
+
+@pytest.fixture
+def hoot(tmp_path):
+    """A log of CTRE's; only owlet can know what is in it."""
+    path = tmp_path / "a match.hoot"
+    path.write_bytes(HOOT)
+    return path
+
+
+def make_owlet(folder, *, body):
+    """A program that stands for owlet; it is called as AdvantageScope calls it."""
+    script = folder / "owlet.py"
+    script.write_text(
+        "import shutil, sys\n"
+        "source, target, flag, kind = sys.argv[1:]\n"
+        "assert (flag, kind) == ('-f', 'wpilog')\n"
+        "assert open(source, 'rb').read(6) == b'can_s0'\n"
+        f"{body}\n",
+        encoding="utf-8",
+    )
+    if os.name == "nt":
+        program = folder / "owlet.bat"
+        program.write_text(f'@"{sys.executable}" "{script}" %*\n', encoding="utf-8")
+    else:
+        program = folder / "owlet"
+        program.write_text(
+            f'#!/bin/sh\nexec "{sys.executable}" "{script}" "$@"\n', encoding="utf-8"
+        )
+        program.chmod(0o755)
+    return program
+
+
+@pytest.fixture
+def owlet(tmp_path, monkeypatch):
+    """Makes owlet, found by its variable."""
+
+    def make(body):
+        folder = tmp_path / "tools"
+        folder.mkdir(exist_ok=True)
+        program = make_owlet(folder, body=body)
+        monkeypatch.setenv("SYSID_OWLET", str(program))
+        return program
+
+    return make
+
+
+def copies(path):
+    return f"shutil.copyfile({str(path)!r}, target)"
+
+
+def test_a_hoot_is_read_as_what_owlet_makes_of_it(hoot, owlet, tmp_path):
+    expected = read(write_log(drive_log(), tmp_path / "drive.wpilog"))
+    owlet(copies(tmp_path / "drive.wpilog"))
+    log = read(hoot)
+
+    assert log.source == str(hoot)
+    assert [run.test for run in log.runs] == [run.test for run in expected.runs]
+    for one, other in zip(log.runs, expected.runs, strict=True):
+        np.testing.assert_array_equal(one.velocity, other.velocity)
+    assert len(read_motors(hoot)) == 1
+    assert len(list_entries(hoot)[0].numbers())  # nothing is read later, when its file is gone
+
+
+def test_owlet_is_found_on_path(hoot, owlet, tmp_path, monkeypatch):
+    write_log(drive_log(), tmp_path / "drive.wpilog")
+    program = owlet(copies(tmp_path / "drive.wpilog"))
+    monkeypatch.delenv("SYSID_OWLET")
+    monkeypatch.setenv("PATH", f"{program.parent}{os.pathsep}{os.environ['PATH']}")
+
+    assert len(read(hoot).runs) == 4
+
+
+def test_without_owlet_it_is_said_how_to_get_the_log_read(hoot, monkeypatch, tmp_path):
+    monkeypatch.delenv("SYSID_OWLET", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(UnreadableFile, match="owlet, which is not installed") as refused:
+        read(hoot)
+
+    assert ADVICE in refused.value.advice
+    assert "SYSID_OWLET" in refused.value.advice
+    assert "\n" not in str(refused.value)
+
+
+def test_a_wrong_variable_is_named(hoot, monkeypatch):
+    monkeypatch.setenv("SYSID_OWLET", "no-such-owlet")
+
+    with pytest.raises(UnreadableFile, match="no program no-such-owlet, which SYSID_OWLET names"):
+        read(hoot)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("print('compliancy 19 is newer', file=sys.stderr); sys.exit(3)", "compliancy 19 is newer"),
+        ("pass", "cannot convert it"),
+    ],
+)
+def test_what_owlet_cannot_convert_is_refused_in_its_words(hoot, owlet, body, said):
+    owlet(body)
+    with pytest.raises(UnreadableFile, match="CTRE's owlet cannot convert it") as refused:
+        read(hoot)
+
+    assert said in refused.value.what
+    assert ADVICE in refused.value.advice
+
+
+def test_a_broken_conversion_is_refused_by_the_name_of_the_log(hoot, owlet):
+    owlet("open(target, 'wb').write(b'WPILOG')")
+    with pytest.raises(UnreadableFile) as refused:
+        read(hoot)
+
+    assert refused.value.where.startswith(str(hoot))
+    assert "sysid-hoot" not in str(refused.value)
+
+
+def test_nothing_of_the_conversion_is_left_behind(hoot, owlet, tmp_path, monkeypatch):
+    write_log(drive_log(), tmp_path / "drive.wpilog")
+    owlet(copies(tmp_path / "drive.wpilog"))
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(scratch))
+    log = read(hoot)
+
+    assert list(scratch.iterdir()) == []
+    assert not any(str(scratch) in doubt.message for doubt in log.doubts)
+    assert not Path(hoot.with_suffix(".wpilog")).exists()
+
+
+def test_a_wpilog_that_is_only_named_hoot_needs_no_owlet(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    shutil.move(write_log(drive_log(), tmp_path / "drive.wpilog"), tmp_path / "drive.hoot")
+
+    assert len(read(tmp_path / "drive.hoot").runs) == 4
