@@ -584,7 +584,7 @@ plot_curves(
     LIMITS,
     {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
     xlabel="limit in the model [V that drive the current]",
-    ylabel="gap [noises]",
+    ylabel="gap [times the noise]",
     levels={"the noise": 1.0},
 )
 
@@ -674,7 +674,7 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # %% [markdown]
 # ## 8 Your own robot
 #
-# Run the four tests **twice, with two step voltages**; that separates most effects that look alike.
+# Run the four tests **twice, with two step voltages**. This separates most effects that look alike.
 # Drive some other motion for a third log. Log the **applied** voltage (lesson 4). Then, in a
 # terminal:
 #
@@ -771,7 +771,7 @@ quick
 # step, drag with the speed. The old log cannot decide it.
 # </details>
 #
-# **5.** The gap is 1.05 noises. Are your gains the true ones?
+# **5.** The gap is 1.05 times the noise. Are your gains the true ones?
 #
 # <details><summary>Answer</summary>
 #
@@ -806,8 +806,8 @@ quick
 #
 # **Practice: characterize one mechanism**
 # ([exercises/practice/README.md](../exercises/practice/README.md), `grade practice`). Do everything
-# once, from the first line of code to the final gains. Best use your own robot and your own
-# `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
+# once, from the first line of code to the final gains. It is best to use your own robot and your
+# own `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
 # reconcile it.
 #
 # <details><summary>More, if you like</summary>
