@@ -165,7 +165,7 @@ def _about_unit(given: tuple[int, ...]) -> str:
     if (volt, second) == (1, -1) and sum(length) == -1:
         return "mind the parentheses: dividing by (a/b) is not the same as dividing by a, then by b"
     if (volt, second) == (1, 0) and not any(length):
-        return "that belongs to kS, which is multiplied by a bare sign"
+        return "that belongs to kS, which is multiplied by sgn(v), and sgn(v) has no unit"
     return "multiply it by the unit of your velocity: only volts must remain"
 
 

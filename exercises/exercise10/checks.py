@@ -295,7 +295,7 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     if constant is None and given.value is None:
         raise WrongAnswer(f"no constant {gain}", hint="Write it down first.")
     if constant is not None and constant.value is not None and not _right(constant, code.variant):
-        raise WrongAnswer(_at(constant), hint=f"Put the constant {gain} right first.")
+        raise WrongAnswer(_at(constant), hint=f"Correct the constant {gain} first.")
     value = _known(given.value, given.text, one.line)
     if near(value, code.variant.needed(gain)):
         return

@@ -94,7 +94,7 @@ def _told(variant: Variant) -> str:
     stall = 12.0 / motor.resistance
     lines = [
         "# Your own swerve drive for exercise 13. Only read here; answers go into answers.toml.",
-        "# straight.wpilog, turning.wpilog and push.csv lie beside this file.",
+        "# straight.wpilog, turning.wpilog and push.csv are in the same folder as this file.",
         "",
         "[robot]",
         f"mass = {variant.mass:g}  # [kg] with battery and bumpers",
@@ -151,8 +151,8 @@ def worn(answers: Answers) -> None:
 
     def why(found: str) -> tuple[str, str]:
         return (
-            f"a smaller wheel turns more often for the same way. Compare the kV of {found} with "
-            "the other three: fit each with --motor"
+            "a smaller wheel turns more often over the same distance. Compare the kV of "
+            f"{found} with the other three: fit each with --motor"
         ), ""
 
     check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
@@ -177,7 +177,7 @@ def rate_unit(answers: Answers) -> None:
     def why(found: str) -> tuple[str, str]:
         if found == "volts":
             return (
-                "the routine calls it volts because SysId knows nothing else. What does the "
+                "the routine calls it volts because SysId knows only volts. What does the "
                 "program do with the number?"
             ), "M-UNITS"
         return (

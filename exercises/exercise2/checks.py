@@ -45,7 +45,7 @@ def _told(variant: Variant) -> str:
         "",
         f'mechanism = "{variant.kind}"',
         "",
-        "[log]  # what SysId made of the four tests",
+        "[log]  # what SysId found in the four tests",
         f"kV = {variant.measured:g}  # [V·s/{symbol}]",
         f"kS = {variant.friction:g}  # [V]",
         f"typical_speed = {variant.speed:g}  # [{symbol}/s] in a match",

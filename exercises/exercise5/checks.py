@@ -70,7 +70,7 @@ def factories(facts: BindingFacts) -> None:
         )
     if not made and any(not test.read for one in facts.bindings for test in one.tests):
         raise WrongAnswer(
-            f"I cannot see the methods that {facts.bindings[0].text} calls",
+            f"the grader cannot see the methods that {facts.bindings[0].text} calls",
             hint=(
                 "Put the subsystem's file into the same folder, or its class into this file, "
                 "and grade again."

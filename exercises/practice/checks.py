@@ -282,8 +282,8 @@ def _check_same_motion(measured: Measured, facts: "RoutineFacts") -> None:
         found, held = ("turns", "meters") if expected == "linear" else ("meters", "turns")
         raise WrongAnswer(
             f"your code records {found}, and your log has {held}",
-            hint="They are two mechanisms. Use the code of the mechanism that recorded the log: "
-            "then its unit is also the unit of your gains and of your feedforward.",
+            hint="They are two different mechanisms. Use the code of the mechanism that recorded "
+            "the log: then its unit is also the unit of your gains and of your feedforward.",
             misconception="M-UNITS",
             earned=1.0,
         )
