@@ -122,7 +122,7 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
 def _require_finite(value: float, asked: AskedNumber) -> float:
     if not -LARGEST < value < LARGEST:
         raise WrongAnswer(
-            f"{'nan' if value != value else 'a number without end'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
+            f"{'nan' if value != value else 'infinity'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
             hint=f"{asked.name} came out of a division by zero, or of an empty column. Look at "
             "the data you fitted.",
         )

@@ -199,7 +199,7 @@ def test_a_picture_that_cannot_be_is_said(course, capsys):
 
     write(course["exercise9"], **(right | {"kV": 1.0}))
     assert run_command(["9", "--picture", "what.doc"]) == 2
-    assert "no picture ends in '.doc'" in capsys.readouterr().err
+    assert "a picture cannot end in '.doc'" in capsys.readouterr().err
     assert run_command(["--picture", "what.svg"]) == 2
     assert "Say which: grade exercise4 --picture what.svg" in capsys.readouterr().err
 

@@ -125,7 +125,7 @@ def test_impossible_damage_is_one_line_with_advice(drive, name, how, said):
 
 
 def test_an_elevator_has_no_wheels(elevator):
-    with pytest.raises(BadRequest, match="cannot strike a mechanism of type elevator"):
+    with pytest.raises(BadRequest, match="cannot happen to a mechanism of type elevator"):
         contaminate(elevator, "wheel-slip", rng=rng())
 
 

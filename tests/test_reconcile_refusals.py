@@ -84,7 +84,7 @@ ALONE = {
         changed(LOG, voltage=lambda one: -one.voltage),
         (
             "drive.csv: a positive voltage drives it backward. Invert the encoder or the motor, so "
-            "that plus is plus, and record again."
+            "that a positive voltage gives a positive velocity, and record again."
         ),
     ),
 }
@@ -148,7 +148,11 @@ def test_a_log_of_something_else_is_refused_beside_a_good_one(role, name):
     ("type_", "travel", "said"),
     [
         ("arm", None, "an arm's position must be an angle, and this log is in meters. Say --units"),
-        ("simple", 0.5, "and the travel is 0.5. Give the way from stop to stop, in the log's un"),
+        (
+            "simple",
+            0.5,
+            "and the travel is 0.5. Give the distance from stop to stop, in the log's un",
+        ),
         ("simple", -1.0, "and the travel is -1. Give the way"),
         ("simple", float("nan"), "and the travel is nan. Give the way"),
     ],

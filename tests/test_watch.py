@@ -254,7 +254,7 @@ def test_a_test_without_samples_is_repeated():
     log = replace(drive_log(), runs=drive_log().runs[:1])
 
     assert advise(log, last="dynamic-forward") == (
-        "Repeat dynamic-forward: its log holds no motion."
+        "Repeat dynamic-forward: its log contains no motion."
     )
 
 

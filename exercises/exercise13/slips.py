@@ -33,9 +33,11 @@ def _of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Rows]
     turning = asked["kA_turning"]
     return {
         "worn_radius": (
-            (variant.radius, (
-                "this is the radius in the code. Compute it from the turns of the motor instead"
-            ), ""),
+            (
+                variant.radius,
+                ("this is the radius in the code. Compute it from the turns of the motor instead"),
+                "",
+            ),
             (2.0 * asked["worn_radius"], "is this a diameter? Half of it is the radius", UNITS),
             (
                 asked["worn_radius"] / variant.ratio,

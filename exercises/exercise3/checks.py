@@ -53,7 +53,7 @@ just_does_not_fall = {variant.elevator.lower:.2f}  # [V] with a little less, it 
 just_begins_to_rise = {variant.elevator.upper:.2f}  # [V] with a little more, it rises
 
 [arm]
-# A negative voltage pushes the arm down. The reading is the encoder's, and the encoder has an offset.
+# A negative voltage pushes the arm down. The reading is the encoder's; it has an offset.
 # reading [deg], just does not fall [V], just begins to rise [V]
 hold = [
 {rows}]

@@ -20,8 +20,10 @@ ACCEPTED = {  # fault -> what helps
 }
 
 LOOKS = {  # fault -> how it would look, if it were there
-    "encoder-slip": "the velocity jumps by a share of its value within one sample and jumps back; no mass can "
-    "do that",
+    "encoder-slip": (
+        "the velocity jumps by a share of its value within one sample and jumps back; "
+        "no mass can do that"
+    ),
     "brownout": "the velocity falls gradually, as with the motor off, and rises again "
     "gradually, while the voltage stays as it was",
     "hard-stop": "the velocity drops to zero within a few samples and stays there, the position"

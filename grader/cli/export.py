@@ -77,9 +77,9 @@ def gradescope(
 def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret: bool) -> None:
     if with_secret:
         print_error(
-            f"{output} holds your class's secret. Code of students runs in Gradescope's container; "
-            "where that cannot be shut in (the autograder's output says so), it can read the "
-            "secret, and then anybody's numbers. Upload it nowhere else"
+            f"{output} holds your class's secret. Code of students runs in Gradescope's "
+            "container; if it cannot be isolated there (the autograder's output says so), it "
+            "can read the secret, and then anybody's numbers. Upload it nowhere else"
         )
     elif any(one.is_personal for one in asked):
         print_error(

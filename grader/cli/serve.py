@@ -18,10 +18,16 @@ EVERYWHERE = "0.0.0.0"  # noqa: S104 - a class's browsers are on other machines;
 @click.command()
 @click.argument("folder", type=PATH)
 @click.option("--roster", type=PATH, required=True, help="CSV file with a column student.")
-@click.option("--packages", type=PATH, help="Folder that grade release made: each gets theirs.")
+@click.option(
+    "--packages",
+    type=PATH,
+    help="Folder that grade release made: each student gets their package.",
+)
 @click.option("--host", default=EVERYWHERE, show_default=True, help="Address to listen on.")
-@click.option("--port", default=8000, show_default=True, help="Of the page where one comes in.")
-@click.option("--unprotected", is_flag=True, help="Serve though students can read each other.")
+@click.option("--port", default=8000, show_default=True, help="Port of the login page.")
+@click.option(
+    "--unprotected", is_flag=True, help="Serve even if students can read each other's files."
+)
 def serve(
     folder: Path, roster: Path, packages: Path | None, host: str, port: int, *, unprotected: bool
 ) -> int:
@@ -67,10 +73,9 @@ def serve(
     def ready(taken: int) -> None:
         address = _find_own_address() if host == EVERYWHERE else host
         print_lines([
-            style_line(f"The door: http://{address}:{taken}", "bold"),
+            style_line(f"Login page: http://{address}:{taken}", "bold"),
             style_line(f"Names and codes of {len(students)} students: {folder / 'codes.csv'}"),
-            style_line("Everybody on this network can reach the door; "
-                "Ctrl-C closes it, work is kept."),
+            style_line("Everybody on this network can open it. Ctrl-C ends it; all work is kept."),
         ])  # fmt: skip
 
     try:
@@ -78,7 +83,7 @@ def serve(
     except KeyboardInterrupt:
         return DONE
     except OSError as error:
-        print_error(f"port {port} cannot be had ({error.strerror}). Name another with --port.")
+        print_error(f"port {port} cannot be used ({error.strerror}). Name another with --port.")
         return COULD_NOT
     return DONE
 

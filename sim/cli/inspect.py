@@ -78,7 +78,7 @@ def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
     ordered = sorted(doubts, key=lambda doubt: not doubt.grave)
     shown = []
     for doubt in ordered:
-        text = click.wrap_text(f"look: {doubt.message}", width=WIDTH, subsequent_indent="      ")
+        text = click.wrap_text(f"warning: {doubt.message}", width=WIDTH, subsequent_indent=" " * 9)
         lines = text.splitlines()
         if len(lines) + 1 <= room:
             shown += lines

@@ -32,14 +32,14 @@ def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--travel",
             type=float,
-            help=("Distance from stop to stop, in the log's units, if known."),
+            help="Distance from stop to stop, in the log's units, if known.",
         ),
         click.option(
             "--time-limit",
             type=click.FloatRange(min=0.0, min_open=True),
             metavar="SECONDS",
-            help="Processor time after which the best model so far is taken: 20, none without "
-            "Numba.",
+            help="Processor time after which the search stops with the best model so far. "
+            "[default: 20; without Numba, no limit]",
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
     )

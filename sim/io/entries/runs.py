@@ -214,8 +214,9 @@ def _doubt_sparse_signals(
     elif any(find_sparse_signals(parts)):
         yield Doubt(
             "uneven-rates",
-            f"{where}: the signals were logged at different rates ({many} samples). As in SysId, "
-            "the voltage's times count and straight lines fill the rest. Log all in every loop.",
+            f"{where}: the signals were logged at different rates ({many} samples). As in "
+            "SysId, the other signals were interpolated to the times of the voltage. Log "
+            "every signal in every loop.",
         )
 
 

@@ -57,8 +57,13 @@ EFFECT = Effect(
     ),
     inspect="Belts, chains and long shafts: push the load with the motor held and watch it spring.",
     apart={
-        "backlash": "Turn at two sizes of step, logged at 5 ms: a spring gives more, play stays.",
-        "cogging": "Run at another speed: a vibration keeps its times, cogging its places.",
+        "backlash": (
+            "Change direction with two sizes of step, logged at 5 ms: a spring bends further, "
+            "free play stays the same."
+        ),
+        "cogging": (
+            "Run at another speed: a vibration keeps its frequency, cogging keeps its positions."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -45,8 +45,10 @@ EFFECT = Effect(
     fingerprint="The velocity is the slope of the position times a constant, in every run.",
     inspect="Conversion factors of position and of velocity: gear ratio, wheel, minutes.",
     apart={
-        "asymmetric-back-emf": "Compare velocity and slope of the position: only a scale parts "
-        "them.",
+        "asymmetric-back-emf": (
+            "Compare velocity and slope of the position: only this effect makes them differ by a "
+            "constant factor."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,
