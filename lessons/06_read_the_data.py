@@ -198,7 +198,7 @@ guess_late = Prediction(
     "A velocity filter makes the velocity late. Which plot shows it best?",
     "voltage over velocity",
     "the time steps",
-    "the velocity beside the slope of the position",
+    "the velocity next to the slope of the position",
 )
 guess_gap = Prediction(
     "A few samples are missing. Which gain gets the largest error?",
@@ -394,7 +394,7 @@ for share, longest in ((0.0, 0.05), (0.05, 0.1), (0.2, 0.1), (0.2, 0.3)):
     name = f"{100 * share:.0f} % of the loops, up to {1000 * longest:.0f} ms" if share else "none"
     rows.append((name, float(np.mean(kv)), float(np.mean(ka)), float(ka.min()), float(ka.max())))
 
-print(guess_late.reveal("the velocity beside the slope of the position"))
+print(guess_late.reveal("the velocity next to the slope of the position"))
 print(guess_gap.reveal("kA"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 

@@ -210,8 +210,8 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 # ### Which lever?
 #
 # PathPlanner's and Choreo's pages give the formula with *half the trackwidth*. That is right for a
-# tank: its wheels push straight forward, T/2 beside the middle. The modules of a square swerve push
-# across the diagonal.
+# tank: its wheels push straight forward, T/2 away from the middle. The modules of a square swerve
+# push across the diagonal.
 #
 # Our robot really has 5.0 kg·m². **Predict:**
 

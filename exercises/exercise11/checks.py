@@ -104,7 +104,7 @@ kc1_reason = _question("KC1_reason", "KC1: what that does to the gains.", points
 
 @check(points=SINGLE)
 def kc2_volts(answers: Answers) -> str | None:
-    """KC2: the voltage that the feedforward asks for."""
+    """KC2: the voltage that the feedforward gives."""
     asked, raw = answers.variant.volts, answers.given.get("kc2_volts")
     value = read_answer_number(raw, asked)
     if not asked.right(value):

@@ -242,7 +242,7 @@ def _check_near(value: float, expected: float, bounds: tuple[float, float]) -> N
 
 @check(points=2)
 def justified(answers: Answers) -> None:
-    """Each effect earns its place on the validation, and no parameter is at a bound."""
+    """Each effect makes the gap of the validation smaller, and no parameter is at its limit."""
     try:
         parts = answers.parts
     except WrongAnswer:

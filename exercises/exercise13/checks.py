@@ -108,7 +108,7 @@ def _told(variant: Variant) -> str:
         "[spin]  # slowly, on the spot",
         f"gyro = {math.degrees(spin.turned):.1f}  # [deg] the robot turned",
         "",
-        "[spin.motor_turns]  # [rot] of each drive motor meanwhile",
+        "[spin.motor_turns]  # [rot] of each drive motor during the spin",
         *(f"{module} = {turns:.2f}" for module, turns in spin.motor_turns.items()),
     ]
     return "\n".join(lines) + "\n"
@@ -135,13 +135,13 @@ def ks(answers: Answers) -> str | None:
 
 @check(points=1)
 def kv(answers: Answers) -> str | None:
-    """The kV of going straight, volts for each meter per second."""
+    """The kV of going straight, in V·s/m."""
     return judge_number("kV", answers.given, answers.key, points=1)
 
 
 @check(points=1)
 def ka(answers: Answers) -> str | None:
-    """The kA of going straight, volts for each meter per second, gained in a second."""
+    """The kA of going straight, in V·s²/m."""
     return judge_number("kA", answers.given, answers.key, points=1)
 
 
@@ -191,7 +191,7 @@ def rate_unit(answers: Answers) -> None:
 
 @check(points=2)
 def ka_turning(answers: Answers) -> str | None:
-    """The kA of turning on the spot, volts for each radian per second, gained in a second."""
+    """The kA of turning on the spot, in V·s²/rad."""
     return judge_number("kA_turning", answers.given, answers.key, points=2)
 
 

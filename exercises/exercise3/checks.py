@@ -133,7 +133,7 @@ def arm_class(answers: Answers) -> None:
 
 @check(points=2)
 def arm_offset(answers: Answers) -> str | None:
-    """The arm's offset, which is added to what its encoder reads."""
+    """The arm's offset, which is added to the encoder's reading."""
     raw, asked = answers.given.get("arm_offset"), answers.variant.offset
     value = read_answer_number(raw, asked)
     shown = f"{value:.4g} deg"

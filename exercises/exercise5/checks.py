@@ -97,7 +97,7 @@ def factories(facts: BindingFacts) -> None:
 
 @check(points=3)
 def held(facts: BindingFacts) -> str | None:
-    """Each of the four tests runs while a button of its own is held, and no longer."""
+    """Each of the four tests runs only while its own button is held."""
     bound(facts)
     earned = round(3 * held_share(facts), 2)
     for one in facts.bindings:
@@ -157,7 +157,7 @@ def each_once(facts: BindingFacts) -> None:
 
 @check(points=2)
 def comments(facts: BindingFacts) -> None:
-    """A comment beside each binding says which test it is and what that measures."""
+    """A comment next to each binding says which test it is and what that measures."""
     reached(facts)
     wrong: list[WrongAnswer] = []
     for one in facts.bindings:

@@ -106,25 +106,25 @@ def consequence(answers: Answers) -> Consequence | None:
 
 @check(points=POINTS)
 def drivetrain(answers: Answers) -> str:
-    """A plan for the drivetrain that keeps all the rules."""
+    """A plan for the drivetrain that follows all the rules."""
     return _planned("drivetrain", answers)
 
 
 @check(points=POINTS)
 def elevator(answers: Answers) -> str:
-    """A plan for the elevator that keeps all the rules."""
+    """A plan for the elevator that follows all the rules."""
     return _planned("elevator", answers)
 
 
 @check(points=POINTS)
 def turret(answers: Answers) -> str:
-    """A plan for the turret that keeps all the rules."""
+    """A plan for the turret that follows all the rules."""
     return _planned("turret", answers)
 
 
 @check(points=POINTS)
 def shooter(answers: Answers) -> str:
-    """A plan for the shooter that keeps all the rules."""
+    """A plan for the shooter that follows all the rules."""
     return _planned("shooter", answers)
 
 

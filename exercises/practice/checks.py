@@ -223,7 +223,7 @@ def r2(answers: Answers) -> None:
 
 @check(points=1, after=r2)
 def hypothesis(answers: Answers) -> str | None:
-    """What you suspect where R² is below 0.9, and what you would look at first."""
+    """What you suspect if R² is below 0.9, and what you would check first."""
     from sim.inspect.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
 
     if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
@@ -294,7 +294,7 @@ _borrowed(SECOND, "theory", step="theory", leave=("verdict", "inspection", "ks-f
 
 @check(points=2)
 def theory_verdict(answers: Answers) -> None:
-    """What your kV says, held against theory."""
+    """Your kV, compared with theory."""
     variant = answers.theory.variant
     percents = [variant.percent(one) for one in variant.theories]
     right = {TEAM.verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}

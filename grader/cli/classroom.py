@@ -67,10 +67,10 @@ def class_(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Grade what a class handed in: FOLDER holds a folder or zip file for each student.
 
-    In each of them, an answer lies in a folder named as its exercise (exercise4/answers.toml).
+    Inside, each answer is in a folder with the name of its exercise (exercise4/answers.toml).
     Downloads of Canvas, Moodle, Google Classroom and GitHub Classroom can be graded as they are.
-    Writes an overview (index.html), a page for each student, gradebook.csv and what --export asks.
-    What is graded is kept: the same command goes on where it was stopped.
+    Writes an overview (index.html), a page for each student, gradebook.csv and the files of
+    --export. Results are kept: if the command was stopped, run it again to continue.
 
     Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
     """

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
 )
 def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plain: bool) -> int:
-    """Draw a fresh log with a hidden trouble, or grade your ANSWER to it.
+    """Make a new log with a hidden fault or effect, or grade your ANSWER to it.
 
     Each mystery that you solve makes the next one harder.
 

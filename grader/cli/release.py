@@ -41,8 +41,8 @@ def release(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Make the students' package: the course without solutions, keys and secret.
 
-    With a roster, each student also gets numbers and logs of their own, which only the holder of
-    the secret can draw again, and grade: grade class FOLDER --secret FILE.
+    With a roster, each student also gets numbers and logs of their own. Only the owner of the
+    secret can make them again, and grade them: grade class FOLDER --secret FILE.
     """
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 

@@ -33,9 +33,9 @@ def serve(
 ) -> int:
     """Serve the course to browsers on this network: Chromebooks need nothing installed.
 
-    FOLDER holds a home for each student, which stays from day to day, and codes.csv with the code
-    that each comes in with. Everything runs on this machine; two students take about 1 GB. Run by
-    root on Linux or macOS, each student's server has a system user of its own.
+    FOLDER keeps the work of each student from day to day, and codes.csv with the login code of
+    each. Everything runs on this machine; two students take about 1 GB of memory. If root runs it
+    on Linux or macOS, each student has a separate system user.
     """
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - --help must not wait for it
     from grader.course import find_course  # noqa: PLC0415 - the same

@@ -46,9 +46,10 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     check: bool,  # noqa: FBT001 - the same
     example: bool,  # noqa: FBT001 - the same
 ) -> int:
-    """Make many logs, damaged as SPEC says, with a sealed key to them beside the folder.
+    """Make many damaged logs as the file SPEC describes, and a sealed key with the truth.
 
-    A run that was stopped goes on when the same command is run again.
+    The key is next to the folder, never in it. If the command was stopped, run it again to
+    continue.
 
     For example: sysid dataset week3.toml -o week3
     """

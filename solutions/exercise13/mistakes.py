@@ -138,7 +138,7 @@ MISTAKES = (
         ANSWERS,
         scale_numbers(4.0, "slip_current"),
         "slip-current",
-        "of all four motors",
+        "for all four motors together",
     ),
     Mistake(
         "turning for going",
