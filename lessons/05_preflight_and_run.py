@@ -53,8 +53,8 @@
 # > doing and why."
 # >
 # > **Source says:** the source lesson's text names only the first step; the other three were behind
-# > a click that did not reach us. The table is our reading. WPILib's pages go the same way: create
-# > the routine, run it, load the data, view diagnostics, analyze. ([WPILib docs: System
+# > a click that did not reach us. The table is our reading. WPILib's pages use the same order:
+# > create the routine, run it, load the data, view diagnostics, analyze. ([WPILib docs: System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
 # >
 # > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.

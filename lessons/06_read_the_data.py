@@ -775,7 +775,7 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 #
 # Before you fit, check all five:
 #
-# - [ ] **Signs:** plus volts, plus velocity, in all four tests.
+# - [ ] **Signs:** a positive voltage gives a positive velocity, in all four tests.
 # - [ ] **Over time:** you see nothing that a motor cannot do to a mass. The rise bends from the
 #   start.
 # - [ ] **Time steps:** none is longer than 1.5 times the usual one, or you know how many are.

@@ -1016,8 +1016,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # <details><summary>Want to know more? Gains during a match</summary>
 #
 # Gains also change during a match. Copper that is 50 °C warmer has 20 % more resistance, so the
-# same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes
-# no gain of a loop in volts, but it can give only 10 V. kP corrects small changes.
+# same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery
+# changes no gain of a loop whose output is in volts, but then the battery can give only 10 V. kP
+# corrects small changes.
 # </details>
 
 # %% [markdown]

@@ -224,7 +224,7 @@ def test_a_slip_is_named(name, answers, said, misconception):
         (1 / 8.46, "the gear ratio"),
         (8.46, "the gear ratio"),
         (4, "4 motors"),
-        (2, "a diameter and a radius"),
+        (2, "a diameter is 2 times a radius"),
     ],
 )
 def test_a_slip_of_what_goes_along_is_named(factor, said):

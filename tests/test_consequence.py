@@ -183,11 +183,11 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
 
     assert run_command(["9", "--picture", "what.svg"]) == 1
     out, err = capsys.readouterr()
-    assert "then  Your numbers as feedforward, without feedback. Told to do" in out
+    assert "then  Your numbers as feedforward, without feedback. Asked for" in out
     assert "See it: grade exercise9 --picture what.svg" in out
     assert max(map(len, out.splitlines())) <= 80
     assert "what your answer would do: what.svg" in err
-    assert "Told to do" in Path("what.svg").read_text("utf-8")
+    assert "Asked for" in Path("what.svg").read_text("utf-8")
 
 
 def test_a_picture_that_cannot_be_is_said(course, capsys):

@@ -76,7 +76,7 @@ def test_ones_own_gains_are_tried_beside_them(fit, drive):
 
     assert code == 0
     assert "your own position kP 300, kD 0 (no good start): after a step" in said
-    assert "oscillates and does not settle: still by" in said
+    assert "oscillates and does not settle: it still swings by" in said
 
 
 def test_ones_own_gains_are_in_the_json_too(fit, drive):

@@ -203,7 +203,7 @@ def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch,
                "--secret", str(secret)]  # fmt: skip
 
     assert run_command(command) == 0
-    assert "a new secret. Keep it" in capsys.readouterr().err
+    assert "a new secret. Keep this file" in capsys.readouterr().err
     kept, first = secret.read_bytes(), (tmp_path / "out" / "students" / "ann.zip").read_bytes()
     assert run_command(command) == 0
     assert secret.read_bytes() == kept

@@ -189,7 +189,7 @@ def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, 
     [
         ({"loop": "torque"}, "unknown loop 'torque'"),
         ({"feedback": Feedback(math.nan, 0.0)}, "not a number"),
-        ({"plant": Plant("simple", GAINS | {"kA": -0.1})}, "below zero"),
+        ({"plant": Plant("simple", GAINS | {"kA": -0.1})}, "negative gain"),
     ],
 )
 def test_what_cannot_be_simulated_is_refused(changes, said):

@@ -88,7 +88,7 @@ APART = {  # (said, is) -> the question that tells the two apart
     ("stuck-sensor", "stale-samples"): "Does it happen once, or all the time?",
     ("stale-samples", "stuck-sensor"): "Does it happen all the time, or once?",
     ("hard-stop", "stuck-sensor"): "At a stop the velocity is zero. Is it?",
-    ("stuck-sensor", "hard-stop"): "A frozen sensor shows any velocity. Which does yours show?",
+    ("stuck-sensor", "hard-stop"): "A frozen sensor can show any velocity. Which does yours show?",
     ("brownout", "voltage-dropout"): "In a brownout the log still shows a voltage. Does yours?",
     ("voltage-dropout", "brownout"): "When the voltage drops, does the velocity react?",
     ("command-logged", "wheel-slip"): "At first, is the mechanism too slow or too fast?",

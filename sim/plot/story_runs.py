@@ -152,7 +152,7 @@ def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise:
         told.append(f"{one.run.test}: {' before, '.join(sizes)}{' after' * (len(sizes) - 1)}.")
     if len(runs) > DRAWN:
         told.append(f"The other {len(runs) - DRAWN} runs are not drawn.")
-    return f"{first} Times the noise of the velocity, RMS: {' '.join(told)}"
+    return f"{first} Residual of the velocity, RMS, in times its noise: {' '.join(told)}"
 
 
 def _tracks(one: RunOverlay, said: Sequence[str]) -> tuple[Array, ...]:

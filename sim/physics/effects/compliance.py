@@ -49,7 +49,7 @@ EFFECT = Effect(
     summary="a soft joint between motor and load (belt, long shaft, bending arm)",
     formula="push = (x_motor - x_load)/softness",
     parameters=(
-        Parameter("softness", "how far it gives way per volt", "{u}/V", power=-1, most=1e6),
+        Parameter("softness", "how far it bends per volt", "{u}/V", power=-1, most=1e6),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.3),
     ),
     fingerprint=(
