@@ -124,7 +124,7 @@ def each_once(facts: BindingFacts) -> None:
     reached(facts)
     for one in facts.bindings:
         if len(one.tests) > 1:
-            hint = "A command made of several tests runs them one after the other. Give each its own button."
+            hint = "Such a command runs the tests one after the other. Give each its own button."
             raise WrongAnswer(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
         if not all_of(one.tests) or one.tests[0].direction == "any":
             raise WrongAnswer(
