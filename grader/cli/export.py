@@ -35,9 +35,9 @@ COMMAND = export
     type=click.Choice(["email", "name", "sid"]),
     default="email",
     show_default=True,
-    help="What Gradescope knows that names a student.",
+    help="Which field of Gradescope identifies a student.",
 )
-@click.option("--roster", type=PATH, help="CSV file; the student is the row that holds that.")
+@click.option("--roster", type=PATH, help="CSV file; the row with that value is the student.")
 @click.option("--secret", type=PATH, help="File of the class's secret. It travels in the zip file.")
 def gradescope(
     output: Path, only: tuple[str, ...], student_from: str, roster: Path | None, secret: Path | None

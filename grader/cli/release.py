@@ -84,7 +84,7 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
     for name, folder in folders.items():
         if any(place.is_relative_to(folder.resolve()) for place in places):
             raise BadRequest(
-                f"the secret lies in the {name}, and would be given away with it",
+                f"the secret is in the {name}, and everybody would get it",
                 where=str(secret),
                 advice=f"Keep it outside: --secret {Path('..') / secret.name}",
             )

@@ -105,7 +105,7 @@ def _decide_separation(folder: Path, packages: Path | None, *, unprotected: bool
     if packages and not unprotected:
         raise BadRequest(
             "students could read and change each other's files, so no packages are served",
-            advice="Serve as root on Linux or macOS, or say --unprotected.",
+            advice="Serve as root on Linux or macOS, or add --unprotected.",
         )
     print_lines(
         [

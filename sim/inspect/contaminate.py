@@ -138,7 +138,7 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
             raise BadRequest(
                 f"there is no {test} test in this log",
                 where=log.source,
-                advice=f"It holds {', '.join(names) or 'none at all'}: choose one of its own.",
+                advice=f"It contains {', '.join(names) or 'none at all'}: choose one of these.",
             )
         if log.runs[there[0]].kind not in fault.kinds:
             raise BadRequest(

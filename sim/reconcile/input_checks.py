@@ -39,7 +39,7 @@ def check_logs(
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {log.units}",
             where=log.source,
-            advice="Say --units radians, rotations or degrees, or --type elevator.",
+            advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
     _check_voltage(log)
     guess = guess_gains(log, type=type)

@@ -143,7 +143,7 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
     if radius is None or not (math.isfinite(radius) and radius > 0.0):
         raise BadRequest(
             f"no radius between {given.name} and {wanted.name}",
-            advice="Give --radius, that of wheel or drum in meters.",
+            advice="Add --radius: the radius of the wheel or drum, in meters.",
         )
     between = radius if wanted.angular else 1.0 / radius  # meters per radian, or the other way
     return Conversion(name, wanted.si * between / given.si, wanted.symbol)

@@ -265,7 +265,7 @@ def _read_own_gains(
     if kp is None:
         if kd is None and loop is None:
             return None
-        raise click.UsageError("Missing option '--own-kp': your kP, for --own-kd and --loop.")
+        raise click.UsageError("Missing option '--own-kp': --own-kd and --loop need your kP.")
     if not (math.isfinite(kp) and math.isfinite(kd or 0.0)):
         raise click.UsageError("--own-kp and --own-kd are numbers. Give finite ones.")
     return OwnGains(loop or LOOPS[0], Feedback(kp, kd or 0.0))

@@ -75,9 +75,9 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
         return [
             Doubt(
                 "gravity-above-g",
-                f"{said} is above {GRAVITY} m/s². {may}: kA would be too small or kG too large. "
-                "Look at the unit of position, at the dynamic tests, and for something that pulls "
-                "it down besides its weight.",
+                f"{said} is above {GRAVITY} m/s². {may}: kA would be too small or kG too "
+                "large. Look at the unit of position, at the dynamic tests, and for "
+                "something other than its weight that pulls it down.",
                 grave=not cascade,
             )
         ]
@@ -85,9 +85,10 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
         return [
             Doubt(
                 "gravity-below-g",
-                f"{said} is {1.0 - lift / GRAVITY:.0%} below {GRAVITY} m/s², and rotors explain 3 "
-                "to 10 %: look for a spring or counterweight that carries it, a slope, a late or "
-                "averaged velocity that swells kA, and the unit of position.",
+                f"{said} is {1.0 - lift / GRAVITY:.0%} below {GRAVITY} m/s², and rotors "
+                "explain 3 to 10 %: look for a spring or counterweight that carries it, a "
+                "slope, a late or averaged velocity that makes kA too large, and the unit of "
+                "position.",
             )
         ]
     return []

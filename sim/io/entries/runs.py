@@ -113,7 +113,7 @@ def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -
                 f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "
                 f"{scale.units}: an angle and a length",
                 where=where,
-                advice=f"Choose one with --motor {motors[0].name}, or say --units.",
+                advice=f"Choose one with --motor {motors[0].name}, or add --units.",
             )
         ratio = UNITS[scale.units].si / UNITS[first.units].si
         factors = {

@@ -175,7 +175,7 @@ def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
             "an angle and a length",
             where=where,
-            advice="Say which is right with --units, and let the robot log both in one.",
+            advice="Give the right one with --units, and let the robot log both in one.",
         )
     units = asked.units or (stated[0] if stated else asked.units_or_default)
     factors, doubts = {}, []
