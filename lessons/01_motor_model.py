@@ -771,8 +771,7 @@ Table(
 # Two traps:
 #
 # - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
-#   If you use it on a **gain**, the gain changes in the wrong direction: it is wrong by a factor of
-#   (2π)².
+#   If you use it on a **gain**, the gain changes in the wrong direction, and is wrong by (2π)².
 # - kV and the velocity that you pass to the feedforward must be in the **same** unit. The code does
 #   not notice when they differ.
 

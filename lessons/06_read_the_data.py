@@ -527,7 +527,7 @@ tries = {
 Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
-# - Each setting repairs a different fault. No setting repairs all of them.
+# - Each setting repairs a different fault; none repairs all.
 # - **More is not better.** A median of 15 samples flattens the rise, and kA is only half its true
 #   value. A threshold of 1 m/s drops the part of the ramp that shows kS.
 #
@@ -734,9 +734,9 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"Found by their signs alone: {by_signs}.  Found by no check: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# No check complains about the clean log, and that is right. The others in this list are damaged,
-# and only a person who knows the robot can find out. For a velocity filter, look into the settings
-# of your motor controller.
+# No check complains about the clean log: good. The others in this list are damaged, and only a
+# person who knows the robot can find out. For a velocity filter, look into the settings of your
+# motor controller.
 #
 # A sixth check: **fit forward and reverse apart.** Friction may differ between the directions. R²
 # does not show that, and one kS cannot describe both:

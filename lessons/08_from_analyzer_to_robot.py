@@ -27,9 +27,9 @@
 # %% [markdown]
 # ## 1 Why: no error message
 #
-# The analyzer shows three or four numbers, and you put them into your code. It is a small step, but
-# much can go wrong: the gain is per rotation and the code uses radians, kG and kV are swapped,
-# somebody uses the suggested kP without a test. **Nothing crashes.** The robot just moves wrong.
+# The analyzer shows three or four numbers, and you put them into your code. Much can go wrong: the
+# gain is per rotation and the code uses radians, kG and kV are swapped, somebody uses the suggested
+# kP without a test. **Nothing crashes.** The robot just moves wrong.
 #
 # A *feedforward* is the part of a controller that computes the voltage from what you **want**: "for
 # 40 rotations per second I need 5 V". *Feedback* looks at what you **get**, and corrects. Today we
@@ -974,8 +974,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # values is the ratio of the loads.
 # </details>
 #
-# One number that PathPlanner asks for, the moment of inertia, follows from two kA values. Check the
-# formula with the modules of a square swerve:
+# The moment of inertia follows from two kA values. Check the formula with the modules of a square
+# swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]

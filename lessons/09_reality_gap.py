@@ -806,8 +806,8 @@ quick
 #
 # **Practice: characterize one mechanism**
 # ([exercises/practice/README.md](../exercises/practice/README.md), `grade practice`). Do everything
-# once, from the first line of code to the final gains. It is best to use your own robot and your
-# own `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
+# once, from the first line of code to the final gains. If you can, use your own robot and
+# `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
 # reconcile it.
 #
 # <details><summary>More, if you like</summary>

@@ -332,15 +332,14 @@ Table(
 )
 
 # %% [markdown]
-# A fit of such a log finds a kA that is far too large: after the first jump the wheels get faster
-# only slowly, while the robot catches up. Choose a step below the slip, here about 1.8 V. For a
-# heavier robot, or one with weaker motors, the step may be larger.
+# A fit of such a log finds a far too large kA: after the first jump the wheels get faster only
+# slowly, until the robot catches up. Choose a step below the slip, here about 1.8 V. A heavier
+# robot, or weaker motors, allow a larger step.
 #
 # ### Measure it
 #
-# Put the robot against a **wall**, with its bumpers on and its wheels straight. Raise the voltage
-# slowly. At first nothing turns, and the current grows with the voltage. Then the wheels break
-# loose.
+# Put the robot against a **wall**, bumpers on, wheels straight. Raise the voltage slowly. At first
+# nothing turns, and the current grows with the voltage. Then the wheels break loose.
 #
 # *Safety: nobody stands near the robot or behind the wall. Stop at once when the wheels spin; they
 # burn the carpet. Do it once or twice, not ten times.*
@@ -380,8 +379,8 @@ plot_curves(
 #
 # A motor's torque is proportional to its current. So the torque at the slip current is stall torque
 # · slip current / stall current. For the top speed, PathPlanner's page says: drive as fast as you
-# can and read the speed. Use the formula if you have too little room. Choreo advises about 80 % of
-# the free speed for its *Motor Speed Limit*. ([Choreo docs: Robot
+# can and read the speed. Without room, use the formula. Choreo advises about 80 % of the free speed
+# for its *Motor Speed Limit*. ([Choreo docs: Robot
 # Configuration](https://choreo.autos/document-settings/robot-configuration/))
 
 # %%
@@ -420,8 +419,8 @@ Table(
 #    ```
 #
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
-#    (CTRE logs the straight drive in rotations of the motor. That is enough: the command uses the
-#    lever to find how far one rotation goes.)
+#    (CTRE logs the straight drive in motor rotations. That is enough: the lever shows how far one
+#    rotation goes.)
 #
 # 6. **Push** at a wall, once.
 #

@@ -64,7 +64,7 @@ def refusal(path):
         ("count = 2", "drawn = 'yes'", ', [[logs]] number 1: drawn is "yes". Give true or false'),
         ("shooter", "shoter", '[[logs]] number 1: mechanisms "shoter" is unknown. Did you mean'),
         ("mechanisms", "mechanism", 'number 1: unknown key "mechanism". Did you mean "mechanisms"'),
-        ("count = 2", "routine = 3", ", [[logs]] number 1, routine: 3 stands where keys and"),
+        ("count = 2", "routine = 3", ", [[logs]] number 1, routine: 3 is in the place of keys and"),
         (
             "count = 2",
             "effects = 3",

@@ -105,7 +105,10 @@ def test_a_worker_that_is_killed_is_told_in_one_line(tmp_path, undisturbed):
 
     assert running.returncode == 2
     assert said.count("\n") == 1
-    assert "was ended from outside, perhaps for want of memory. Run the same command" in said
+    assert (
+        "was stopped from outside, perhaps because the memory was full. Run the same command"
+        in said
+    )
     assert left(tmp_path).items() <= undisturbed[0].items()
 
 

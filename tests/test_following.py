@@ -78,8 +78,8 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
         ("elevator", {"kV": 0.0, "kS": 0.0}, "Asked for 0.5 m/s, the thing hardly moves."),
         ("elevator", {"kV": -4.5}, "Asked for 0.5 m/s, the thing goes the other way."),
         ("elevator", {"kV": 60.0}, "Asked for 0.5 m/s, the thing is at its stop."),
-        ("simple", {"kA": 0.0}, "While the thing gets faster, it is up to about 0.2 m/s late."),
-        ("simple", {"kA": 0.6}, "While the thing gets faster, it is up to about 0.3 m/s ahead."),
+        ("simple", {"kA": 0.0}, "While the thing gets faster, it is up to about 0.2 m/s too slow."),
+        ("simple", {"kA": 0.6}, "While the thing gets faster, it is up to about 0.3 m/s too fast."),
         ("arm", {"offset_rad": 0.3 - math.pi}, "Told to stand still, the thing sinks"),
     ],
 )

@@ -147,7 +147,7 @@ def test_a_log_of_something_else_is_refused_beside_a_good_one(role, name):
 @pytest.mark.parametrize(
     ("type_", "travel", "said"),
     [
-        ("arm", None, "an arm's position must be an angle, and this log is in meters. Say --units"),
+        ("arm", None, "an arm's position must be an angle, and this log is in meters. Add --units"),
         (
             "simple",
             0.5,

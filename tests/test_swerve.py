@@ -271,7 +271,9 @@ def test_logs_that_changed_places_are_refused():
 
     with pytest.raises(BadRequest, match="the log of turning is in meters"):
         moment_of_inertia(straight, turning, mass=60.0)
-    with pytest.raises(BadRequest, match="is in radians, so the lever cannot be computed from the speeds"):
+    with pytest.raises(
+        BadRequest, match="is in radians, so the lever cannot be computed from the speeds"
+    ):
         moment_of_inertia(turning, turning, mass=60.0)
     bad = replace(turning, gains={**turning.gains, "kA": -0.1})
     with pytest.raises(BadRequest, match="kA of turning is -0.1"):

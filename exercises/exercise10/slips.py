@@ -82,7 +82,9 @@ def _scaled(gain: str, variant: Variant) -> list[Way]:
     both = (shown, needed)
     units = f"{gain} has no velocity in its unit: volts stay volts, nothing to convert"
     turned = "converted in the wrong direction: a larger unit needs more volts"
-    twice = "converted twice. kA has the unit of length only once, too: the seconds are squared"
+    twice = (
+        "converted twice. In the unit of kA only the seconds are squared: convert the length once"
+    )
     ways = [
         ((shown / times,), WrongNumber("turned", turned, "M-UNITS")),
         ((shown * times * times,), WrongNumber("twice", twice, "M-UNITS")),

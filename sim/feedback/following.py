@@ -92,9 +92,8 @@ class FollowedProfile:
         if abs(off) <= SEEN * max(map(abs, wanted)):
             return ""
         ahead = off * wanted[self.target.cruise_end] > 0.0
-        return (
-            f"While it gets faster, it is up to {self._size(off)}/s {'ahead' if ahead else 'late'}."
-        )
+        way = "fast" if ahead else "slow"
+        return f"While it gets faster, it is up to {self._size(off)}/s too {way}."
 
     def _stands(self) -> str:
         """How far it is off in the end."""

@@ -34,7 +34,7 @@ TITLES = {
     RUN: "run by run, from its beginning to its end",
     SPEED: "by speed",
     POSITION: "by position",
-    STEPS: "after the voltage jumps (faster: it answers too much)",
+    STEPS: "after the voltage jumps (faster: the reaction is too strong)",
     REST: "where the model rests",
 }
 

@@ -106,9 +106,9 @@ def timescale_doubts(found: Fit, period: float) -> list[Doubt]:
     return [
         Doubt(
             "fast-mechanism",
-            f"kA/kV = {scale * 1000:.2g} ms is only {scale / period:.1f} of the {period * 1000:.3g}"
-            " ms between two samples, so kA depends on the exact time of each: log every "
-            f"{max(scale / 4.0, 0.001) * 1000:.2g} ms (a faster status frame and a Notifier), or "
-            "compute kA from the load and set the loop up with kV alone.",
+            f"kA/kV = {scale * 1000:.2g} ms is only {scale / period:.1f} times the "
+            f"{period * 1000:.3g} ms between two samples, so kA is uncertain. Log every "
+            f"{max(scale / 4.0, 0.001) * 1000:.2g} ms (a faster status frame and a Notifier), "
+            "or compute kA from the load, and use only kV for the feedback gains.",
         )
     ]

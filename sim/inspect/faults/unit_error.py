@@ -129,8 +129,8 @@ def _named(ratio: float) -> str:
     if abs(ratio / sought[nearest] - 1.0) < NEAR:
         return nearest
     return (
-        "the factor of no unit, so probably a gear ratio or a circumference that only one of"
-        " them contains"
+        "this factor belongs to no unit; probably only one of the two contains a gear ratio "
+        "or a circumference"
     )
 
 
