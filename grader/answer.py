@@ -14,6 +14,7 @@ from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band
 LITTLE = 2.0  # [wider bands] up to here a number is outside by a little, beyond it by a lot
+START_AGAIN = "Check the numbers you started from, and their units"
 UNIT_ASSUMED = " (no unit given, so I assumed "
 FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three samples of 20 ms
 
@@ -122,7 +123,7 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
 def _require_finite(value: float, asked: AskedNumber) -> float:
     if not -LARGEST < value < LARGEST:
         raise WrongAnswer(
-            f"{'nan' if value != value else 'a number without end'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
+            f"{'nan' if value != value else 'infinity'}, which no gain can be",  # noqa: PLR0124 - only nan differs from itself
             hint=f"{asked.name} came out of a division by zero, or of an empty column. Look at "
             "the data you fitted.",
         )
@@ -176,7 +177,7 @@ def judge_number(
     full, partial = asked.band.widths(asked.expected)
     away = abs(value - asked.expected)
     near = asked.describe_tolerance(full, asked.band.full)
-    earned, verdict = 0.0, f"far outside the accepted {near}"
+    earned, verdict = 0.0, f"far outside the accepted {near}. {START_AGAIN}"
     if away <= partial:
         wider = asked.describe_tolerance(partial, asked.band.partial)
         earned, verdict = HALF * points, f"close: within {wider}, not yet within {near}"
@@ -233,7 +234,7 @@ def _read_value(name: str, given: Mapping[str, object], key: AnswerKey) -> float
 
 def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
     if slips:
-        return "; or ".join(slip.says for slip in slips)
+        return "; or ".join(slip.says for slip in slips).replace("?; or ", "? Or: ")
     if value < 0:
         return (
             f"{name} cannot be negative. Does velocity or voltage have the wrong sign in your data?"

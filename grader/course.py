@@ -126,7 +126,7 @@ def load_progress(course: Path) -> tuple[Progress, str]:
         return Progress(), ""
     except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError, Refusal):
         aside = _find_free_name(path)
-        said = f"your progress in {path} could not be read; it starts anew"
+        said = f"your progress in {path} could not be read; it starts again from zero"
         try:
             path.replace(aside)
         except OSError:

@@ -439,7 +439,10 @@ def check_circumference(facts: RoutineFacts) -> None:
             formula = f"2π times {wheel}" if radius else f"π times {wheel}"
             raise WrongAnswer(
                 f"{name} is {way:.4g}, and {wheel} {size:.4g}",
-                hint=f"In one turn a wheel rolls its circumference: {formula}, over the gears.",
+                hint=(
+                    f"In one turn a wheel rolls its circumference, {formula}; divide it by the "
+                    "gear ratio."
+                ),
                 misconception="M-UNITS",
             )
 

@@ -149,7 +149,7 @@ def _read_starters(course: Path) -> dict[str, str]:
                 raise BadRequest(
                     f"{one.name} has a starter {file} that is not listed",
                     where=str(path),
-                    advice="List the starters anew, unsolved: python .ci/list_starters.py",
+                    advice="List the unsolved starters again: python .ci/list_starters.py",
                 )
     return listed
 

@@ -159,7 +159,7 @@ def check_feedback(result: Result) -> list[tuple[str, str]]:
 
 def _format_next_hint(exercise: str, shown: int) -> str:
     if shown >= len(HINTS):
-        return f"All {len(HINTS)} hints again: grade {exercise} --hint"
+        return f"To see all {len(HINTS)} hints again: grade {exercise} --hint"
     return f"Hint {shown + 1} of {len(HINTS)}: grade {exercise} --hint"
 
 

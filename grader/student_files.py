@@ -77,7 +77,7 @@ def write_student_files(
     number = exercise.name.removeprefix("exercise")
     if any(news) and there:
         was = "were" if what.endswith("s") else "was"
-        say(f"Your {what} {was} no longer as made; written anew: {place}")
+        say(f"Your {what} {was} changed; written again: {place}")
     elif any(news):
         say(f"Your own {what} for exercise {number}: {place}")
 

@@ -30,7 +30,7 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
         raise UnreadableFile(
             "there is no such file",
             where=str(given),
-            advice=f"Look at the name; the exercise's own is {folder / names[0]}.",
+            advice=f"Check the name; the exercise's own file is {folder / names[0]}.",
         )
     if not given.is_dir():
         return (given,)
@@ -72,7 +72,7 @@ def find_whole_answer(
         if given.with_name(name).is_file():
             return given.with_name(name)
     raise UnreadableFile(
-        f"{names[0]} is not beside it, and the two are graded together",
+        f"{names[0]} is not in the same folder, and the two are graded together",
         where=str(given),
         advice=f"Put your {names[0]} into the same folder.",
     )

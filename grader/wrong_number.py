@@ -105,8 +105,8 @@ def _explain_by_factors(
     if right(-value):
         yield WrongNumber(
             "sign",
-            "the size is right, the sign is not. Positive volts have to give a positive velocity: "
-            "is one of the two columns turned around?",
+            "the size is right, the sign is not. Positive volts have to give a positive "
+            "velocity: does one of the two columns have the wrong sign?",
         )
     factors = [*_list_factors(scene, velocity=name in {"kV", "kA"})]
     if name == "kA" and scene.period:
@@ -135,18 +135,21 @@ def _list_factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
     if gears > NOTICED:
         says = f"{gears:.3g} is the gear ratio. Is this the motor's velocity, not the mechanism's?"
         yield _Factor(gears, WrongNumber("gear", says, "M-UNITS"))
-    says = "2 lies between a diameter and a radius. Did you take one for the other?"
+    says = "a diameter is 2 times a radius. Did you mix them up?"
     yield _Factor(2.0, WrongNumber("radius", says, "M-UNITS"))
     if scene.motors > 1:
-        says = f"there are {scene.motors} motors. Did you add up or divide something over them?"
+        says = (
+            f"there are {scene.motors} motors. Did you multiply or divide something by their "
+            "number?"
+        )
         yield _Factor(float(scene.motors), WrongNumber("motors", says))
 
 
 def _list_unit_factors(scene: Scene) -> Iterator[_Factor]:
     angular = (
-        (2.0 * math.pi, "turns", "2π = 6.28. Were radians and rotations taken for each other?"),
-        (180.0 / math.pi, "degrees", "57.3 = 180/π. Were degrees and radians mixed up?"),
-        (60.0, "minutes", "60 seconds are a minute. Is your velocity in rpm, per minute?"),
+        (2.0 * math.pi, "turns", "2π = 6.28. Did you mix up radians and rotations?"),
+        (180.0 / math.pi, "degrees", "57.3 = 180/π. Did you mix up degrees and radians?"),
+        (60.0, "minutes", "one minute has 60 seconds. Is your velocity in rpm, per minute?"),
     )
     turning = ((360.0, "circle", "a rotation is 360°. Is your velocity in degrees per second?"),)
     going = (

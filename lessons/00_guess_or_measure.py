@@ -18,9 +18,9 @@
 #
 # **At the end you can**
 #
-# - say what *system identification* is, and which question it asks that guessing does not;
+# - say what *system identification* is, and how its question differs from that of guessing;
 # - say when a measured gain beats a guessed one, and when it does not;
-# - say which gain moves when the robot gets heavier, and which do not;
+# - say which gain changes when the robot gets heavier, and which do not;
 # - use the three tools of this course, and find the mechanism that belongs to your name.
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
@@ -32,8 +32,8 @@
 #
 # You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
 # prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
-# with the same numbers to change. Its picture is folded to a bar, so click on the bar. This is so
-# in all lessons.
+# with the same numbers to change. Its picture is folded to a bar, so click on the bar. All lessons
+# work this way.
 # </details>
 
 # %% [markdown]
@@ -431,7 +431,7 @@ Table(
 # **Predict** two things:
 
 # %%
-guess_gain = Prediction("Which gain of the robot moves?", "kS", "kV", "kA", "all three")
+guess_gain = Prediction("Which gain of the robot changes?", "kS", "kV", "kA", "all three")
 guess_worse = Prediction(
     "You keep the gains of your best try. Will you see that the robot drives worse?",
     "yes, clearly",
@@ -482,13 +482,13 @@ Table(
         (name, truth[name], heavy.gains[name], measured[name], again[name], unit)
         for name, unit in (("kS", "V"), ("kV", "V·s/m"), ("kA", "V·s²/m"))
     ),
-    caption="Which of the true gains has moved?",
+    caption="Which of the true gains has changed?",
 )
 
 # %% [markdown]
 # ### Explain
 #
-# Only **kA** has moved. At a steady speed nothing accelerates, so a heavier robot needs no more
+# Only **kA** has changed. At a steady speed nothing accelerates, so a heavier robot needs no more
 # volts: kV stays the same. So a guess only becomes wrong where it depends on mass: choose 40 kg,
 # and look where the error grows.
 #
@@ -517,7 +517,7 @@ weighed = robot.load * (growth - 1)
 print(f"kA grew by {100 * (growth - 1):.1f} %. kA grows in proportion to mass, and we know the")
 print(f"robot's old mass, {robot.load:.1f} kg. So the brace weighs {weighed:.2f} kg.")
 sysid_growth = again["kA"] / measured["kA"]
-print(f"(SysId's recipe, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less sharp.)")
+print(f"(SysId's recipe, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less precise.)")
 
 # %% [markdown]
 # The log has *weighed* the brace: its numbers have a physical meaning.
@@ -674,7 +674,7 @@ else:
 # - [ ] `grade` works in a terminal, and knows your name.
 # - [ ] `sysid fit drive.wpilog` printed three gains.
 # - [ ] You can say in one sentence which question guessing asks, and which one SysId asks.
-# - [ ] You know which gain a heavier robot moves.
+# - [ ] You know which gain changes when the robot gets heavier.
 #
 # ## 10 Knowledge check
 #
@@ -684,7 +684,7 @@ else:
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "Which gain moved when the 4 kg brace came on?",
+    "Which gain changed when the 4 kg brace was added?",
     {
         "kS": "Friction sits in gears and bearings. Four kilograms more hardly change it.",
         "kV": (
@@ -711,8 +711,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kV (the slope) and kS (where the line meets velocity 0). Both are good: kV ties with the fit. It
-# cannot give kA, because at a steady speed nothing accelerates.
+# kV (the slope) and kS (where the line meets velocity 0). Both are good: this kV is as good as that
+# of the fit. It cannot give kA, because at a steady speed nothing accelerates.
 # </details>
 #
 # **3.** The robot gets 4 kg heavier in week 3. Which of its gains has to change, and which not?

@@ -130,12 +130,15 @@ guess_seven
 left = 7.0 - sum(bill(2.0, 0.0).values())
 print(guess_seven.reveal("into acceleration: the speed is not steady"))
 print(f"7 V − {gains['kS']:.2f} V − {gains['kV'] * 2:.2f} V = {left:.2f} V are left.")
-print(f"They accelerate it by {left / gains['kA']:.1f} m/s every second: it only passes 2 m/s.")
-print(f"If its speed were steady, its kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
+print(
+    f"They accelerate the robot by {left / gains['kA']:.1f} m/s every second, so it passes 2 "
+    "m/s and gets faster."
+)
+print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
 
 # %% [markdown]
 # Two explanations for "7 V at 2 m/s" are possible: the speed is not steady, or the robot has a
-# different kV. To decide, look whether the velocity is still changing.
+# different kV. To decide, check whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
@@ -414,13 +417,13 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 #
 # > **Lesson says:** "kV_theoretical = 12V ÷ free_speed_in_your_units."
 # >
-# > **Source says:** a good first check. Exactly, kV follows from the motor's own constant, which
-# > WPILib's `DCMotor` computes with the free current's small drop of voltage taken off. It comes
-# > out a little lower.
-# > ([WPILib Java docs: DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > **Source says:** a good first check. More exactly, kV follows from a constant of the motor.
+# > WPILib's `DCMotor` first subtracts the small voltage drop that the free current causes, so its
+# > kV is a little lower. ([WPILib Java docs:
+# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
 # >
 # > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
-# > same Kraken, for which one buys a license. Its free speed is another one.)
+# > Kraken that needs a paid license. With it, the free speed is different.)
 # </details>
 
 # %%
@@ -657,18 +660,20 @@ Table(
 # > mechanically wrong".
 # >
 # > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
-# > barely get it moving", and gives no bound. Compare for yourself what this one lets pass.
+# > barely get it moving", and gives no bound. See for yourself how much friction this rule allows.
 # > ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
-# > **Try it:** how large may our drivetrain's kS get at 2 m/s before this flag goes up?
+# > **Try it:** how large may our drivetrain's kS get at 2 m/s before this rule says *stop*?
 # </details>
 
 # %%
 TYPICAL = 2.0  # [m/s] in a match
 flag = gains["kV"] * TYPICAL
 print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop above that, which is")
-print(f"{100 * flag / 12:.0f} % of 12 V, for friction alone. Ours has {gains['kS']:.2f} V.")
+print(
+    f"{100 * flag / 12:.0f} % of 12 V, for friction alone. Our drivetrain has {gains['kS']:.2f} V."
+)
 
 # %% [markdown]
 # So this rule comes very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
@@ -755,7 +760,7 @@ Table(
 # Two traps:
 #
 # - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
-#   If you use it on a **gain**, the gain changes in the wrong direction: it is wrong by 2π twice.
+#   If you use it on a **gain**, the gain changes in the wrong direction, and is wrong by (2π)².
 # - kV and the velocity that you pass to the feedforward must be in the **same** unit. The code does
 #   not notice when they differ.
 
@@ -833,12 +838,12 @@ quick
 # </details>
 #
 # **5.** Last week the left side had kS = 0.15 V, today it has 0.40 V. Typical speed times kV is 5
-# V. Is it fine?
+# V. Is the left side fine?
 #
 # <details><summary>Answer</summary>
 #
-# No, although the gauge says so. kS has more than doubled in a week. Compare with the right side,
-# and look for the part that rubs.
+# No, although the gauge says *fine*. kS has more than doubled in a week. Compare with the right
+# side, and look for the part that rubs.
 # </details>
 #
 # **6.** An intake has τ = 15 ms, and the robot logs every 20 ms. What does that mean for kA?

@@ -78,12 +78,12 @@ def let_go(volts: float, *, height: float = 0.6, lasts: float = 0.4) -> float:
     return float(track.velocity[-1])
 
 
-print(f"0 V: after 0.4 s it moves at {let_go(0.0):.2f} m/s. Minus is down.")
+print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus sign means down.")
 
 # %% [markdown]
 # ## 2 The model: one more term
 #
-# Gravity pulls with a constant force. To hold against a constant force, a motor needs a constant
+# Gravity pulls with a constant force. To balance a constant force, a motor needs a constant
 # current, and so a constant voltage. We call this voltage **kG**.
 #
 # > elevator: **V = kG + kS·sgn(v) + kV·v + kA·a**
@@ -136,14 +136,17 @@ Table(
 # > kG is. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
-# > **Try it:** change `TIMES` above to 3. Which rows move?
+# > **Try it:** change `TIMES` above to 3. Which rows change?
 # </details>
 #
 # **A quick check.** Both kG and kA grow in proportion to the mass. So kG/kA does not depend on the
 # mass. For an elevator it is the acceleration of gravity:
 
 # %%
-print(f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The pull of the earth is 9.81.")
+print(
+    f"elevator: kG/kA = {truth['kG'] / truth['kA']:.2f} m/s². The acceleration of gravity is 9.81 "
+    "m/s²."
+)
 
 # %% [markdown]
 # On a real elevator with one stage the ratio is a little smaller, because kA also contains the
@@ -177,8 +180,9 @@ for name in ("cascade-elevator", "counterweight-elevator"):
 
 # %%
 guess_hold = Prediction(
-    f"Gravity takes {truth['kG']:.2f} V, friction {truth['kS']:.2f} V. You give it "
-    f"{truth['kG'] - 0.15:.2f} V, a little less than gravity takes. What does it do?",
+    f"Gravity takes {truth['kG']:.2f} V, friction {truth['kS']:.2f} V. You give the motor "
+    f"{truth['kG'] - 0.15:.2f} V, a little less than gravity takes. What does the carriage "
+    "do?",
     "it sinks slowly",
     "it stays",
     "it rises slowly",
@@ -188,7 +192,7 @@ guess_hold
 # %%
 little_less = let_go(truth["kG"] - 0.15)
 print(guess_hold.reveal("it stays"))
-print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s it moves at {little_less:.3f} m/s.")
+print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
 # It stays. Friction acts against *any* motion, also against falling, so it helps you to hold the
@@ -490,7 +494,7 @@ print(f"At a reading of 0° the middle is {at_zero:.2f} V; kG is {arm.gains['kG'
 # %% [markdown]
 # ## 5 From a log: choose the analysis type
 #
-# To find the window by hand takes time. The four tests of SysId find kG, too, together with the
+# Finding the window by hand takes time. The four tests of SysId find kG, too, together with the
 # other gains, *if* you choose the right **analysis type**. The types are the models of section 2:
 #
 # | analysis type | model | for |
@@ -708,9 +712,12 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard erro
 # %%
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
 down_run = log.runs_of_test("quasistatic-reverse")[0]
-print(f"At 0 V it goes down at {falls:.2f} m/s.")
-print(f"The slow ramp down had {down_run.time[-1] - down_run.time[0]:.1f} s before the end.")
-print(f"The slow ramp up had {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.")
+print(f"At 0 V the carriage goes down at {falls:.2f} m/s.")
+print(
+    f"The slow ramp down lasted {down_run.time[-1] - down_run.time[0]:.1f} s, then the carriage "
+    "was at the end of its travel."
+)
+print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.")
 
 # %% [markdown]
 # ## 7 Which class, and in which order
@@ -754,8 +761,8 @@ guess_order
 # %%
 wrong = truth["kV"]  # at rest, an ElevatorFeedforward gives its second argument
 print(guess_order.reveal("it goes up"))
-print(f"At rest it gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
-print(f"and moves at {let_go(wrong, height=0.3):.2f} m/s.")
+print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", end="")
+print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %% [markdown]
 # So check the order in your robot's code today: kG is the second argument.

@@ -13,8 +13,7 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 50 minutes. You need lessons 1 and 2. You need no robot today. At the end you can plan its
-# tests.*
+# *About 50 minutes. You need lessons 1 and 2. You need no robot today: you plan its tests.*
 #
 # **At the end you can**
 #
@@ -164,7 +163,7 @@ plot_curves(
 #
 # Draw voltage over velocity for the ramp. V ≈ kS + kV·v is a straight line. Its slope is kV, and
 # the voltage where it meets velocity 0 (its *intercept*) is kS. A high intercept means much
-# friction; a low one means that it moves easily.
+# friction; a low one means that the mechanism moves easily.
 #
 # Now compare it with the truth: is the intercept really the robot's kS? We test a drivetrain and a
 # shooter's flywheel. The flywheel is heavy for its motors, so its τ is much longer.
@@ -372,7 +371,7 @@ map_picture("all four", "kS and kA")
 # %% [markdown]
 # Add runs one by one: use the first four lines of the menu. With one ramp, the ellipse of kS and kA
 # is long: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts. A single
-# step separates them. Here are all the sets in numbers:
+# step separates them. Here are all the choices in numbers:
 
 # %%
 rows = []
@@ -398,7 +397,7 @@ Table(
 #   speed and how quickly the robot reaches it. These are two numbers for three unknowns. (If you
 #   knew kS, the other two would follow: the band in the map is narrow.)
 # - **Without the dynamic reverse** this drivetrain loses almost nothing. Forward and reverse are
-#   equal *here*, because we simulated them so.
+#   equal *here*, because we simulated it that way.
 #
 # But SysId accepts only a log with all four:
 
@@ -419,8 +418,8 @@ except sim.Refusal as refusal:
 # >
 # > **Source says:** in the quasistatic test "the voltage corresponding to acceleration is
 # > negligible". The dynamic test is there "so that the behavior while accelerating can be
-# > determined". Neither does the other's work.
-# > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > determined". Neither test replaces the other. ([WPILib docs: Creating a
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
 # >
 # > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines, and the ellipse is a
 # > band.
@@ -672,8 +671,8 @@ Table(
 # > limits or reach free speed, where acceleration collapses to zero and kA becomes unobservable."
 # >
 # > **Source says:** the first half is the real danger: stop early "if it exceeds safe limits". The
-# > second half is not SysId's problem: it trims the step by itself. It *is* one of fits that do not
-# > trim (lesson 7). ([Running the
+# > second half does not affect SysId, because SysId trims the step by itself. It does affect fits
+# > that do not trim (lesson 7). ([Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
@@ -686,7 +685,7 @@ Table(
 #
 # Now plan a complete test for the drivetrain. You let go of the button 0.3 s after the robot passes
 # the mark. Both tests drive through the hall below. Above it stand four of the rules of exercise 6,
-# and the current limit. Find a plan that keeps all five in a room of 4 m. Then try 2.5 m.
+# and the current limit. Find a plan that follows all five in a room of 4 m. Then try 2.5 m.
 #
 # **Choose your current limit first.** It protects the motors and the battery. If a step is too
 # large, the limit reduces the voltage at the start. So set the limit that you will drive with, then
@@ -825,7 +824,7 @@ quick
 # grade exercise6
 # ```
 #
-# Any plan that keeps the rules passes. You may also answer from a notebook:
+# Any plan that follows the rules passes. You may also answer from a notebook:
 #
 # ```python
 # from grader import submit

@@ -95,7 +95,7 @@ Table(
 # > drivetrain or a shooter then uses only velocity and voltage.
 # > ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
 # >
-# > **Try it:** the last cell of this section throws the positions away and fits again. Do the gains
+# > **Try it:** the last cell of this section removes the positions and fits again. Do the gains
 # > change?
 # </details>
 #
@@ -373,9 +373,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # **Commands v3** comes with WPILib 2027, for Java. There the class `extends Mechanism`, and the
 # parts of the same routine have other names: `Config.useDataLog` takes ramp, step and timeout, and
-# `SysIdRoutine.SysIdMechanism` takes the two callbacks and `this`. `null` is no default there: for
-# WPILib's own numbers write `Config.defaults()`. Exercises 4 and 5 take either.
-# ([SysIdRoutine of Commands v3, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/10171e2f048a8b86ffa82d52b65d09287c342268/commandsv3/src/main/java/org/wpilib/command3/sysid/SysIdRoutine.java))
+# `SysIdRoutine.SysIdMechanism` takes the two callbacks and `this`. `null` does not mean "default"
+# there: for WPILib's own numbers write `Config.defaults()`. Exercises 4 and 5 accept both versions.
+# ([SysIdRoutine of Commands v3, at one commit of the
+# branch](https://github.com/wpilibsuite/allwpilib/blob/10171e2f048a8b86ffa82d52b65d09287c342268/commandsv3/src/main/java/org/wpilib/command3/sysid/SysIdRoutine.java))
 
 # %% [markdown]
 # ### All of it, in Python
@@ -562,7 +563,7 @@ display(guess_gain, guess_factor, guess_score)
 # |---|---|---|
 # | right | none | simulates it |
 # | share of the battery | `set(volts / 12)`, logs the commanded volts | battery voltage drops |
-# | …but logs applied volts | `set(volts / 12)`, logs `getMotorVoltage()` | same run, true volts |
+# | …but logs applied volts | `set(volts / 12)`, logs `getMotorVoltage()` | same run, applied V |
 # | turns called meters | `Meters.of(wheelTurns)` | divides by the wheel's circumference |
 # | radians taken for turns | `circumference * radians` | multiplies by 2π |
 # | encoder inverted | `setInverted` forgotten | changes the sign of the sensor |
@@ -699,7 +700,7 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # > `/home/lvuser/logs`. ([WPILib docs: Data
 # > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html)) A 2027 Systemcore
 # > without a stick has `/home/systemcore/logs`: that is from the source code of WPILib 2027, which
-# > is not released yet, and no page of the docs says it so far.
+# > is not released yet, and the docs do not mention it yet.
 # >
 # > **Try it:** find yesterday's log of your robot before you need today's.
 # </details>
@@ -779,8 +780,8 @@ from grader import QuickCheck
 
 quick = QuickCheck(
     (
-        "A drive callback calls motor.set(volts / 12), and the log holds volts. Which gains are "
-        "wrong when the battery gives 11 V all the time?"
+        "A drive callback calls motor.set(volts / 12), and the log contains `volts`. Which "
+        "gains are wrong when the battery gives 11 V all the time?"
     ),
     {
         "none": "A share of 11 V is not the same share of 12 V.",

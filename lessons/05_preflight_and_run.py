@@ -53,8 +53,8 @@
 # > doing and why."
 # >
 # > **Source says:** the source lesson's text names only the first step; the other three were behind
-# > a click that did not reach us. The table is our reading. WPILib's pages go the same way: create
-# > the routine, run it, load the data, view diagnostics, analyze. ([WPILib docs: System
+# > a click that did not reach us. The table is our reading. WPILib's pages use the same order:
+# > create the routine, run it, load the data, view diagnostics, analyze. ([WPILib docs: System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
 # >
 # > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.
@@ -144,7 +144,7 @@ slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=H
 print(guess_room.reveal("more room"))
 print(guess_ten.reveal("about 9 m (30 feet)"))
 gone = slow.final_position
-print(f"0.5 V/s for 10 s goes {gone:.1f} m, that is {gone / FOOT:.0f} feet.")
+print(f"0.5 V/s for 10 s takes the robot {gone:.1f} m, which is {gone / FOOT:.0f} feet.")
 Table(
     ("ramp [V/s]", "2 m/s after [s]", "distance until then [m]", "kV·v²/(2·ramp) [m]"), tuple(rows)
 )
@@ -169,7 +169,7 @@ Table(
 # > [CTRE docs: Plumbing & Running
 # > SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
 # >
-# > **Try it:** the next cell asks how fast the robot is when 10 feet are over.
+# > **Try it:** the next cell shows how fast the robot is after 10 feet.
 # </details>
 
 # %%
@@ -324,10 +324,10 @@ show_interactive(
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# Look at the line of the battery. The step draws so much current that the battery voltage falls
-# below a threshold. Then the robot controller turns the motors off to protect itself: this is a
-# *brownout*. The battery recovers at once, the motors come back, and so on. The robot crawls. (A
-# real robot stutters more slowly than our simulation.)
+# Look at the battery voltage. The step draws so much current that this voltage falls below a
+# threshold. Then the robot controller turns the motors off to protect itself: this is a *brownout*.
+# The battery recovers at once, the motors come back, and so on. The robot crawls. (A real robot
+# stutters more slowly than our simulation.)
 #
 # If you skip check 3 or 4, you see nothing on the floor: the robot drives as always. The damage is
 # in the log, and nobody in the pit sees it.
@@ -408,8 +408,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # > can be set, and is 6.75 V if you do not. Below 12 V is not yet a brownout.
 # > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
 # >
-# > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the voltage
-# > that **arrived** at the motors and the one that was **asked for**.
+# > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
+# > **applied** voltage and the **commanded** voltage.
 # </details>
 
 
@@ -494,10 +494,10 @@ Table(
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
 # > closed-loop correction."
 # >
-# > **Source says:** half of it. Nothing corrects the motion, that is true (it is called *open
-# > loop*). But limits *in the motor controller* go on working in a test, if you have set them: "it
-# > is up to you to set up hard or soft limits to prevent injury or damage". What a test bypasses is
-# > what your own **commands** do: it has the subsystem for itself. ([WPILib docs: Running the
+# > **Source says:** half of this is true. Nothing corrects the motion (this is called *open loop*).
+# > But limits *in the motor controller* go on working in a test, if you have set them: "it is up to
+# > you to set up hard or soft limits to prevent injury or damage". What a test bypasses is what
+# > your own **commands** do: it has the subsystem for itself. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell sets a current limit of 40 A per motor and runs the tests.
@@ -594,15 +594,15 @@ Table(
 #   complete!*
 # - **Driver Station:** gear icon, *Upload WPILogs*, **before** you run. The file then appears on
 #   the laptop, in `C:\Users\Public\Documents\FRC\Log Files\WPILogs`.
-# - **The stick:** robot off, pull it out. It has a folder `logs`.
+# - **The stick:** switch the robot off and pull the stick out. The logs are in its folder `logs`.
 # </details>
 #
 # <details><summary>For 2027: what is not settled yet</summary>
 #
 # Systemcore and its tools are new. The folders above, and file names that begin with WPILIB instead
 # of FRC, come from WPILib's development branch. The folder of the stick on a Systemcore is not
-# settled: that code says `/u/logs`, teams who test one write `/U/logs`. If something looks
-# different, follow the docs of your season.
+# settled: WPILib's code says `/u/logs`, but teams that test a Systemcore report `/U/logs`. If
+# something looks different, follow the docs of your season.
 # </details>
 
 # %% [markdown]
@@ -625,8 +625,8 @@ Table(
 # You may run the four tests in any order. With forward and then reverse, the robot returns to where
 # it was.
 #
-# **Do step 10 before anybody packs up.** It takes a minute. To repeat a test now takes five
-# minutes; to repeat it tomorrow takes an evening.
+# **Do step 10 before anybody packs up.** It takes a minute. Repeating a test now takes five
+# minutes; repeating it tomorrow takes an evening.
 #
 # Here are steps 9 to 11 with a simulated log. `sim.write` writes the same kind of file as a robot:
 
@@ -791,10 +791,9 @@ print(f"They need up to {slow.final_position / FOOT:.0f} feet, even at 0.5 V/s."
 #
 # > **Lesson says:** "The gains you collect in the shop will transfer directly to competition."
 # >
-# > **Source says:** as far as everything under and in the robot stays the same. The source lesson
-# > itself says to run again "if drivetrain gearing, wheels, or carpet contact changes", and WPILib
-# > refuses a drive on blocks: what the wheels stand on is part of the gains. ([WPILib docs: Running
-# > the
+# > **Source says:** only if the robot and the floor stay the same. The source lesson itself says to
+# > run again "if drivetrain gearing, wheels, or carpet contact changes", and WPILib says not to
+# > test on blocks: the floor under the wheels is part of the gains. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell changes one thing at a time. Which gain moves?

@@ -126,8 +126,8 @@ plot_voltage_velocity(sound)
 # > (section 5). ([WPILib docs: Viewing
 # > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
 # >
-# > **Try it:** look where our plot leaves velocity 0. That is near kS, but not exactly at kS
-# > (lesson 7 explains why).
+# > **Try it:** look where our line meets velocity 0. That is near kS, but not exactly at kS (lesson
+# > 7 explains why).
 # </details>
 #
 # Now look at the rise of the dynamic test: acceleration over velocity.
@@ -198,7 +198,7 @@ guess_late = Prediction(
     "A velocity filter makes the velocity late. Which plot shows it best?",
     "voltage over velocity",
     "the time steps",
-    "the velocity beside the slope of the position",
+    "the velocity next to the slope of the position",
 )
 guess_gap = Prediction(
     "A few samples are missing. Which gain gets the largest error?",
@@ -341,9 +341,9 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Lesson says:** "Voltage data suddenly drops mid-test, then recovers."
 # >
 # > **Source says:** in a brownout the robot controller disables its outputs until the battery
-# > recovers. So the *applied* voltage drops and recovers. The asked-for voltage does not drop,
-# > because nobody tells the routine.
-# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > recovers. So the *applied* voltage drops and recovers. The commanded voltage does not drop,
+# > because the routine does not know about the brownout. ([WPILib docs:
+# > Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
 # >
 # > **Try it:** look at both brownouts above in the plot *over time*.
 # </details>
@@ -359,9 +359,9 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Lesson says:** "Timestamps in the log show gaps larger than 20 ms. The regression assumes
 # > uniform sample timing; large gaps produce incorrect kA values".
 # >
-# > **Source says:** right in kind: SysId divides each difference of velocities by the *mean* time
-# > step of the test. But 20 ms is the normal step, so half of all steps are a bit longer. Count the
-# > steps that are longer than 1.5 times the usual one. ([SysId's source:
+# > **Source says:** in principle, yes: SysId divides each difference of velocities by the *mean*
+# > time step of the test. But 20 ms is the normal step, so half of all steps are a bit longer.
+# > Count the steps that are longer than 1.5 times the usual one. ([SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** the next cell makes ten logs each with few and many, short and long gaps.
@@ -394,7 +394,7 @@ for share, longest in ((0.0, 0.05), (0.05, 0.1), (0.2, 0.1), (0.2, 0.3)):
     name = f"{100 * share:.0f} % of the loops, up to {1000 * longest:.0f} ms" if share else "none"
     rows.append((name, float(np.mean(kv)), float(np.mean(ka)), float(ka.min()), float(ka.max())))
 
-print(guess_late.reveal("the velocity beside the slope of the position"))
+print(guess_late.reveal("the velocity next to the slope of the position"))
 print(guess_gap.reveal("kA"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
@@ -441,16 +441,16 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # > **Lesson says:** "You need to trim the data end point in the analyzer, or re-run the test with
 # > more conservative travel limits."
 # >
-# > **Source says:** SysId's window has three knobs. *Velocity Threshold* works on quasistatic tests
-# > only, *Window Size* is the median filter, *Test Duration* works on dynamic tests only. None of
-# > them sets the end of a ramp. Samples at a stop vanish through the threshold, **if** the standing
-# > encoder is quiet. ([WPILib docs: Viewing
+# > **Source says:** SysId's window has three settings. *Velocity Threshold* works on quasistatic
+# > tests only, *Window Size* is the median filter, *Test Duration* works on dynamic tests only.
+# > None of them sets the end of a ramp. The threshold removes samples at a stop, **if** the encoder
+# > is quiet at standstill. ([WPILib docs: Viewing
 # > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
-# > **Try it:** below is a log with a stop, a trembling standstill, and three wild readings. Which
-# > of the knobs repairs what?
+# > **Try it:** below is a log with a hard stop, a noisy standstill and three wild readings. Which
+# > setting repairs which fault?
 # </details>
 
 # %%
@@ -527,7 +527,7 @@ tries = {
 Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
-# - Each setting repairs another fault. None of them repairs all.
+# - Each setting repairs a different fault; none repairs all.
 # - **More is not better.** A median of 15 samples flattens the rise, and kA is only half its true
 #   value. A threshold of 1 m/s drops the part of the ramp that shows kS.
 #
@@ -698,7 +698,7 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 #   gap falls. So learn the *kind* of error from this table, not its digits.
 # </details>
 #
-# ## 6 What does catch them
+# ## 6 Checks that find more
 #
 # These five checks find more:
 #
@@ -731,10 +731,10 @@ Table(
 # %%
 escaped = [name for name, found in caught.items() if not any(found.values())]
 by_signs = sum(found["signs"] for found in caught.values())
-print(f"Caught by their signs alone: {by_signs}.  By nothing: {'; '.join(escaped)}.")
+print(f"Found by their signs alone: {by_signs}.  Found by no check: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# Nothing catches the clean log, and that is right. The others in this list are damaged, and only a
+# No check complains about the clean log: good. The others in this list are damaged, and only a
 # person who knows the robot can find out. For a velocity filter, look into the settings of your
 # motor controller.
 #
@@ -775,7 +775,7 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 #
 # Before you fit, check all five:
 #
-# - [ ] **Signs:** plus volts, plus velocity, in all four tests.
+# - [ ] **Signs:** a positive voltage gives a positive velocity, in all four tests.
 # - [ ] **Over time:** you see nothing that a motor cannot do to a mass. The rise bends from the
 #   start.
 # - [ ] **Time steps:** none is longer than 1.5 times the usual one, or you know how many are.
@@ -802,8 +802,8 @@ quick
 
 # %% [markdown]
 # **1.** Which plot reveals which fault? Match (a) time steps, (b) velocity next to the slope of the
-# position, (c) velocity over time, close up, (d) voltage over time, with (1) a current limit in a
-# log of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a velocity filter.
+# position, (c) velocity over time, close up, (d) voltage over time, to (1) a current limit in a log
+# of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a velocity filter.
 #
 # <details><summary>Answer</summary>
 #

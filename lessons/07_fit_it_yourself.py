@@ -891,7 +891,7 @@ plot_curves(
 # > **Source says:** such gains are "educated guesses", a "starting point".
 # > ([WPILib docs: Analyzing Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
 # >
-# > **Try it:** which q does 0.62 stand for?
+# > **Try it:** which q gives 0.62?
 # </details>
 
 # %%
@@ -1010,7 +1010,7 @@ Table(
 print(f"acceleration R²:       {best.acceleration_r2:.3f}")
 print(f"simulated velocity R²: {best.simulated_velocity_r2:.3f}")
 for doubt in best.doubts:
-    print(f"Doubt: {doubt.message}")
+    print(f"Warning: {doubt.message}")
 
 # %% [markdown]
 # You can do the same in a terminal:
@@ -1071,8 +1071,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Not necessarily. WPILib's docs call values above 0.5 rare even for good data. Below about 0.2, kA
-# is dubious. Compare kA with motors and mass, and forward with reverse.
+# Not necessarily. WPILib's docs call values above 0.5 rare even for good data. Below about 0.2, do
+# not trust kA. Compare kA with motors and mass, and forward with reverse.
 # </details>
 #
 # **4.** Your flywheel has kA/kV = 400 ms, your turret 15 ms. For which one is a median window of 5

@@ -27,9 +27,9 @@
 # %% [markdown]
 # ## 1 Why: no error message
 #
-# The analyzer shows three or four numbers, and you put them into your code. It is a small step, but
-# much can go wrong: the gain is per rotation and the code uses radians, kG and kV are swapped,
-# somebody uses the suggested kP without a test. **Nothing crashes.** The robot just moves wrong.
+# The analyzer shows three or four numbers, and you put them into your code. Much can go wrong: the
+# gain is per rotation and the code uses radians, kG and kV are swapped, somebody uses the suggested
+# kP without a test. **Nothing crashes.** The robot just moves wrong.
 #
 # A *feedforward* is the part of a controller that computes the voltage from what you **want**: "for
 # 40 rotations per second I need 5 V". *Feedback* looks at what you **get**, and corrects. Today we
@@ -98,7 +98,7 @@ Table(
 # comment. Above them, write *when to measure again*.
 #
 # Do not copy somebody else's constants. Take a drivetrain with TalonFX motors, ratio 8.46, 4 inch
-# wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is it?
+# wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is this one?
 #
 # <details><summary>For mentors: the source lesson's constants</summary>
 #
@@ -106,9 +106,9 @@ Table(
 # > and "SysId suggests kP = 0.62".
 # >
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
-# > that grows with speed. So a measured kV lies *above* what the motor's free speed promises
-# > (within a percent or two: data sheets are rounded).
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > that grows with speed. So a measured kV lies *above* what the motor's free speed suggests
+# > (within a percent or two: data sheets are rounded). ([WPILib docs: Introduction to DC Motor
+# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
 # >
 # > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
 # > it.
@@ -265,7 +265,7 @@ for name, order in orders.items():
     seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
     rows.append((name, slot, 100 * float(seconds[0, -1])))
 print(guess_slot.reveal("it rises"))
-print(f"It needs {lift['kG']:.2f} V to hold, ± {lift['kS']:.2f} V of friction.")
+print(f"The carriage needs {lift['kG']:.2f} V to hold still, ± {lift['kS']:.2f} V of friction.")
 Table(("arguments", "volts while holding still [V]", "after one second [cm]"), tuple(rows))
 
 # %% [markdown]
@@ -360,8 +360,8 @@ def scaled(factor: float) -> dict[str, float]:
 
 GAINS = {
     "as measured": measured,
-    "per radian, fed rotations": scaled(1 / (2 * math.pi)),
-    "per rotation, fed radians": scaled(2 * math.pi),
+    "per radian, gets rotations": scaled(1 / (2 * math.pi)),
+    "per rotation, gets radians": scaled(2 * math.pi),
     "kV and kA swapped": measured | {"kV": measured["kA"], "kA": measured["kV"]},
     "kA left out": measured | {"kA": 0.0},
     "volts taken for duty cycle (÷ 12)": {name: gain / 12 for name, gain in measured.items()},
@@ -410,7 +410,7 @@ show_interactive(
 # No menu? Change the name and the number here:
 
 # %%
-follower("per radian, fed rotations", 0.0)
+follower("per radian, gets rotations", 0.0)
 
 # %% [markdown]
 # The next table shows all of them, without and with feedback:
@@ -439,7 +439,7 @@ Table(
 #   12 V, so the wheel runs as fast as it can. On a drivetrain or an arm this is dangerous.
 # - **Swapped:** far too much voltage where the wheel speeds up, far too little where it holds its
 #   speed.
-# - **Without kA:** good where the target is steady, late on the slopes. For many mechanisms that
+# - **Without kA:** good where the target is steady, late where it changes. For many mechanisms that
 #   is enough: WPILib's docs say that you may leave out kA, and AdvantageKit's swerve template calls
 #   the drive's kA "unnecessary in most cases". ([WPILib docs: Feedforward Control in
 #   WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
@@ -585,7 +585,7 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
 # ```
 #
-# Our elevator shall rise by one meter. Its feedforward takes velocities, its feedback positions.
+# Our elevator should rise by one meter. Its feedforward takes velocities, its feedback positions.
 #
 # **Now you write it.** `one.now` and `one.after` are the two setpoints; each has a `position` and a
 # `velocity`. `one.position` is measured. Replace the dots, then run the cell below.
@@ -703,10 +703,11 @@ Table(
 
 # %% [markdown]
 # - **Guessed:** kG and kA are too small, kS is missing.
-# - **Measured:** about three times better. But kS is nearly zero! The fit knows no tube, so its
-#   gains carry the tube, wrongly.
-# - **Reconciled:** kS is right again. Yet the tube still pulls. Add **one more term**, the volts
-#   that hold it, and two millimeters remain: `+ kTubeRate * position + kTubePreload`.
+# - **Measured:** about three times better. But kS is nearly zero! The model has no tube, so the fit
+#   wrongly put the tube's pull into the gains.
+# - **Reconciled:** kS is right again. But the tube still pulls. Add **one more term**, the volts
+#   that balance it. Then an error of two millimeters remains: `+ kTubeRate * position +
+#   kTubePreload`.
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
@@ -756,7 +757,7 @@ with_pid = follow_in_closed_loop(
 )
 on_drum, on_rotor = magic(per_drum), magic(per_rotor)
 Table(
-    ("who follows the profile", "kV", "worst error [cm]"),
+    ("what follows the profile", "kV", "worst error [cm]"),
     (
         ("your loop, 20 ms", ff.kV, 100 * moves["reconciled + tube"].worst_error),
         ("ProfiledPIDController, 20 ms", ff.kV, 100 * with_pid.worst_error),
@@ -901,7 +902,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # %% [markdown]
 # The clues: if there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract
 # kG as well): a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly
-# the mechanism reacts: a heavy wheel takes its time.
+# the mechanism reacts: a heavy wheel is slow.
 
 # %% [markdown]
 # ## 9 Which mechanisms, and when
@@ -942,14 +943,16 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # > obtained by fairly simple computation", while kS "must be measured".
 # > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
-# > **Try it:** for each row of the table, say what your robot would do worse. No answer? No test.
+# > **Try it:** for each row of the table, say what your robot would do worse. If you find nothing,
+# > do not test it.
 # </details>
 #
-# ### PathPlanner, Choreo, AdvantageKit: where the gains come in
+# ### PathPlanner, Choreo, AdvantageKit: where the gains are used
 #
 # PathPlanner does not ask for kS or kV. It asks for mass, moment of inertia, wheels, motors and
 # true top speed. From these it plans speeds, and your drive code has to reach them. For that your
-# code needs the feedforward: a robot that is late on the slopes leaves its path in every curve.
+# code needs the feedforward: a robot that is late whenever its speed changes leaves its path in
+# every curve.
 #
 # <details><summary>For mentors: what PathPlanner needs, with source</summary>
 #
@@ -958,11 +961,11 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # >
 # > **Source says:** PathPlanner does not ask for kS or kV. It asks what the robot *is*: mass,
 # > moment of inertia, wheels, motors, true top speed. With that it plans speeds, and your drive
-# > code has to reach them. That is where the feedforward comes in.
-# > ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
+# > code has to reach them. For that it needs the feedforward. ([PathPlanner docs: Robot
+# > Config](https://pathplanner.dev/robot-config.html))
 # >
 # > **Try it:** in section 4, how far from its profile does the shooter stay without kA? A robot
-# > that is late on the slopes is beside its path in every curve.
+# > that is late whenever its speed changes leaves its path in every curve.
 # </details>
 #
 # <details><summary>Want to know more? The moment of inertia, Choreo and AdvantageKit</summary>
@@ -973,8 +976,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   > I = mass · r · kA_angular / kA_linear
 #
 #   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
-#   **tank** that is half the trackwidth, r = trackwidth/2, as the same page has it. The modules of
-#   a **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
+#   **tank** that is half the trackwidth, r = trackwidth/2; the same page says so. The modules of a
+#   **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
 #
 # - **Choreo** computes time-optimal paths from what you tell it about your robot. Here too, a path
 #   is only as good as the drive code that follows it. ([WPILib docs:
@@ -989,8 +992,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # values is the ratio of the loads.
 # </details>
 #
-# One number that PathPlanner asks for, the moment of inertia, follows from two kA values. Check the
-# formula with the modules of a square swerve:
+# The moment of inertia follows from two kA values. Check the formula with the modules of a square
+# swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
@@ -1019,9 +1022,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > the gains from the shop "will transfer directly to competition".
 # >
 # > **Source says:** the first is good advice; WPILib's docs ask for at least 10 feet to drive,
-# > ideally 20, and a pit does not have that. The second needs fine print: the gains describe *that*
-# > robot on *that* floor. The source lesson says so itself: measure again if gearing, wheels or
-# > carpet contact change. ([WPILib docs: Characterizing Your Robot
+# > ideally 20, and a pit does not have that. The second is true only with a condition: the gains
+# > describe *that* robot on *that* floor. The source lesson says so itself: measure again if
+# > gearing, wheels or carpet contact change. ([WPILib docs: Characterizing Your Robot
 # > Drive](https://docs.wpilib.org/en/stable/docs/software/pathplanning/trajectory-tutorial/characterizing-drive.html))
 # >
 # > **Try it:** count back from your first competition. Write two evenings into the calendar: one to
@@ -1031,8 +1034,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # <details><summary>Want to know more? Gains during a match</summary>
 #
 # Gains also change during a match. Copper that is 50 °C warmer has 20 % more resistance, so the
-# same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery changes
-# no gain of a loop in volts, but it can give only 10 V. kP corrects small changes.
+# same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery
+# changes no gain of a loop whose output is in volts, but then the battery can give only 10 V. kP
+# corrects small changes.
 # </details>
 
 # %% [markdown]
@@ -1099,8 +1103,8 @@ quick = QuickCheck(
 quick
 
 # %% [markdown]
-# **1.** A shooter has kS = 0.11 V, kV = 0.082 V·s/rot, kA = 0.003. Told 4000 rpm, it stays at 3900.
-# Are the gains wrong?
+# **1.** A shooter has kS = 0.11 V, kV = 0.082 V·s/rot, kA = 0.003. Its target is 4000 rpm, but it
+# stays at 3900. Are the gains wrong?
 #
 # <details><summary>Answer</summary>
 #

@@ -604,7 +604,7 @@ plot_curves(
     LIMITS,
     {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
     xlabel="limit in the model [V that drive the current]",
-    ylabel="gap [noises]",
+    ylabel="gap [times the noise]",
     levels={"the noise": 1.0},
 )
 
@@ -694,7 +694,7 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # %% [markdown]
 # ## 8 Your own robot
 #
-# Run the four tests **twice, with two step voltages**; that separates most effects that look alike.
+# Run the four tests **twice, with two step voltages**. This separates most effects that look alike.
 # Drive some other motion for a third log. Log the **applied** voltage (lesson 4). Then, in a
 # terminal:
 #
@@ -791,7 +791,7 @@ quick
 # step, drag with the speed. The old log cannot decide it.
 # </details>
 #
-# **5.** The gap is 1.05 noises. Are your gains the true ones?
+# **5.** The gap is 1.05 times the noise. Are your gains the true ones?
 #
 # <details><summary>Answer</summary>
 #
@@ -826,7 +826,7 @@ quick
 #
 # **Practice: characterize one mechanism**
 # ([exercises/practice/README.md](../exercises/practice/README.md), `grade practice`). Do everything
-# once, from the first line of code to the final gains. Best use your own robot and your own
+# once, from the first line of code to the final gains. If you can, use your own robot and
 # `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
 # reconcile it.
 #

@@ -173,9 +173,9 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# A smaller wheel turns more often on the same way. The code multiplies these turns with the radius
-# of a *new* wheel, so this module reports more meters than there were. More meters per second at
-# the same voltage: a smaller kV.
+# A smaller wheel turns more often over the same distance. The code multiplies these turns by the
+# radius of a *new* wheel, so this module reports more meters than there were. More meters per
+# second at the same voltage: a smaller kV.
 #
 # The three other modules agree to the last digit. That is no accident: the floor couples the
 # wheels. A module that rubs slows down *all* of them, and its own fit looks like the others. To
@@ -187,15 +187,15 @@ Table(
 # %% [markdown]
 # ## 4 A slow spin: how large is a wheel?
 #
-# Rubber wears, and the wheel sinks into the carpet. A tape measure does not see that. But a spin
+# Rubber wears, and the wheel sinks into the carpet. A tape measure does not show that, but a spin
 # does. Turn the robot slowly on the spot, a few times round. The gyro counts the angle, and each
 # drive motor counts its turns.
 #
 # Each wheel rolls on a circle around the middle of the robot:
 #
-# > way of a wheel = angle of the robot [rad] · distance of the wheel from the middle
+# > distance that a wheel rolls = angle of the robot [rad] · distance of the wheel from the middle
 #
-# The same way is 2π · radius · turns of the wheel. The wheels of a square robot stand in its
+# The same distance is 2π · radius · turns of the wheel. The wheels of a square robot stand in its
 # corners. With trackwidth T, the distance from the middle is half of the diagonal: **T/√2**.
 
 # %%
@@ -228,7 +228,7 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 #
 # > I = mass · lever · kA_turning / kA_straight
 #
-# One kA tells the mass, the other tells the inertia. A single kA cannot tell both.
+# One kA depends on the mass, the other on the inertia. A single kA cannot give you both.
 #
 # ### CTRE's log: a rate and degrees
 #
@@ -241,8 +241,8 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 # ### Which lever?
 #
 # PathPlanner's and Choreo's pages give the formula with *half the trackwidth*. That is right for a
-# tank: its wheels push straight forward, T/2 beside the middle. The modules of a square swerve push
-# across the diagonal.
+# tank: its wheels push straight forward, T/2 away from the middle. The modules of a square swerve
+# push across the diagonal.
 #
 # Our robot really has 5.0 kg·m². **Predict:**
 
@@ -274,10 +274,10 @@ Table(
 # %% [markdown]
 # With the wrong lever the answer is too small by a factor of √2, whatever the robot.
 #
-# ### The log tells the lever
+# ### The log shows the lever
 #
 # You can check the lever without a tape measure. A wheel runs at lever · ω, with ω the rate of the
-# robot in rad/s. So the two kV have the same quotient:
+# robot in rad/s. So the ratio of the two kV is the lever:
 
 # %%
 quotient = turning.gains["kV"] / straight.gains["kV"]
@@ -290,15 +290,15 @@ for doubt in found["half the trackwidth, T/2"].doubts:
 #
 # ### Why 5.2 and not 5.0?
 #
-# Wheels, gears and rotors also have to spin up. They are in both kA, but not in the same share.
-# Usually they are worth 3 to 10 % of the mass. Then the result is a few percent too large. Do not
-# trust the third digit.
+# Wheels, gears and rotors also have to spin up. They are part of both kA, but not to the same
+# degree. Usually they count like 3 to 10 % of the mass. Then the result is a few percent too large.
+# Do not trust the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
 #
-# Let the wheels and rotors be worth a mass m_w. Straight they add m_w to the mass; turning they add
-# m_w · lever² to the inertia. The robot's own inertia is about I − s · (mass · lever² − I), with
-# s = m_w / mass. `sysid fit` prints the range for s from 3 to 10 %.
+# Say the wheels and rotors count like a mass m_w. Straight, they add m_w to the mass; turning, they
+# add m_w · lever² to the inertia. The robot's own inertia is about I − s · (mass · lever² − I),
+# with s = m_w / mass. `sysid fit` prints the range for s from 3 to 10 %.
 # </details>
 
 # %%
@@ -308,8 +308,8 @@ print(f"Without wheels and rotors: {least:.2f} to {most:.2f} kg·m².")
 # %% [markdown]
 # ## 6 The push at a wall: when do the wheels slip?
 #
-# The carpet can hold only so much. If a motor pushes harder, the wheel spins on the floor: it
-# **slips**. While it slips, your log shows the speed of the wheel, not the speed of the robot.
+# The carpet can hold only a limited force. If a motor pushes harder, the wheel spins on the floor:
+# it **slips**. While it slips, your log shows the speed of the wheel, not the speed of the robot.
 #
 # CTRE's program drives its translation test with a step of 4 V. **Predict:**
 
@@ -342,7 +342,7 @@ def launch(step: float) -> Scene:
 
 limit = slip_voltage(robot.translation)
 print(guess_step.reveal("they spin up almost at once, and the robot comes later"))
-print(f"This robot slips from {limit:.1f} V on.")
+print(f"The wheels of this robot slip above {limit:.1f} V.")
 STEPS = {f"{step:g} V": launch(step) for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0)}
 animate_mechanism(
     "swerve",
@@ -363,13 +363,13 @@ Table(
 )
 
 # %% [markdown]
-# A fit of such a log finds a kA that is far too large, because the wheels wait for the robot.
-# Choose a step below the slip, here about 1.8 V. A heavier robot, or one with weaker motors, may
-# take more.
+# A fit of such a log finds a far too large kA: after the first jump the wheels get faster only
+# slowly, until the robot catches up. Choose a step below the slip, here about 1.8 V. A heavier
+# robot, or weaker motors, allow a larger step.
 #
 # ### Measure it
 #
-# Put the robot against a **wall**, bumper on, wheels straight. Raise the voltage slowly. At first
+# Put the robot against a **wall**, bumpers on, wheels straight. Raise the voltage slowly. At first
 # nothing turns, and the current grows with the voltage. Then the wheels break loose.
 #
 # *Safety: nobody stands near the robot or behind the wall. Stop at once when the wheels spin; they
@@ -392,7 +392,7 @@ plot_curves(
 # This is the **slip current**. Set the stator current limit of the drive motors to it. (CTRE calls
 # it `kSlipCurrent`; its program starts with 120 A.) Then a driver can push the stick as hard as
 # they like, and the wheels keep their grip. Note that the current *falls* when the wheels slip:
-# rubber that slides holds less. Take the largest value before.
+# rubber that slides holds less. Take the largest value before that.
 
 # %% [markdown]
 # ## 7 Into the settings
@@ -408,10 +408,10 @@ plot_curves(
 # | torque of a motor at the slip current [N·m] | data sheet | | Motor Max Torque |
 # | distances between the wheels [m] | tape measure | Module Offsets | Wheelbase, Trackwidth |
 #
-# A motor's torque is proportional to its current. So the torque at the slip current is
-# stall torque · slip current / stall current. For the top speed, PathPlanner's page advises to
-# drive as fast as you can and read the speed; the formula is for those who lack the room. Choreo
-# advises about 80 % of the free speed for its *Motor Speed Limit*. ([Choreo docs: Robot
+# A motor's torque is proportional to its current. So the torque at the slip current is stall torque
+# · slip current / stall current. For the top speed, PathPlanner's page says: drive as fast as you
+# can and read the speed. Without room, use the formula. Choreo advises about 80 % of the free speed
+# for its *Motor Speed Limit*. ([Choreo docs: Robot
 # Configuration](https://choreo.autos/document-settings/robot-configuration/))
 
 # %%
@@ -442,7 +442,7 @@ Table(
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
 #    robot, and nobody in it. Use a small step here, too.
 # 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
-#    names in your log. In the place of V comes a `MotorVoltage`, of P the gyro's `Yaw`, of W its
+#    names in your log. Replace V by a `MotorVoltage`, P by the gyro's `Yaw`, and W by its
 #    `AngularVelocityZWorld`:
 #
 #    ```
@@ -450,8 +450,8 @@ Table(
 #    ```
 #
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
-#    (CTRE logs the way straight in rotations of the motor. That will do: the lever tells the
-#    command how far one rotation goes.)
+#    (CTRE logs the straight drive in motor rotations. That is enough: the lever shows how far one
+#    rotation goes.)
 #
 # 6. **Push** at a wall, once.
 #
@@ -459,9 +459,9 @@ Table(
 #
 # AdvantageKit's templates have one routine, for going straight. Its page shows the two lines to
 # change so that the modules stand across the diagonals: drive open loop, steer to the angle of the
-# module's place plus 90°. That turns the robot with a *voltage*, and its log has one. YAGSL's
-# `SwerveDriveTest` has a drive and an angle routine; the drive routine centers the modules first,
-# and each module logs itself in meters. For the gyro's angle add your own entries.
+# module's place plus 90°. Then a *voltage* turns the robot, and the log contains that voltage.
+# YAGSL's `SwerveDriveTest` has a drive and an angle routine; the drive routine centers the modules
+# first, and each module logs itself in meters. For the gyro's angle add your own entries.
 # </details>
 
 # %% [markdown]
@@ -471,7 +471,7 @@ Table(
 #
 # - [ ] The wheels were locked straight, and no module differs from the others.
 # - [ ] The step was below the slip: no jump at the start of the dynamic tests (lesson 6).
-# - [ ] The "voltage" of the rotation log is a voltage, and the angle is in the unit that you said.
+# - [ ] The "voltage" of the rotation log is a voltage, and the angle is in the unit that you gave.
 # - [ ] kV turning / kV straight is the lever, within a few percent.
 # - [ ] The robot had battery and bumpers on, as in a match.
 #
@@ -506,8 +506,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# `Rotational_Rate`. It is the rate that was asked for, so the robot turns with about that rate: kV
-# is about 1. No moment of inertia follows from it. Load a `MotorVoltage`.
+# `Rotational_Rate`. It is the commanded rate, and the robot turns at about that rate, so kV is
+# about 1. You cannot compute a moment of inertia from it. Load a `MotorVoltage`.
 # </details>
 #
 # **3.** PathPlanner's formula gives 3.5 kg·m² for your square swerve. What do you check first?

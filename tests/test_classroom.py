@@ -87,7 +87,7 @@ def test_every_student_gets_their_points_and_one_that_breaks_stops_nobody(course
         "dan,0,0,3,exercise1",
         "eve,3,3,3,",
     ]
-    assert "something of 2 students could not be graded" in said.err
+    assert "some work of 2 students could not be graded" in said.err
     assert "KeyError" in graded(tmp_path / "in-graded", "cat")["records"][0]["reason"]
     assert course.is_dir()
 

@@ -63,8 +63,8 @@ TABLE = [
     ("exercise3", {"elevator_kG": 2.0}, "Told to stand still, the elevator climbs"),
     ("exercise3", {"arm_kG": 0.0}, "the arm sinks"),
     ("exercise3", {"arm_kS": 0.0}, "the arm"),
-    ("exercise9", {"kV": 2 * 3.14159}, "Told to do 2 m/s, the drivetrain does about 4 m/s."),
-    ("exercise9", {"kV": 1 / 60}, "Told to do 2 m/s, the drivetrain hardly moves."),
+    ("exercise9", {"kV": 2 * 3.14159}, "Asked for 2 m/s, the drivetrain reaches about 4 m/s."),
+    ("exercise9", {"kV": 1 / 60}, "Asked for 2 m/s, the drivetrain hardly moves."),
     ("exercise9", {"kV": -1.0}, "the drivetrain goes the other way"),
     ("exercise9", {"kA": 0.0}, "While the drivetrain gets faster, it is up to about"),
     ("exercise1", {"forward": 1 / 12}, "Forward, with your volts: it hardly moves."),
@@ -183,11 +183,11 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
 
     assert run_command(["9", "--picture", "what.svg"]) == 1
     out, err = capsys.readouterr()
-    assert "then  Your numbers as feedforward, without feedback. Told to do" in out
+    assert "then  Your numbers as feedforward, without feedback. Asked for" in out
     assert "See it: grade exercise9 --picture what.svg" in out
     assert max(map(len, out.splitlines())) <= 80
     assert "what your answer would do: what.svg" in err
-    assert "Told to do" in Path("what.svg").read_text("utf-8")
+    assert "Asked for" in Path("what.svg").read_text("utf-8")
 
 
 def test_a_picture_that_cannot_be_is_said(course, capsys):
@@ -199,7 +199,7 @@ def test_a_picture_that_cannot_be_is_said(course, capsys):
 
     write(course["exercise9"], **(right | {"kV": 1.0}))
     assert run_command(["9", "--picture", "what.doc"]) == 2
-    assert "no picture ends in '.doc'" in capsys.readouterr().err
+    assert "a picture cannot end in '.doc'" in capsys.readouterr().err
     assert run_command(["--picture", "what.svg"]) == 2
     assert "Say which: grade exercise4 --picture what.svg" in capsys.readouterr().err
 

@@ -108,7 +108,7 @@ def test_whatever_is_typed_is_read_or_refused(text):
         ("brownout", {"severity": math.inf}, "brownout of severity inf"),
         ("brownout", {"test": "static"}, "'static' is not the name of a test"),
         ("brownout", {"test": "coast-forward"}, "there is no coast-forward test in this log. It"),
-        ("wheel-slip", {"test": "quasistatic-forward"}, "cannot strike a quasistatic-forward"),
+        ("wheel-slip", {"test": "quasistatic-forward"}, "cannot happen in a quasistatic-forward"),
         ("brownout", {"test": "dynamic-forward", "at": 99.0}, "99 s is not within dynamic-forward"),
         ("brownout", {"test": "dynamic-forward", "at": -1.0}, "-1 s is not within"),
         ("brownout", {"test": "dynamic-forward", "at": math.nan}, "nan s is not within"),
@@ -125,7 +125,7 @@ def test_impossible_damage_is_one_line_with_advice(drive, name, how, said):
 
 
 def test_an_elevator_has_no_wheels(elevator):
-    with pytest.raises(BadRequest, match="cannot strike a mechanism of type elevator"):
+    with pytest.raises(BadRequest, match="cannot happen to a mechanism of type elevator"):
         contaminate(elevator, "wheel-slip", rng=rng())
 
 

@@ -63,7 +63,7 @@ def test_damaged_progress_is_said_set_aside_and_begun_anew(course, capsys, text)
 
     assert run_command([]) == 0
     out, err = capsys.readouterr()
-    assert "could not be read; it starts anew" in err
+    assert "could not be read; it starts again from zero" in err
     assert "0 of 1 exercises done" in out
     assert (course / ".course" / "progress.toml.bak").read_text("utf-8") == text
 
@@ -139,8 +139,9 @@ def test_damaged_progress_is_said_and_each_is_set_aside(course, content, capsys)
         path.write_text(content, encoding="utf-8")
 
         assert run_command(["exercise1"]) == 0
-        assert f"could not be read; it starts anew, and the damaged file is now {name}" in (
-            capsys.readouterr().err
+        assert (
+            f"could not be read; it starts again from zero, and the damaged file is now {name}"
+            in (capsys.readouterr().err)
         )
         assert (path.parent / name).read_text(encoding="utf-8") == content
         assert load_progress(course)[0].find_standing("me", "exercise1").is_done

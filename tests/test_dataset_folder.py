@@ -183,7 +183,7 @@ def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
 
     assert check(path, folder, capsys) == (
         0,
-        [f"{folder}: 8 logs, all as they were made; the seal is whole."],
+        [f"{folder}: 8 logs, all unchanged; the seal is intact."],
     )
 
 

@@ -139,7 +139,10 @@ def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
     said = capsys.readouterr().err
     again = files(make(path, "two"))
 
-    assert said == f"{tmp_path / 'class.secret'}: a new secret. Keep it, and keep it to yourself.\n"
+    assert (
+        said
+        == f"{tmp_path / 'class.secret'}: a new secret. Keep this file, and show it to nobody.\n"
+    )
     assert capsys.readouterr().err == ""
     assert first == again
     assert len((tmp_path / "class.secret").read_text(encoding="utf-8").strip()) == 64

@@ -60,11 +60,11 @@ def refusal(path):
         ("step = 3.0", "tests = 'wobble'", ', routine: tests "wobble" is unknown. '),
         ("count = 2", "count = 0", ", [[logs]] number 1: count is 0. Give a whole number from 1"),
         ("count = 2", "count = 2.5", ", [[logs]] number 1: count is 2.5. Give a whole number"),
-        ("count = 2", "count = 90000", ": 180000 logs are asked for. Split it: one dataset has at"),
+        ("count = 2", "count = 90000", ": 180000 logs are requested. Split it: one dataset has at"),
         ("count = 2", "drawn = 'yes'", ', [[logs]] number 1: drawn is "yes". Give true or false'),
         ("shooter", "shoter", '[[logs]] number 1: mechanisms "shoter" is unknown. Did you mean'),
         ("mechanisms", "mechanism", 'number 1: unknown key "mechanism". Did you mean "mechanisms"'),
-        ("count = 2", "routine = 3", ", [[logs]] number 1, routine: 3 stands where keys and"),
+        ("count = 2", "routine = 3", ", [[logs]] number 1, routine: 3 is in the place of keys and"),
         (
             "count = 2",
             "effects = 3",

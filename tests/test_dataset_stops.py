@@ -89,7 +89,7 @@ def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
     assert there.items() < whole.items()
     assert running.returncode == 130
     assert said == (
-        f"sysid: stopped with {len(there)} of 120 logs whole. Run the same command to go on.\n"
+        f"sysid: stopped with {len(there)} of 120 logs done. Run the same command to continue.\n"
     )
     assert files(make(tmp_path / "spec.toml", "data", "--processes", 1)) == whole
 
@@ -105,7 +105,10 @@ def test_a_worker_that_is_killed_is_told_in_one_line(tmp_path, undisturbed):
 
     assert running.returncode == 2
     assert said.count("\n") == 1
-    assert "was ended from outside, perhaps for want of memory. Run the same command" in said
+    assert (
+        "was stopped from outside, perhaps because the memory was full. Run the same command"
+        in said
+    )
     assert left(tmp_path).items() <= undisturbed[0].items()
 
 

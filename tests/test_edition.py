@@ -65,7 +65,7 @@ def test_a_lesson_becomes_a_page_slides_and_a_part_of_the_handout(lesson, tmp_pa
     assert "<b>as drawn</b>" in page
     assert "ramp: 3" in page
     assert "up &amp; left" in page
-    assert "In the notebook this can be turned" in page
+    assert "In the notebook you can move and click this" in page
     assert 'href="02_more.html">Next' in page
     handout = pages["handout.html"]
     assert handout.count("<section>") == 2

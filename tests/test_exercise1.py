@@ -98,7 +98,7 @@ def test_numbers_that_were_changed_are_written_anew(copy):
     copy.prepare("ann", say=said.append)
 
     assert given.read_bytes() == right
-    assert ["anew" in line for line in said] == [False, True]
+    assert ["written again" in line for line in said] == [False, True]
     assert [file.name for file in given.parent.iterdir()] == ["given.toml"]
 
 

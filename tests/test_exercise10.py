@@ -238,7 +238,7 @@ def test_the_diameter_in_place_of_the_radius_is_named(checked):
     student = of(kind="elevator")
     found = checked(in_place(student, "Slot0Configs", kV=2.0), student=student)["kv"]
 
-    assert "did you take the diameter" in found.hint
+    assert "did you use the diameter" in found.hint
 
 
 @pytest.mark.parametrize(

@@ -96,7 +96,7 @@ def test_the_source_lesson_to_the_letter_gets_full_marks_with_its_subsystem_besi
 def test_without_the_subsystem_it_asks_for_it_and_never_guesses(tmp_path):
     found = judged(tmp_path, LESSON)
 
-    assert "I cannot see the methods" in found["factories"].seen
+    assert "the grader cannot see the methods" in found["factories"].seen
     assert "Put the subsystem's file into the same" in found["factories"].hint
     assert found["factories"].points == 0
     assert found["held"].status == found["guard"].status == "passed"

@@ -409,7 +409,7 @@ def test_numbers_that_were_changed_are_written_anew(copy):
     copy.prepare("ann", say=said.append)
 
     assert given.read_bytes() == made
-    assert ["anew" in line for line in said] == [False, True]
+    assert ["written again" in line for line in said] == [False, True]
 
 
 def test_a_mark_beyond_the_end_of_the_run_is_wrong(copy):

@@ -67,8 +67,8 @@ def test_suggested_gains_come_with_what_they_do(fit, drive):
 
     assert code == 0
     assert "  velocity kP 2.7" in said
-    assert "after a step of 2 m/s it is 90% there after" in said
-    assert "look:" not in said
+    assert "after a step of 2 m/s it reaches 90% of the target after" in said
+    assert "warning:" not in said
 
 
 def test_ones_own_gains_are_tried_beside_them(fit, drive):
@@ -76,7 +76,7 @@ def test_ones_own_gains_are_tried_beside_them(fit, drive):
 
     assert code == 0
     assert "your own position kP 300, kD 0 (no good start): after a step" in said
-    assert "oscillates and does not settle: still by" in said
+    assert "oscillates and does not settle: it still swings by" in said
 
 
 def test_ones_own_gains_are_in_the_json_too(fit, drive):
@@ -100,7 +100,7 @@ def test_a_suggestion_that_does_not_settle_is_a_warning(fit, tmp_path):
     _, data, _ = fit(arm, "--type", "arm", "--preset", "ctre-phoenix5", "--json")
 
     assert "no good start; see the warning below" in said
-    assert re.search(r"look: Start the \w+ loop with kP \d", said) or "There is no good" in said
+    assert re.search(r"warning: Start the \w+ loop with kP \d", said) or "There is no good" in said
     assert said.count("kP -") == said.count("own suggestion, kP -")
     assert "unsettled-feedback" in [one["code"] for one in json.loads(data)["warnings"]]
 
@@ -152,7 +152,7 @@ def test_sides_that_agree_are_said_to(fit, tmp_path):
 
     assert code == 0
     assert "Left and right, each fitted alone, agree within their errors: kV 2.52" in said
-    assert "look:" not in said
+    assert "warning:" not in said
 
 
 def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
@@ -161,7 +161,7 @@ def test_sides_that_differ_are_a_doubt_with_numbers(fit, tmp_path):
     _, said, _ = fit(two_sided(tmp_path, right=dragging))
 
     (doubt,) = [line for line in said.splitlines() if "left and" in line and "kV" in line]
-    assert doubt.startswith("look: kV is 2.52 left and")
+    assert doubt.startswith("warning: kV is 2.52 left and")
     assert "agree" not in said
 
 

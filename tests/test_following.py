@@ -33,7 +33,7 @@ def test_right_gains_follow(kind):
     off = np.abs(np.subtract(one.position, one.target.position)).max()
 
     assert off < 0.015 * 0.5  # of the way
-    assert one.description == "The thing does nearly what is asked of it here."
+    assert one.description == "Here the thing does nearly what it should."
 
 
 def test_a_profile_is_whole():
@@ -72,14 +72,14 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
         ("elevator", {"kG": 0.0}, "Told to stand still, the thing sinks about 0.4 m in 1 s."),
         ("elevator", {"kG": 5.5}, "Told to stand still, the thing climbs about 0.7 m in 1 s."),
         ("elevator", {"kG": 9.0}, "Told to stand still, the thing climbs about 0.8 m, to its stop"),
-        ("elevator", {"kG": 2.2}, "Told to do 0.5 m/s, the thing is about 0.04 m/s too fast."),
+        ("elevator", {"kG": 2.2}, "Asked for 0.5 m/s, the thing is about 0.04 m/s too fast."),
         ("elevator", {"kG": 2.2}, "It ends about 0.1 m above where it should be."),
-        ("elevator", {"kV": 4.5 / 6.28}, "Told to do 0.5 m/s, the thing does about 0.08 m/s."),
-        ("elevator", {"kV": 0.0, "kS": 0.0}, "Told to do 0.5 m/s, the thing hardly moves."),
-        ("elevator", {"kV": -4.5}, "Told to do 0.5 m/s, the thing goes the other way."),
-        ("elevator", {"kV": 60.0}, "Told to do 0.5 m/s, the thing is at its stop."),
-        ("simple", {"kA": 0.0}, "While the thing gets faster, it is up to about 0.2 m/s late."),
-        ("simple", {"kA": 0.6}, "While the thing gets faster, it is up to about 0.3 m/s ahead."),
+        ("elevator", {"kV": 4.5 / 6.28}, "Asked for 0.5 m/s, the thing reaches about 0.08 m/s."),
+        ("elevator", {"kV": 0.0, "kS": 0.0}, "Asked for 0.5 m/s, the thing hardly moves."),
+        ("elevator", {"kV": -4.5}, "Asked for 0.5 m/s, the thing goes the other way."),
+        ("elevator", {"kV": 60.0}, "Asked for 0.5 m/s, the thing is at its stop."),
+        ("simple", {"kA": 0.0}, "While the thing gets faster, it is up to about 0.2 m/s too slow."),
+        ("simple", {"kA": 0.6}, "While the thing gets faster, it is up to about 0.3 m/s too fast."),
         ("arm", {"offset_rad": 0.3 - math.pi}, "Told to stand still, the thing sinks"),
     ],
 )

@@ -25,13 +25,13 @@ TABLE = {
     "encoder slips 30 %": ((-940, 66, 572, 0.16, 0.842), (-670, 71, 450, 0.23, 0.895)),
     "lurch": ((-133, 1, 157, 0.19, 0.915), (-101, 1, 149, 0.14, 0.926)),
     "stop during the rise": ((-10, 0, 37, 0.46, 0.973), (-9, 0, 22, 0.46, 0.987)),
-    "asked volts, 7 V step": ((-4, -1, 38, 0.96, 0.991), (15, -4, 51, 0.96, 0.975)),
-    "asked volts, 10 V step": ((-101, 0, 226, 0.93, 0.982), (-152, -2, 347, 0.97, 0.986)),
-    "brownout, asked volts": ((15, -1, 38, 0.60, 0.961), (-12, 0, 43, 0.59, 0.960)),
+    "commanded volts, 7 V step": ((-4, -1, 38, 0.96, 0.991), (15, -4, 51, 0.96, 0.975)),
+    "commanded volts, 10 V step": ((-101, 0, 226, 0.93, 0.982), (-152, -2, 347, 0.97, 0.986)),
+    "brownout, commanded volts": ((15, -1, 38, 0.60, 0.961), (-12, 0, 43, 0.59, 0.960)),
     "gaps up to 100 ms": ((-4, 0, 20, 0.84, 0.989), (-16, 0, 27, 0.75, 0.984)),
     "gaps up to 300 ms": ((-17, 0, 46, 0.60, 0.978), (-33, 0, 47, 0.61, 0.965)),
     "slow velocity filter": ((81, 0, -3, 0.76, 0.953), (52, 0, 32, 0.65, 0.987)),
-    "40 A limit, asked volts": ((-25, 0, 62, 0.81, 0.984), (-28, -1, 71, 0.84, 0.982)),
+    "40 A limit, commanded volts": ((-25, 0, 62, 0.81, 0.984), (-28, -1, 71, 0.84, 0.982)),
     "wheel slip, 3.5 V step": ((-5, 0, 23, 0.80, 0.990), (-18, 0, 39, 0.70, 0.978)),
     "wheel slip, 4 V step": ((-10, 0, 33, 0.64, 0.986), (-18, 0, 48, 0.56, 0.969)),
     "wheel slip, 7 V step": ((-20, 0, 49, 0.24, 0.965), (-46, 1, 66, 0.21, 0.922)),
@@ -49,7 +49,11 @@ DIFFERS = {
     "friction differs": "the reference does not say how long its ramps are; the longer they are "
     "beside the steps, the more of it goes to kA",
 }
-LUCKY = {"gaps up to 100 ms", "gaps up to 300 ms", "40 A limit, asked volts"}  # they spread widely
+LUCKY = {
+    "gaps up to 100 ms",
+    "gaps up to 300 ms",
+    "40 A limit, commanded volts",
+}  # they spread widely
 
 each_case = pytest.mark.parametrize("name", TABLE)
 
@@ -114,7 +118,7 @@ def about(one, other):
 def test_seventeen_of_nineteen_pass_for_good(made):
     """The reference's count leaves the weak battery out: it would be a twentieth, and passes."""
     wrong = [five for name, five in made.items() if five[0].harmful]
-    counted = [five for five in wrong if five[0].name != "asked volts, 10 V step"]
+    counted = [five for five in wrong if five[0].name != "commanded volts, 10 V step"]
     passing = [five for five in counted if all(case.has_good_r2 for case in five)]
 
     assert len(counted) == 19
@@ -142,7 +146,7 @@ def test_no_score_sees_a_wrong_ratio_or_a_wrong_sign(made):
 def test_the_highest_acceleration_r2_of_all_belongs_to_a_log_of_asked_volts(made):
     best = max(made, key=lambda name: measured(made[name])[3])
 
-    assert best == "asked volts, 7 V step"
+    assert best == "commanded volts, 7 V step"
 
 
 def test_logging_what_arrived_repairs_the_asked_volts():

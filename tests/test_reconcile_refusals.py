@@ -84,7 +84,7 @@ ALONE = {
         changed(LOG, voltage=lambda one: -one.voltage),
         (
             "drive.csv: a positive voltage drives it backward. Invert the encoder or the motor, so "
-            "that plus is plus, and record again."
+            "that a positive voltage gives a positive velocity, and record again."
         ),
     ),
 }
@@ -147,10 +147,14 @@ def test_a_log_of_something_else_is_refused_beside_a_good_one(role, name):
 @pytest.mark.parametrize(
     ("type_", "travel", "said"),
     [
-        ("arm", None, "an arm's position must be an angle, and this log is in meters. Say --units"),
-        ("simple", 0.5, "and the travel is 0.5. Give the way from stop to stop, in the log's un"),
-        ("simple", -1.0, "and the travel is -1. Give the way"),
-        ("simple", float("nan"), "and the travel is nan. Give the way"),
+        ("arm", None, "an arm's position must be an angle, and this log is in meters. Add --units"),
+        (
+            "simple",
+            0.5,
+            "and the travel is 0.5. Give the distance from stop to stop, in the log's un",
+        ),
+        ("simple", -1.0, "and the travel is -1. Give the distance"),
+        ("simple", float("nan"), "and the travel is nan. Give the distance"),
     ],
 )
 def test_a_wrong_word_about_a_log_is_refused(type_, travel, said):
@@ -232,7 +236,7 @@ def files(tmp_path_factory):
         (["good.csv", "--held-out", "inf.csv"], "inf.csv, line 101: velocity is inf. Write a n"),
         (["good.csv", "--validation", "none.csv"], "none.csv: there is no such file."),
         (["good.csv", "--held-out", "ten.csv"], "the mechanism hardly moves in this log. Give a"),
-        (["good.csv", "--travel", "0"], "and the travel is 0. Give the way from stop to stop"),
+        (["good.csv", "--travel", "0"], "and the travel is 0. Give the distance from stop to stop"),
     ],
 )
 def test_the_command_says_it_in_one_line_and_exits_with_2(files, capsys, arguments, said):

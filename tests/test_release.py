@@ -151,7 +151,10 @@ def test_a_seal_tells_what_was_changed_or_is_somebody_elses(course, anns, tmp_pa
     log = place / "exercises" / "exercise9" / "data" / "ann" / "log.csv"
     log.write_bytes(log.read_bytes() + b"\n")
     assert run_command(command) == 1
-    assert "exercises/exercise9/data/ann/log.csv: not as it was issued" in capsys.readouterr().out
+    assert (
+        "exercises/exercise9/data/ann/log.csv: changed since it was issued"
+        in capsys.readouterr().out
+    )
     assert len(find_broken_seals(place, read_class_package(place), secret=SECRET + b"!")) == len(
         read_class_package(place).sealed
     )
@@ -200,7 +203,7 @@ def test_a_secret_is_made_once_for_its_owner_only(course, tmp_path, monkeypatch,
                "--secret", str(secret)]  # fmt: skip
 
     assert run_command(command) == 0
-    assert "a new secret. Keep it" in capsys.readouterr().err
+    assert "a new secret. Keep this file" in capsys.readouterr().err
     kept, first = secret.read_bytes(), (tmp_path / "out" / "students" / "ann.zip").read_bytes()
     assert run_command(command) == 0
     assert secret.read_bytes() == kept

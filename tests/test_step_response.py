@@ -145,7 +145,7 @@ def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
 
     assert told.is_good
     assert told.reached < told.settled + 0.5
-    assert told.description.startswith("is 90% there after")
+    assert told.description.startswith("reaches 90% of the target after")
 
 
 def test_the_numbers_of_a_verdict_are_those_of_the_curve():
@@ -162,7 +162,7 @@ def test_the_numbers_of_a_verdict_are_those_of_the_curve():
     assert told.overshoot == pytest.approx(0.2, abs=0.001)
     assert told.settled == pytest.approx(0.75, abs=0.002)
     assert told.description == (
-        "is 90% there after 450 ms, goes 20% past the target and is settled after 751 ms"
+        "reaches 90% of the target after 450 ms, goes 20% past the target and settles after 751 ms"
     )
 
 
@@ -189,7 +189,7 @@ def test_whatever_the_gains_the_answer_is_numbers_and_a_sentence(kp, kd, delay, 
     [
         ({"loop": "torque"}, "unknown loop 'torque'"),
         ({"feedback": Feedback(math.nan, 0.0)}, "not a number"),
-        ({"plant": Plant("simple", GAINS | {"kA": -0.1})}, "below zero"),
+        ({"plant": Plant("simple", GAINS | {"kA": -0.1})}, "negative gain"),
     ],
 )
 def test_what_cannot_be_simulated_is_refused(changes, said):

@@ -296,7 +296,7 @@ def test_an_overlay_has_each_run_before_and_after():
 def test_the_base_has_no_before():
     picture = plot_overlays(EXPLAINED, 0)
 
-    assert picture.table.header == ("run", "base model, off by [noises]")
+    assert picture.table.header == ("run", "base model, error [times the noise]")
 
 
 def test_the_map_shows_where_before_and_nowhere_after():
@@ -305,7 +305,7 @@ def test_the_map_shows_where_before_and_nowhere_after():
     models = [row[-1] for row in picture.table.rows]
     assert set(models) == {"base"}
     assert all(row[1].startswith("−") for row in picture.table.rows)  # the robot is slower
-    assert "with drag: nowhere beyond doubt." in picture.alt
+    assert "with drag: nowhere clearly more than the noise." in picture.alt
 
 
 def test_samples_that_do_not_count_are_not_on_the_map():

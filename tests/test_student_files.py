@@ -27,7 +27,7 @@ def test_files_are_written_once_and_again_when_they_were_changed(tmp_path):
     assert len(list(made.iterdir())) == 2
     assert [line.partition(": ")[0] for line in said] == [
         "Your own numbers for exercise 5",
-        "Your numbers were no longer as made; written anew",
+        "Your numbers were changed; written again",
     ]
 
 

@@ -165,7 +165,7 @@ def test_slip_beside_a_hidden_effect_is_left_out_and_it_is_said():
     (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
 
     assert doubt.code == "slip-left-out"
-    assert "from 2.3 V at a start on" in doubt.message
+    assert "above 2.3 V from standstill" in doubt.message
     assert simulate(robot, GENTLE, rng=rng()).doubts == ()
 
 
@@ -271,7 +271,9 @@ def test_logs_that_changed_places_are_refused():
 
     with pytest.raises(BadRequest, match="the log of turning is in meters"):
         moment_of_inertia(straight, turning, mass=60.0)
-    with pytest.raises(BadRequest, match="is in radians, so the speeds tell no lever"):
+    with pytest.raises(
+        BadRequest, match="is in radians, so the lever cannot be computed from the speeds"
+    ):
         moment_of_inertia(turning, turning, mass=60.0)
     bad = replace(turning, gains={**turning.gains, "kA": -0.1})
     with pytest.raises(BadRequest, match="kA of turning is -0.1"):
@@ -336,7 +338,7 @@ def test_the_command_prints_the_moment_of_inertia(logs, capsys):
     assert "simple mechanism in degrees" in said
     assert "Moment of inertia 5.2" in said
     assert "with a lever of 0.424 m." in said
-    assert "the robot's own is 4.6" in said
+    assert "without them the robot has 4.6" in said
 
 
 def test_modules_that_agree_roughly_are_not_said_to_agree_within_their_errors(tmp_path, capsys):
@@ -435,7 +437,7 @@ def test_a_rate_in_place_of_a_voltage_is_told_and_gives_no_inertia(logs, capsys)
     )  # fmt: skip
 
     assert code == 0
-    assert "'Rotational_Rate' is no voltage but the rate" in said
+    assert "'Rotational_Rate' is not a voltage but the rate" in said
     assert refused == 2
     assert "Name the MotorVoltage of a drive motor with --voltage." in why
     assert why.count("\n") == 1

@@ -44,7 +44,7 @@ REFUSED = [
     pytest.param(
         '{"slow-forward": [[1,2,3,4]], "slow-forward": [[1,2,3,4]]}',
         UnreadableFile,
-        r"json: 'slow-forward' stands in it 2 times\. Keep one",
+        r"json: 'slow-forward' appears in it 2 times\. Keep one",
         id="a run twice",
     ),
     pytest.param(

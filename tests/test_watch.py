@@ -254,7 +254,7 @@ def test_a_test_without_samples_is_repeated():
     log = replace(drive_log(), runs=drive_log().runs[:1])
 
     assert advise(log, last="dynamic-forward") == (
-        "Repeat dynamic-forward: its log holds no motion."
+        "Repeat dynamic-forward: its log contains no motion."
     )
 
 
@@ -268,8 +268,8 @@ def test_a_run_of_nothing_has_no_limit():
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "Give a log or a folder, or --nt ADDRESS"),
-        (["a.wpilog", "--nt", "localhost"], "Give a log or a folder, or --nt ADDRESS"),
+        ([], "Give either a log or folder, or --nt ADDRESS"),
+        (["a.wpilog", "--nt", "localhost"], "Give either a log or folder, or --nt ADDRESS"),
         (["a.wpilog", "--save", "kept"], "--save keeps what NetworkTables sends"),
         (["missing.wpilog"], "missing.wpilog: there is no such file or folder. Give the .wpilog"),
     ],

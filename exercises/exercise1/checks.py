@@ -118,7 +118,8 @@ def _voltage(name: str, answers: Answers) -> None:
         return
     found = suspects(value, answers.variant, name)
     codes = {slip.misconception for slips in found for slip in slips}
-    hint = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
+    said = "; or ".join("; and ".join(slip.says for slip in slips) for slips in found)
+    hint = said.replace("?; ", "? ")
     if found and len(found[0]) > 1:
         hint = f"maybe there are two mistakes: {hint}"
     if not hint:
@@ -157,7 +158,7 @@ def kv_unit(answers: Answers) -> None:
 def _about_unit(given: tuple[int, ...]) -> str:
     volt, second, *length = given
     if any(given[4:]):
-        return "multiply it by the unit of your velocity: only volts must remain"
+        return "multiply it by the unit of your velocity: the result must be volts"
     if (volt, second, sum(length)) == (-1, -1, 1):
         return "that is upside down: velocity for each volt"
     if (volt, second) == (1, 2) and sum(length) == -1:
@@ -165,8 +166,8 @@ def _about_unit(given: tuple[int, ...]) -> str:
     if (volt, second) == (1, -1) and sum(length) == -1:
         return "mind the parentheses: dividing by (a/b) is not the same as dividing by a, then by b"
     if (volt, second) == (1, 0) and not any(length):
-        return "that belongs to kS, which is multiplied by a bare sign"
-    return "multiply it by the unit of your velocity: only volts must remain"
+        return "that belongs to kS, which is multiplied by sgn(v), and sgn(v) has no unit"
+    return "multiply it by the unit of your velocity: the result must be volts"
 
 
 @check(points=2)

@@ -113,7 +113,7 @@ def _units(variant: Variant, name: str) -> list[tuple[float, WrongNumber]]:
     if name == "forward":
         found = [(times, raw), (times * times, turned)]
     if variant.kind == "drivetrain":
-        found.append((60.0, "60 seconds are a minute. Is your velocity per minute?"))
+        found.append((60.0, "one minute has 60 seconds. Is your velocity per minute?"))
     else:
         turn = "2π = 6.28. Did you mix up radians and rotations?"
         found += [(2 * math.pi, turn), (0.5 / math.pi, turn)]

@@ -150,7 +150,7 @@ def named(code: Code) -> None:
 
 @check(points=1)
 def volts(code: Code) -> None:
-    """The volts of kS, and of kG where gravity pulls, are the analyzer's."""
+    """The constants kS, and kG if gravity pulls, have the analyzer's values."""
     for gain in code.variant.gains:
         if gain in {"kS", "kG"}:
             _valued(gain, code)
@@ -158,13 +158,13 @@ def volts(code: Code) -> None:
 
 @check(points=1)
 def kv(code: Code) -> None:
-    """The constant kV is the analyzer's, or what it becomes in the robot's unit."""
+    """The constant kV has the analyzer's value, or that value converted to the robot's unit."""
     _valued("kV", code)
 
 
 @check(points=1)
 def ka(code: Code) -> None:
-    """The constant kA is the analyzer's, or what it becomes in the robot's unit."""
+    """The constant kA has the analyzer's value, or that value converted to the robot's unit."""
     _valued("kA", code)
 
 
@@ -205,13 +205,13 @@ def _at(constant: GainConstant) -> str:
 
 @check(points=1)
 def units(code: Code) -> None:
-    """A comment tells the unit of each gain of the feedforward."""
+    """A comment gives the unit of each gain of the feedforward."""
     found = [one for one in code.facts.constants if one.gain in code.variant.gains]
     if not found:
         raise NotReachedError("checked after you write the gains")
     for one in found:
         verdict = _unit_told(one, code)
-        shown = f'"{one.comment[:50]}" beside {one.name}' if one.comment else f"{one.name} alone"
+        shown = f'"{one.comment[:50]}" next to {one.name}' if one.comment else f"{one.name} alone"
         if verdict is False:
             raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",
@@ -261,14 +261,14 @@ def feedforward(code: Code) -> str:
 
 @check(points=2)
 def order(code: Code) -> None:
-    """Each gain stands where the feedforward expects it."""
+    """Each gain is in the place where the feedforward expects it."""
     one = feedforward_of(code.facts, code.variant)
     check_order(one, code.facts, code.variant, points=2)
 
 
 @check(points=2)
 def conversion(code: Code) -> None:
-    """The feedforward gets kV and kA in the unit that the robot's code counts in."""
+    """The feedforward gets kV and kA in the unit that the robot's code uses."""
     one = feedforward_of(code.facts, code.variant)
     wrong = []
     for gain in ("kV", "kA"):
@@ -296,7 +296,7 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     if constant is None and given.value is None:
         raise WrongAnswer(f"no constant {gain}", hint="Write it down first.")
     if constant is not None and constant.value is not None and not _right(constant, code.variant):
-        raise WrongAnswer(_at(constant), hint=f"Put the constant {gain} right first.")
+        raise WrongAnswer(_at(constant), hint=f"Correct the constant {gain} first.")
     value = _known(given.value, given.text, one.line)
     if near(value, code.variant.needed(gain)):
         return
@@ -320,7 +320,9 @@ def kp(code: Code) -> None:
         raise WrongAnswer(seen, hint=slip.says, misconception=slip.misconception, earned=earned)
     if not marked:
         raise WrongAnswer(
-            f'"{constant.comment[:50]}" beside kP' if constant.comment else "no comment next to kP",
+            f'"{constant.comment[:50]}" next to kP'
+            if constant.comment
+            else "no comment next to kP",
             hint="The number fits. Write in a comment how far to trust it: the analyzer has "
             "never seen your loop run. Is this the final value?",
             earned=0.5,

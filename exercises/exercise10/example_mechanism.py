@@ -18,5 +18,5 @@ class ExampleMechanism(Subsystem):
     def __init__(self) -> None:
         super().__init__()
         # TODO: 3. self.feedforward, made of these constants. Its velocities come in the unit that
-        #       given.toml tells under [robot]. Or put the gains into the motor controller:
+        #       given.toml names under [robot]. Or put the gains into the motor controller:
         #       Slot0Configs() (phoenix6.configs) or closedLoop.feedForward of a SparkMaxConfig.

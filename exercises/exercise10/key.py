@@ -121,7 +121,7 @@ class Variant:
         return gain in SCALED and near(value, self.coded(gain))
 
     def coded(self, gain: str) -> float:
-        """The gain kV or kA in the unit that the robot's code counts in."""
+        """The gain kV or kA in the unit that the robot's code uses."""
         return self.shown[gain] * self.times_to(self.coded_in or self.used_in)
 
     @property

@@ -58,7 +58,7 @@ def _type(one: Feedforward) -> str:
 
 
 def _in_code(name: str, value: float, variant: Variant) -> float:
-    """A gain of the place in the unit that the robot's code counts in."""
+    """A gain of the place in the unit that the robot's code uses."""
     return value * variant.coded(name) / variant.needed(name) if name in SCALED else value
 
 

@@ -51,7 +51,9 @@ def _in_rotations(gain: str, variant: Variant) -> list[Way]:
     )
     turned = f"multiplied by the gear ratio, but {variant.counting} already"
     radians = f"per radian. {variant.counting}, and one rotation is 2π radians"
-    diameter = "twice what it should be: did you take the diameter of the wheel or drum for radius?"
+    diameter = (
+        "twice what it should be: did you use the diameter of the wheel or drum as the radius?"
+    )
     ways = [
         ((needed / TURN,), WrongNumber("radians", radians, "M-UNITS")),
         ((needed / ratio,), WrongNumber("rotor", rotor, "M-UNITS")),
@@ -80,7 +82,9 @@ def _scaled(gain: str, variant: Variant) -> list[Way]:
     both = (shown, needed)
     units = f"{gain} has no velocity in its unit: volts stay volts, nothing to convert"
     turned = "converted in the wrong direction: a larger unit needs more volts"
-    twice = "converted twice. kA has the unit of length only once, too: the seconds are squared"
+    twice = (
+        "converted twice. In the unit of kA only the seconds are squared: convert the length once"
+    )
     ways = [
         ((shown / times,), WrongNumber("turned", turned, "M-UNITS")),
         ((shown * times * times,), WrongNumber("twice", twice, "M-UNITS")),
@@ -120,7 +124,7 @@ def handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
         says = "converted twice, in the constant and again here"
         return WrongNumber("twice", says, "M-UNITS")
     found = _known(value, gain, variant, text="")
-    return found or WrongNumber("other", f"fix the constant {gain} first")
+    return found or WrongNumber("other", f"correct the constant {gain} first")
 
 
 def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:

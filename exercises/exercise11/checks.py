@@ -46,8 +46,8 @@ def _told(variant: Variant) -> str:
             parts.append(f"## {story}\n\n{STORIES[story].format(**variant.numbers)}\n")
             if story == "KC2":
                 parts.append(
-                    "### KC2_volts\n\nWhich voltage does the feedforward ask for, at the speed it "
-                    "was told?\nOne minute has 60 seconds.\n"
+                    "### KC2_volts\n\nWhich voltage does the feedforward give at the target "
+                    "speed?\nOne minute has 60 seconds.\n"
                 )
         parts.append(_asked(name, one.asks.format(**variant.numbers), variant))
     rows = "".join(f"- {row.name}: {row.told}\n" for row in ROWS)
@@ -107,7 +107,7 @@ kc1_reason = _question("KC1_reason", "KC1: what that does to the gains.", points
 
 @check(points=SINGLE)
 def kc2_volts(answers: Answers) -> str | None:
-    """KC2: the voltage that the feedforward asks for."""
+    """KC2: the voltage that the feedforward gives."""
     asked, raw = answers.variant.volts, answers.given.get("kc2_volts")
     value = read_answer_number(raw, asked)
     if not asked.right(value):

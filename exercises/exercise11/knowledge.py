@@ -6,8 +6,8 @@ KC1 = """A team runs the quasistatic test forward. Halfway through, the velocity
 saw the mechanism lurch. The rest of the log looks clean."""
 
 KC2 = """A shooter has kS = {ks:.2f} V, kV = {kv:.3f} V·s/rot and kA = 0.003 V·s²/rot, measured with
-SysId. They go into SimpleMotorFeedforward, and nothing else moves the wheel. Told to spin at
-{target:d} rpm, it always ends up at {reached:d} rpm."""
+SysId. They go into SimpleMotorFeedforward, and nothing else moves the wheel. Its target is
+{target:d} rpm, but it always ends up at {reached:d} rpm."""
 
 KC3 = """An arm is characterized without a game piece. At the competition it droops as soon as it
 holds one."""

@@ -130,8 +130,8 @@ EVERYDAY = (
     ),
     Question(
         "step_shape",
-        "A drivetrain gets 3.5 V at once, and keeps them. In the log its acceleration stays the "
-        "same for most of a second, and then falls. What do you look at first?",
+        "The voltage of a drivetrain jumps to 3.5 V and stays there. In the log its acceleration "
+        "stays the same for most of a second, and then falls. What do you look at first?",
         (
             Option("Did a current limit act, or did the wheels slip?", share=1.0),
             Option(
@@ -197,7 +197,7 @@ EVERYDAY = (
         "The last argument of SysIdRoutine.Config is null. Where does the name of the running test "
         "go?",
         (
-            Option("Into the WPILog of the robot, as a string of its own.", share=1.0),
+            Option("Into the WPILog of the robot, as a separate text entry.", share=1.0),
             Option(
                 "Nowhere: with null nothing is recorded.",
                 "null means: use the default. If nothing were recorded, the analyzer could not "

@@ -146,7 +146,7 @@ def first_effect(answers: Answers) -> None:
     first = answers.names[0]
     if first == answers.variant.hidden[0]:
         return
-    hint = "another effect alone makes the gap of the validation smaller"
+    hint = "another effect alone makes the gap of the validation smaller than this one does"
     if first in answers.variant.hidden:
         hint = f"it is one of the hidden effects, but {hint}"
     raise WrongAnswer(f'"{first}"', hint=f"{hint}{_alone(answers)}")
@@ -181,9 +181,9 @@ def all_effects(answers: Answers) -> None:
         )
     elif not named < hidden:
         hint = (
-            "not all of these are right. An effect that helps a little may replace another one "
-            "that looks like it: try the effects that look like it, and keep the one with the "
-            "smallest gap of the validation"
+            "not all of these are right. An effect that helps a little may stand in for "
+            "another one that looks like it: try the effects that look like it, and keep the "
+            "one with the smallest gap of the validation"
         )
     some = named > hidden or named < hidden
     raise WrongAnswer(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
@@ -242,7 +242,7 @@ def _check_near(value: float, expected: float, bounds: tuple[float, float]) -> N
 
 @check(points=2)
 def justified(answers: Answers) -> None:
-    """Each effect earns its place on the validation, and no parameter is at a bound."""
+    """Each effect makes the gap of the validation smaller, and no parameter is at its limit."""
     try:
         parts = answers.parts
     except WrongAnswer:

@@ -101,7 +101,10 @@ def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:
     if not known.least <= si <= known.most:
         raise WrongAnswer(
             f"{asked.name} = {value:g} {asked.unit}",
-            hint=f"that is not physics: {known.what} cannot be that. Mind the sign and the unit",
+            hint=(
+                f"that is physically impossible: {known.what} cannot have this value. Mind the "
+                "sign and the unit"
+            ),
         )
     return si
 

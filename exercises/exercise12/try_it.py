@@ -61,7 +61,7 @@ def main() -> int:
     for place in places:
         _say(f"  {place.sentence}")
     if not places:
-        _say("  nowhere beyond doubt")
+        _say("  no difference is clearly larger than the noise")
     return 0
 
 

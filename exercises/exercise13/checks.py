@@ -94,7 +94,7 @@ def _told(variant: Variant) -> str:
     stall = 12.0 / motor.resistance
     lines = [
         "# Your own swerve drive for exercise 13. Only read here; answers go into answers.toml.",
-        "# straight.wpilog, turning.wpilog and push.csv lie beside this file.",
+        "# straight.wpilog, turning.wpilog and push.csv are in the same folder as this file.",
         "",
         "[robot]",
         f"mass = {variant.mass:g}  # [kg] with battery and bumpers",
@@ -108,7 +108,7 @@ def _told(variant: Variant) -> str:
         "[spin]  # slowly, on the spot",
         f"gyro = {math.degrees(spin.turned):.1f}  # [deg] the robot turned",
         "",
-        "[spin.motor_turns]  # [rot] of each drive motor meanwhile",
+        "[spin.motor_turns]  # [rot] of each drive motor during the spin",
         *(f"{module} = {turns:.2f}" for module, turns in spin.motor_turns.items()),
     ]
     return "\n".join(lines) + "\n"
@@ -135,13 +135,13 @@ def ks(answers: Answers) -> str | None:
 
 @check(points=1)
 def kv(answers: Answers) -> str | None:
-    """The kV of going straight, volts for each meter per second."""
+    """The kV of going straight, in V·s/m."""
     return judge_number("kV", answers.given, answers.key, points=1)
 
 
 @check(points=1)
 def ka(answers: Answers) -> str | None:
-    """The kA of going straight, volts for each meter per second, gained in a second."""
+    """The kA of going straight, in V·s²/m."""
     return judge_number("kA", answers.given, answers.key, points=1)
 
 
@@ -151,8 +151,8 @@ def worn(answers: Answers) -> None:
 
     def why(found: str) -> tuple[str, str]:
         return (
-            f"a smaller wheel turns more often for the same way. Compare the kV of {found} with "
-            "the other three: fit each with --motor"
+            "a smaller wheel turns more often over the same distance. Compare the kV of "
+            f"{found} with the other three: fit each with --motor"
         ), ""
 
     check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
@@ -177,7 +177,7 @@ def rate_unit(answers: Answers) -> None:
     def why(found: str) -> tuple[str, str]:
         if found == "volts":
             return (
-                "the routine calls it volts because SysId knows nothing else. What does the "
+                "the routine calls it volts because SysId knows only volts. What does the "
                 "program do with the number?"
             ), "M-UNITS"
         return (
@@ -191,7 +191,7 @@ def rate_unit(answers: Answers) -> None:
 
 @check(points=2)
 def ka_turning(answers: Answers) -> str | None:
-    """The kA of turning on the spot, volts for each radian per second, gained in a second."""
+    """The kA of turning on the spot, in V·s²/rad."""
     return judge_number("kA_turning", answers.given, answers.key, points=2)
 
 

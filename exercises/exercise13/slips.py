@@ -33,11 +33,15 @@ def _of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Rows]
     turning = asked["kA_turning"]
     return {
         "worn_radius": (
-            (variant.radius, "this is the radius in the code. What do the motor's turns say?", ""),
+            (
+                variant.radius,
+                ("this is the radius in the code. Compute it from the turns of the motor instead"),
+                "",
+            ),
             (2.0 * asked["worn_radius"], "is this a diameter? Half of it is the radius", UNITS),
             (
                 asked["worn_radius"] / variant.ratio,
-                "did you take turns of the motor for turns of the wheel? Use the gear ratio",
+                "did you use turns of the motor as turns of the wheel? Use the gear ratio",
                 UNITS,
             ),
             (
@@ -98,12 +102,15 @@ def _of_settings(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Ro
             ),
             (
                 variant.mass * lever * asked["kA"] / turning,
-                "the quotient is upside down: kA of turning stands on top",
+                "the fraction is upside down: kA of turning belongs on top",
                 "",
             ),
             (
                 variant.mass * variant.trackwidth**2 / 6.0,
-                "this is the estimate for an even plate. Yours is measured: use both kA",
+                (
+                    "this is an estimate for a flat plate with the mass spread evenly. You have "
+                    "measured yours: use both kA"
+                ),
                 "",
             ),
             (
@@ -115,7 +122,7 @@ def _of_settings(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Ro
         "slip_current": (
             (
                 4.0 * asked["slip_current"],
-                "this is of all four motors. A limit is set for each motor",
+                "this is for all four motors together. The limit is set for each motor",
                 "",
             ),
         ),
@@ -134,7 +141,7 @@ def _of_settings(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Ro
             ),
             (
                 4.0 * asked["max_torque"],
-                "this is of all four motors. The setting is for each motor",
+                "this is for all four motors together. The setting is for each motor",
                 "",
             ),
         ),

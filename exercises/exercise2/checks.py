@@ -45,7 +45,7 @@ def _told(variant: Variant) -> str:
         "",
         f'mechanism = "{variant.kind}"',
         "",
-        "[log]  # what SysId made of the four tests",
+        "[log]  # what SysId found in the four tests",
         f"kV = {variant.measured:g}  # [V·s/{symbol}]",
         f"kS = {variant.friction:g}  # [V]",
         f"typical_speed = {variant.speed:g}  # [{symbol}/s] in a match",
@@ -153,7 +153,7 @@ def _about_percent(value: float, variant: Variant) -> str:
 
 @check(points=2)
 def verdict(answers: Answers) -> None:
-    """What the difference says: bookkeeping, ok, watch or inspect."""
+    """The verdict on the difference: bookkeeping, ok, watch or inspect."""
     right = answers.variant.verdict
     theirs = _own_difference(answers)
     sound = theirs is not None and (theirs < 0.0) == (right == "bookkeeping")
@@ -176,7 +176,7 @@ def verdict(answers: Answers) -> None:
 
 @check(points=3)
 def inspection(answers: Answers) -> str | None:
-    """What to look at, in the order you would look."""
+    """The causes to check, in the order in which you would check them."""
     return judge_list(answers.given.get("inspection"), answers.variant)
 
 

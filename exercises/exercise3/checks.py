@@ -53,7 +53,7 @@ just_does_not_fall = {variant.elevator.lower:.2f}  # [V] with a little less, it 
 just_begins_to_rise = {variant.elevator.upper:.2f}  # [V] with a little more, it rises
 
 [arm]
-# A negative voltage pushes the arm down. The reading is the encoder's: it is mounted askew.
+# A negative voltage pushes the arm down. The reading is the encoder's; it has an offset.
 # reading [deg], just does not fall [V], just begins to rise [V]
 hold = [
 {rows}]
@@ -133,7 +133,7 @@ def arm_class(answers: Answers) -> None:
 
 @check(points=2)
 def arm_offset(answers: Answers) -> str | None:
-    """The arm's offset, which is added to what its encoder reads."""
+    """The arm's offset, which is added to the encoder's reading."""
     raw, asked = answers.given.get("arm_offset"), answers.variant.offset
     value = read_answer_number(raw, asked)
     shown = f"{value:.4g} deg"

@@ -235,7 +235,7 @@ def _followed(facts: RoutineFacts, *, whole: bool) -> None:
     if facts.unread and not whole:
         first = facts.unread[0]
         raise WrongAnswer(
-            explain_doubt("what is out of sight", f"line {first.line}: {first.message}"),
+            explain_doubt("code that it cannot see", f"line {first.line}: {first.message}"),
             hint=(
                 "Write the callback in this class or in this folder, so that the grader can "
                 "read it."

@@ -70,7 +70,7 @@ def factories(facts: BindingFacts) -> None:
         )
     if not made and any(not test.read for one in facts.bindings for test in one.tests):
         raise WrongAnswer(
-            f"I cannot see the methods that {facts.bindings[0].text} calls",
+            f"the grader cannot see the methods that {facts.bindings[0].text} calls",
             hint=(
                 "Put the subsystem's file into the same folder, or its class into this file, "
                 "and grade again."
@@ -97,7 +97,7 @@ def factories(facts: BindingFacts) -> None:
 
 @check(points=3)
 def held(facts: BindingFacts) -> str | None:
-    """Each of the four tests runs while a button of its own is held, and no longer."""
+    """Each of the four tests runs only while its own button is held."""
     bound(facts)
     earned = round(3 * held_share(facts), 2)
     for one in facts.bindings:
@@ -124,7 +124,7 @@ def each_once(facts: BindingFacts) -> None:
     reached(facts)
     for one in facts.bindings:
         if len(one.tests) > 1:
-            hint = "A command of several tests runs one after the other. Give each its own button."
+            hint = "Such a command runs the tests one after the other. Give each its own button."
             raise WrongAnswer(f"line {one.line} runs {named(all_of(one.tests))}", hint=hint)
         if not all_of(one.tests) or one.tests[0].direction == "any":
             raise WrongAnswer(
@@ -157,7 +157,7 @@ def each_once(facts: BindingFacts) -> None:
 
 @check(points=2)
 def comments(facts: BindingFacts) -> None:
-    """A comment beside each binding says which test it is and what that measures."""
+    """A comment next to each binding says which test it is and what that measures."""
     reached(facts)
     wrong: list[WrongAnswer] = []
     for one in facts.bindings:

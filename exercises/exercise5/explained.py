@@ -35,7 +35,7 @@ def check_comment(one: Binding) -> None:
             f"no comment next to {one.text} in line {one.line}",
             hint="Write one above it or after it: which test, and what does it measure?",
         )
-    seen = f'"{said[:60]}" beside line {one.line}'
+    seen = f'"{said[:60]}" next to line {one.line}'
     opposite = re.match(rf"\W*{NAMES[other]}", said, re.IGNORECASE)
     if opposite and not re.search(NAMES[kind], said, re.IGNORECASE):
         raise WrongAnswer(seen, hint=f"This button runs the {kind} test.")

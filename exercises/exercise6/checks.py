@@ -59,15 +59,21 @@ def _told(variant: Variant) -> str:
 def _described(machine: Machine) -> list[str]:
     """One mechanism: gains are estimates, from the parts."""
     unit = machine.symbol
-    lines = [f"[{machine.kind}]  # gains are estimates, worked out from the parts"]
+    lines = [f"[{machine.kind}]  # gains are estimates, computed from the parts"]
     for name, (field, per) in GAINS.items():
         if value := getattr(machine, field):
             lines.append(f"{name} = {value:g}  # [{per.format(unit)}]")
     lines.append(f"free_speed = {machine.free:.3g}  # [{unit}/s] at 12 V")
     if machine.travel is not None:
         lines += [
-            f"travel = {machine.travel:g}  # [{unit}] from the start to where it must stand",
-            f"reaction = {machine.reaction:g}  # [s] from the mark to the thumb off the button",
+            (
+                f"travel = {machine.travel:g}  # [{unit}] from the start to where it must have "
+                "stopped"
+            ),
+            (
+                f"reaction = {machine.reaction:g}  # [s] from the mark until the thumb is off the "
+                "button"
+            ),
         ]
     lines += [
         f"stall_current = {machine.stall:g}  # [A] of one motor at standstill at 12 V",
@@ -100,25 +106,25 @@ def consequence(answers: Answers) -> Consequence | None:
 
 @check(points=POINTS)
 def drivetrain(answers: Answers) -> str:
-    """A plan for the drivetrain that keeps all the rules."""
+    """A plan for the drivetrain that follows all the rules."""
     return _planned("drivetrain", answers)
 
 
 @check(points=POINTS)
 def elevator(answers: Answers) -> str:
-    """A plan for the elevator that keeps all the rules."""
+    """A plan for the elevator that follows all the rules."""
     return _planned("elevator", answers)
 
 
 @check(points=POINTS)
 def turret(answers: Answers) -> str:
-    """A plan for the turret that keeps all the rules."""
+    """A plan for the turret that follows all the rules."""
     return _planned("turret", answers)
 
 
 @check(points=POINTS)
 def shooter(answers: Answers) -> str:
-    """A plan for the shooter that keeps all the rules."""
+    """A plan for the shooter that follows all the rules."""
     return _planned("shooter", answers)
 
 

@@ -60,7 +60,7 @@ def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
 def _too_far(name: str, test: Test, travel: float) -> str:
     """The run a test needs, and how it ends."""
     symbol = test.machine.symbol
-    says = f"your {name} needs {test.rests:.2f} {symbol}; you have {travel:g} {symbol}.  "
+    says = f"your {name} needs {test.rests:.2f} {symbol}; you have {travel:g} {symbol}. "
     hit = test.when(test.place, travel)
     if hit < test.lasts:
         says += f"It hits the end at {test.speed(hit):.2f} {symbol}/s, {test.still + hit:.1f} s "

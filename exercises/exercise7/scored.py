@@ -102,8 +102,8 @@ def _place(claim: Claim, *, whole: bool) -> str:
 
 def _alarm(claim: Claim) -> str:
     return (
-        f"{would_show(claim.fault)} Find it in a plot first: what looks odd may be normal for a "
-        "good mechanism. Does it look the same in the other direction?"
+        f"{would_show(claim.fault)} Can you find that in a plot? What looks odd may be normal "
+        "for a good mechanism. Does it look the same in the other direction?"
     )
 
 

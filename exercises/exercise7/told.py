@@ -20,8 +20,10 @@ ACCEPTED = {  # fault -> what helps
 }
 
 LOOKS = {  # fault -> how it would look, if it were there
-    "encoder-slip": "the velocity jumps by a share of its value within one sample and jumps "
-    "back, which no mass can do",
+    "encoder-slip": (
+        "the velocity jumps by a share of its value within one sample and jumps back; "
+        "no mass can do that"
+    ),
     "brownout": "the velocity falls gradually, as with the motor off, and rises again "
     "gradually, while the voltage stays as it was",
     "hard-stop": "the velocity drops to zero within a few samples and stays there, the position"
@@ -83,14 +85,14 @@ APART = {  # (said, is) -> the question that tells the two apart
     ("brownout", "encoder-slip"): "Does the velocity drop along a curve, or at once?",
     ("loop-overrun", "stale-samples"): "Count: are samples missing, or are there too many alike?",
     ("stale-samples", "loop-overrun"): "Count: are readings repeated, or are there too few?",
-    ("stuck-sensor", "stale-samples"): "Once, or all the time?",
-    ("stale-samples", "stuck-sensor"): "All the time, or once?",
+    ("stuck-sensor", "stale-samples"): "Does it happen once, or all the time?",
+    ("stale-samples", "stuck-sensor"): "Does it happen all the time, or once?",
     ("hard-stop", "stuck-sensor"): "At a stop the velocity is zero. Is it?",
-    ("stuck-sensor", "hard-stop"): "A frozen sensor shows any velocity. Which does yours show?",
+    ("stuck-sensor", "hard-stop"): "A frozen sensor can show any velocity. Which does yours show?",
     ("brownout", "voltage-dropout"): "In a brownout the log still shows a voltage. Does yours?",
-    ("voltage-dropout", "brownout"): "Does the velocity react?",
-    ("command-logged", "wheel-slip"): "Too slow at first, or too fast?",
-    ("wheel-slip", "command-logged"): "Too fast at first, or too slow?",
+    ("voltage-dropout", "brownout"): "When the voltage drops, does the velocity react?",
+    ("command-logged", "wheel-slip"): "At first, is the mechanism too slow or too fast?",
+    ("wheel-slip", "command-logged"): "At first, is the mechanism too fast or too slow?",
 }
 
 ACTS = {  # what an action is for

@@ -50,7 +50,7 @@ def read(path: Path, *, student: str) -> Answers:
 
 @check(points=2)
 def kept(answers: Answers) -> None:
-    """At least 60 % of the sound samples of each test are kept."""
+    """At least 60 % of the good samples of each test are kept."""
     if isinstance(answers.preparation, WrongAnswer):
         raise answers.preparation
     short = [one for one in _left(answers) if not one.enough]

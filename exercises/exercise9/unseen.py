@@ -197,7 +197,10 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
         )
     text = read_text(path).encode()
     if not run:
-        raise NotRunError(f"not run: {NAME} was not to be run here, and reading it cannot tell")
+        raise NotRunError(
+            f"not run: this machine runs no code of students, and the grader cannot judge {NAME} "
+            "by reading it"
+        )
     of = derive_student_seed(student, "exercise9")
     logs, outcome = hidden(student, of), _outcome(text, student, of)
     wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]

@@ -223,7 +223,7 @@ def r2(answers: Answers) -> None:
 
 @check(points=1, after=r2)
 def hypothesis(answers: Answers) -> str | None:
-    """What you suspect where R² is below 0.9, and what you would look at first."""
+    """What you suspect if R² is below 0.9, and what you would check first."""
     from sim.inspect.faults import FAULTS  # noqa: PLC0415 - numpy only where it is needed
 
     if float(answers.measured.fit.simulated_velocity_r2) >= GOOD:
@@ -282,8 +282,8 @@ def _check_same_motion(measured: Measured, facts: "RoutineFacts") -> None:
         found, held = ("turns", "meters") if expected == "linear" else ("meters", "turns")
         raise WrongAnswer(
             f"your code records {found}, and your log has {held}",
-            hint="They are two mechanisms. Use the code of the mechanism that recorded the log: "
-            "then its unit is also the unit of your gains and of your feedforward.",
+            hint="They are two different mechanisms. Use the code of the mechanism that recorded "
+            "the log: then its unit is also the unit of your gains and of your feedforward.",
             misconception="M-UNITS",
             earned=1.0,
         )
@@ -294,7 +294,7 @@ _borrowed(SECOND, "theory", step="theory", leave=("verdict", "inspection", "ks-f
 
 @check(points=2)
 def theory_verdict(answers: Answers) -> None:
-    """What your kV says, held against theory."""
+    """Your kV, compared with theory."""
     variant = answers.theory.variant
     percents = [variant.percent(one) for one in variant.theories]
     right = {TEAM.verdict(one + off) for one in percents for off in (-NEAR_BOUND, NEAR_BOUND)}

@@ -50,7 +50,7 @@ def _find_on_roster(found: str, roster: Path) -> str:
     raise BadRequest(
         f"nobody on the roster is {found!r}",
         where=roster.name,
-        advice="Add the student, and export the autograder anew.",
+        advice="Add the student, and export the autograder again.",
     )
 
 

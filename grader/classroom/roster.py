@@ -46,7 +46,7 @@ def read_class_roster(path: Path) -> Roster:
         raise BadRequest(
             "no column with the students in its first line",
             where=str(path),
-            advice="Call the column with their names: student",
+            advice="Write student above the column with their names.",
         )
     cells = [
         (f"{path}, line {number}", row[place].strip() if place < len(row) else "")

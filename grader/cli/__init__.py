@@ -74,7 +74,7 @@ class ExerciseOrCommand(click.Group):
 @click.group(
     cls=ExerciseOrCommand,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 80},
-    epilog="Exit codes: 0 full marks, 1 not all right yet, 2 could not grade.\n\n"
+    epilog="Exit codes: 0 full marks, 1 something is not right yet, 2 could not grade.\n\n"
     + explain_completion("grade"),
 )
 @click.version_option(package_name="sysid-course")
@@ -132,7 +132,9 @@ def complete_exercise(
     type=click.Path(path_type=Path),
     help="Draw what a wrong answer would do: .svg, .png.",
 )
-@click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
+@click.option(
+    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
+)
 def exercise(
     exercise: str | None,
     file: Path | None,

@@ -32,18 +32,21 @@ SHOWN = 5  # names in one line
 @click.option("--exercise", "only", multiple=True, help="Only this exercise; may be repeated.")
 @click.option("--export", "wanted", multiple=True, metavar="FORMAT", help="canvas, github, "
               "gradescope, junit; may be repeated.")  # fmt: skip
-@click.option("--name", help="Of the class, for the overview.  [default: the folder's]")
+@click.option("--name", help="Name of the class, for the overview.  [default: the folder's]")
 @click.option(
     "--processes",
     type=click.IntRange(min=1),
-    help="How many grade.  [default: cores, and one]",
+    help="Number of processes that grade.  [default: cores, and one]",
 )
 @click.option("--cluster", metavar="ADDRESS", help="Grade on a Dask cluster: tcp://host:8786.")
-@click.option("--run/--no-run", default=None, help="Run students' code (robot code, fit.py).  "
-              "[default: where this machine can shut it in]")  # fmt: skip
+@click.option(
+    "--run/--no-run",
+    default=None,
+    help="Run students' code (robot code, fit.py).  [default: if this machine can isolate it]",
+)
 @click.option("--in", "engine", type=click.Choice(["docker", "podman"]),
               help="Grade in a container without network.")  # fmt: skip
-@click.option("--image", default="sysid-course", show_default=True, help="Of that container.")
+@click.option("--image", default="sysid-course", show_default=True, help="Image of that container.")
 @click.option("--again", is_flag=True, help="Grade everything again.")
 def class_(  # noqa: PLR0917 - click passes options by name
     folder: Path,
@@ -64,10 +67,10 @@ def class_(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Grade what a class handed in: FOLDER holds a folder or zip file for each student.
 
-    In each of them, an answer lies in a folder named as its exercise (exercise4/answers.toml).
+    Inside, each answer is in a folder with the name of its exercise (exercise4/answers.toml).
     Downloads of Canvas, Moodle, Google Classroom and GitHub Classroom can be graded as they are.
-    Writes an overview (index.html), a page for each student, gradebook.csv and what --export asks.
-    What is graded is kept: the same command goes on where it was stopped.
+    Writes an overview (index.html), a page for each student, gradebook.csv and the files of
+    --export. Results are kept: if the command was stopped, run it again to continue.
 
     Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
     """
@@ -137,7 +140,7 @@ def _find_submissions(
     roster = known.identities if known else None
     there = find_submissions(folder, everything, asked=asked, roster=roster)
     if stray := find_stray_files(folder):
-        print_error(f"left out, for their names are no student's: {', '.join(stray)}")
+        print_error(f"left out, because no student has such a name: {', '.join(stray)}")
     return there
 
 
@@ -173,7 +176,7 @@ def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: s
 
     if run is False or not any(one.runs_code for one in asked):
         return False
-    found = "one of a cluster, and nobody knows of all" if cluster else find_isolation_level()
+    found = "one of a cluster, and the others are not known" if cluster else find_isolation_level()
     if found.startswith("isolated"):
         return True
     if run:
@@ -219,7 +222,9 @@ def _run(
             )  # fmt: skip
         except KeyboardInterrupt:
             count = done()
-    print_error(f"stopped with {count} of {total} students graded. The same command goes on.")
+    print_error(
+        f"stopped with {count} of {total} students graded. Run the same command to continue."
+    )
     return None
 
 
@@ -249,8 +254,8 @@ def _write_results(results: "ClassResults", out: Path, formats: "Sequence[Export
     print_lines(wrap_text(summarize_class(results), lead=""))
     print_lines([style_line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
-    print_lines([style_line(f"Beside it: {', '.join([*tops, 'students', 'results'])}")])
+    print_lines([style_line(f"In the same folder: {', '.join([*tops, 'students', 'results'])}")])
     if unread:
         count = f"{len(unread)} student{'s' if len(unread) > 1 else ''}"
-        print_error(f"something of {count} could not be graded; the overview begins with it")
+        print_error(f"some work of {count} could not be graded; the overview begins with it")
     return NOT_RIGHT if unread else DONE

@@ -10,7 +10,7 @@ from sim.support.command_line import DONE, NOT_RIGHT
 
 @click.command()
 def doctor() -> int:
-    """Say what this machine has, and what is missing for which part of the course.
+    """Check this computer: what is installed, and what is missing for which part of the course.
 
     Exit codes: 0 everything needed is there, 1 something needed is missing.
     """

@@ -35,9 +35,9 @@ COMMAND = export
     type=click.Choice(["email", "name", "sid"]),
     default="email",
     show_default=True,
-    help="What Gradescope knows that names a student.",
+    help="Which field of Gradescope identifies a student.",
 )
-@click.option("--roster", type=PATH, help="CSV file; the student is the row that holds that.")
+@click.option("--roster", type=PATH, help="CSV file; the row with that value is the student.")
 @click.option("--secret", type=PATH, help="File of the class's secret. It travels in the zip file.")
 def gradescope(
     output: Path, only: tuple[str, ...], student_from: str, roster: Path | None, secret: Path | None
@@ -77,9 +77,9 @@ def gradescope(
 def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret: bool) -> None:
     if with_secret:
         print_error(
-            f"{output} holds your class's secret. Code of students runs in Gradescope's container; "
-            "where that cannot be shut in (the autograder's output says so), it can read the "
-            "secret, and then anybody's numbers. Upload it nowhere else"
+            f"{output} holds your class's secret. Code of students runs in Gradescope's "
+            "container; if it cannot be isolated there (the autograder's output says so), it "
+            "can read the secret, and then anybody's numbers. Upload it nowhere else"
         )
     elif any(one.is_personal for one in asked):
         print_error(

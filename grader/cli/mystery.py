@@ -17,9 +17,11 @@ if TYPE_CHECKING:
 @click.argument("answer", nargs=-1)
 @click.option("--give-up", is_flag=True, help="Show the answer; the next one is easier.")
 @click.option("--student", metavar="NAME", help="Who you are; each learner has a level.")
-@click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
+@click.option(
+    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
+)
 def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plain: bool) -> int:
-    """Draw a fresh log with a hidden trouble, or grade your ANSWER to it.
+    """Make a new log with a hidden fault or effect, or grade your ANSWER to it.
 
     Each mystery that you solve makes the next one harder.
 

@@ -24,11 +24,13 @@ WORTH = 3  # [students] that a further process has to save, to be worth its star
 @click.option("-o", "--output", type=PATH, help="Folder for the packages.")
 @click.option("--roster", type=PATH, help="CSV file with a column student: each gets numbers.")
 @click.option("--secret", type=PATH, help="File of the class's secret; made if it is not there.")
-@click.option("--name", default="our class", show_default=True, help="Of the class.")
+@click.option("--name", default="our class", show_default=True, help="Name of the class.")
 @click.option(
-    "--processes", type=click.IntRange(min=1), help="How many draw.  [default: every core]"
+    "--processes", type=click.IntRange(min=1), help="Number of processes.  [default: every core]"
 )
-@click.option("--check", type=PATH, help="Only say whether a student's COURSE is as it was issued.")
+@click.option(
+    "--check", type=PATH, help="Only check whether a student's COURSE folder is unchanged."
+)
 def release(  # noqa: PLR0917 - click passes options by name
     output: Path | None,
     roster: Path | None,
@@ -39,8 +41,8 @@ def release(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Make the students' package: the course without solutions, keys and secret.
 
-    With a roster, each student also gets numbers and logs of their own, which only the holder of
-    the secret can draw again, and grade: grade class FOLDER --secret FILE.
+    With a roster, each student also gets numbers and logs of their own. Only the owner of the
+    secret can make them again, and grade them: grade class FOLDER --secret FILE.
     """
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 
@@ -82,7 +84,7 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
     for name, folder in folders.items():
         if any(place.is_relative_to(folder.resolve()) for place in places):
             raise BadRequest(
-                f"the secret lies in the {name}, and would be given away with it",
+                f"the secret is in the {name}, and everybody would get it",
                 where=str(secret),
                 advice=f"Keep it outside: --secret {Path('..') / secret.name}",
             )
@@ -123,7 +125,7 @@ def _release(
     everybody = zip_files(chosen.files)
     if secret and secret.new:
         secret.save()
-        print_error(f"{secret.new}: a new secret. Keep it, and keep it to yourself.")
+        print_error(f"{secret.new}: a new secret. Keep this file, and show it to nobody.")
     packed = pack_course(course)
     value = secret.value if secret else b""
     packages = [StudentPackage(student, value, name, packed) for student in students]
@@ -143,7 +145,8 @@ def _release(
         print_lines(
             [
                 style_line(
-                    f"{place}: a zip file for each of {len(students)} students, to unpack over it"
+                    f"{place}: a zip file for each of {len(students)} students, to unpack "
+                    "into the same folder"
                 )
             ]
         )
@@ -180,12 +183,12 @@ def _check(place: Path, secret: bytes) -> int:
             advice="Name the folder that holds .course and exercises.",
         )
     wrong = find_broken_seals(place, found, secret=secret)
-    print_lines([style_line(f"{name}: not as it was issued") for name in wrong])
+    print_lines([style_line(f"{name}: changed since it was issued") for name in wrong])
     if not wrong:
         print_lines(
             [
                 style_line(
-                    f"{place}: issued to {found.student}; all {len(found.sealed)} files whole."
+                    f"{place}: issued to {found.student}; all {len(found.sealed)} files unchanged."
                 )
             ]
         )

@@ -18,18 +18,24 @@ EVERYWHERE = "0.0.0.0"  # noqa: S104 - a class's browsers are on other machines;
 @click.command()
 @click.argument("folder", type=PATH)
 @click.option("--roster", type=PATH, required=True, help="CSV file with a column student.")
-@click.option("--packages", type=PATH, help="Folder that grade release made: each gets theirs.")
+@click.option(
+    "--packages",
+    type=PATH,
+    help="Folder that grade release made: each student gets their package.",
+)
 @click.option("--host", default=EVERYWHERE, show_default=True, help="Address to listen on.")
-@click.option("--port", default=8000, show_default=True, help="Of the page where one comes in.")
-@click.option("--unprotected", is_flag=True, help="Serve though students can read each other.")
+@click.option("--port", default=8000, show_default=True, help="Port of the login page.")
+@click.option(
+    "--unprotected", is_flag=True, help="Serve even if students can read each other's files."
+)
 def serve(
     folder: Path, roster: Path, packages: Path | None, host: str, port: int, *, unprotected: bool
 ) -> int:
     """Serve the course to browsers on this network: Chromebooks need nothing installed.
 
-    FOLDER holds a home for each student, which stays from day to day, and codes.csv with the code
-    that each comes in with. Everything runs on this machine; two students take about 1 GB. Run by
-    root on Linux or macOS, each student's server has a system user of its own.
+    FOLDER keeps the work of each student from day to day, and codes.csv with the login code of
+    each. Everything runs on this machine; two students take about 1 GB of memory. If root runs it
+    on Linux or macOS, each student has a separate system user.
     """
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - --help must not wait for it
     from grader.course import find_course  # noqa: PLC0415 - the same
@@ -67,10 +73,9 @@ def serve(
     def ready(taken: int) -> None:
         address = _find_own_address() if host == EVERYWHERE else host
         print_lines([
-            style_line(f"The door: http://{address}:{taken}", "bold"),
+            style_line(f"Login page: http://{address}:{taken}", "bold"),
             style_line(f"Names and codes of {len(students)} students: {folder / 'codes.csv'}"),
-            style_line("Everybody on this network can reach the door; "
-                "Ctrl-C closes it, work is kept."),
+            style_line("Everybody on this network can open it. Ctrl-C ends it; all work is kept."),
         ])  # fmt: skip
 
     try:
@@ -78,7 +83,7 @@ def serve(
     except KeyboardInterrupt:
         return DONE
     except OSError as error:
-        print_error(f"port {port} cannot be had ({error.strerror}). Name another with --port.")
+        print_error(f"port {port} cannot be used ({error.strerror}). Name another with --port.")
         return COULD_NOT
     return DONE
 
@@ -100,7 +105,7 @@ def _decide_separation(folder: Path, packages: Path | None, *, unprotected: bool
     if packages and not unprotected:
         raise BadRequest(
             "students could read and change each other's files, so no packages are served",
-            advice="Serve as root on Linux or macOS, or say --unprotected.",
+            advice="Serve as root on Linux or macOS, or add --unprotected.",
         )
     print_lines(
         [

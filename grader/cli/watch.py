@@ -20,7 +20,9 @@ def _complete(
 @click.command()
 @click.argument("exercise", required=False, shell_complete=_complete)
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
-@click.option("--plain", is_flag=True, help="Words for signs, nothing in columns: for listening.")
+@click.option(
+    "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
+)
 def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
     """Grade an exercise each time you save its file, until all is right.
 

@@ -8,7 +8,9 @@ from typing import Any
 
 STATE = "application/vnd.jupyter.widget-state+json"
 VIEW = "application/vnd.jupyter.widget-view+json"
-NOTE = "<p class='quiet'>In the notebook this can be turned and clicked; here is how it starts.</p>"
+NOTE = (
+    "<p class='quiet'>In the notebook you can move and click this; here you see how it starts.</p>"
+)
 
 
 @dataclass(frozen=True)

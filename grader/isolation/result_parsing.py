@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 LONGEST = 200  # [characters] of anything that is told on
-NO_NUMBERS = {"nan": "nan", "inf": "a number without end"}
+NO_NUMBERS = {"nan": "nan", "inf": "infinity"}
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def _describe_kind(value: object) -> str:
     if isinstance(value, str):
         return NO_NUMBERS.get(value, "a text")
     if isinstance(value, int | float):
-        return "a number" if _require_finite(value) else "a number without end"
+        return "a number" if _require_finite(value) else "infinity"
     return _describe_type(value) if isinstance(value, dict) else "something that is no number"
 
 

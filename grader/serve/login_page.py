@@ -210,7 +210,7 @@ class LoginPage(BasePage):
             return
         if student is None or not is_code_right(code, known[student]):
             self.delays.count_wrong(keys)
-            self.refuse(name, "No student of that name has that code. Look at both once more.")
+            self.refuse(name, "No student of that name has that code. Check both.")
             return
         self.delays.forget(keys)
         start = self.queue.join(student)

@@ -47,7 +47,7 @@ class Recorder:
 RECORDERS: Mapping[str, Recorder] = {
     "roborio": Recorder("encoder wired to the roboRIO, logged each loop"),
     "roborio-2020": Recorder(
-        "the same, by the 5 ms loop of the tools of 2019 to 2023", period=0.005
+        "the same, with the 5 ms loop of the tools of 2019 to 2023", period=0.005
     ),
     "talonfx": Recorder("TalonFX with Phoenix 6 on CAN 2.0", frame=0.02, filter=0.002),
     "talonfx-canfd": Recorder("TalonFX with Phoenix 6 on CAN FD", frame=0.01, filter=0.002),

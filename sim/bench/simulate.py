@@ -145,15 +145,15 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
     if gripped:
         yield Doubt(
             "slip-left-out",
-            f"The wheels would slip here, from {slip_voltage(mechanism):.1f} V at a start on. "
-            "Where an effect is hidden they are simulated as if they gripped. Use a smaller step, "
-            "or hide nothing.",
+            f"Here the wheels would slip above {slip_voltage(mechanism):.1f} V from "
+            "standstill. With a hidden effect, the simulation leaves out the slip. Use a "
+            "smaller step, or hide no effect.",
         )
     if cut:
         yield Doubt(
             "brownout",
-            f"The battery falls below {mechanism.brownout:g} V, and the robot controller takes the "
-            "motors off again and again. Use a smaller step or a better battery.",
+            f"The battery falls below {mechanism.brownout:g} V, and the robot controller "
+            "turns the motors off again and again. Use a smaller step or a better battery.",
         )
 
 

@@ -17,10 +17,10 @@ from sim.cli.options import FAULT_NAMES, FILE, read_logs_together, reading_optio
     shell_complete=FAULT_NAMES,
     required=True,
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
-    help="Fault to add; once for each. `sysid faults` lists them.",
+    help="Fault to add; may be repeated. `sysid faults` lists them.",
 )
 @click.option("-o", "--output", type=FILE, required=True, help="Log to write: .wpilog or .csv.")
-@click.option("--seed", type=click.IntRange(min=0), help="Same seed, same damage.")
+@click.option("--seed", type=click.IntRange(min=0), help="The same seed gives the same damage.")
 def contaminate(
     file: Path,
     *,

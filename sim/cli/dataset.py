@@ -24,11 +24,17 @@ WORTH = 50  # [logs] that a further process has to save, to be worth its start
 @click.option("-o", "--output", type=FILE, help="Folder for the logs.")
 @click.option("--key", type=FILE, help="File for the truth.  [default: FOLDER.key.json]")
 @click.option(
-    "--processes", type=click.IntRange(min=1), help="How many make logs.  [default: every core]"
+    "--processes",
+    type=click.IntRange(min=1),
+    help="Number of processes that make logs.  [default: every core]",
 )
 @click.option("--cluster", metavar="ADDRESS", help="Make them on a Dask cluster: tcp://host:8786.")
-@click.option("--overwrite", is_flag=True, help="Replace what is not of this dataset.")
-@click.option("--check", is_flag=True, help="Make nothing: say what is not as it was made.")
+@click.option("--overwrite", is_flag=True, help="Replace files that do not belong to this dataset.")
+@click.option(
+    "--check",
+    is_flag=True,
+    help="Make nothing; report the logs that have changed or are missing.",
+)
 @click.option("--example", is_flag=True, help="Write an example of a SPEC, with every key.")
 def dataset(  # noqa: PLR0917 - click passes options by name
     spec: Path,
@@ -40,9 +46,10 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     check: bool,  # noqa: FBT001 - the same
     example: bool,  # noqa: FBT001 - the same
 ) -> int:
-    """Make many logs, damaged as SPEC says, with a sealed key to them beside the folder.
+    """Make many damaged logs as the file SPEC describes, and a sealed key with the truth.
 
-    A run that was stopped goes on when the same command is run again.
+    The key is next to the folder, never in it. If the command was stopped, run it again to
+    continue.
 
     For example: sysid dataset week3.toml -o week3
     """
@@ -96,7 +103,7 @@ def _make(
     rehearse_jobs(found.todo)
     if secret.new:
         secret.save()
-        click.echo(f"{secret.new}: a new secret. Keep it, and keep it to yourself.", err=True)
+        click.echo(f"{secret.new}: a new secret. Keep this file, and show it to nobody.", err=True)
     with (
         progress_bar("logs", len(jobs), done=len(found.kept)) as (step, done),
         deferred_interrupt() as stop_if_noted,
@@ -127,7 +134,7 @@ def _make(
         else:
             stopped = False
     if stopped:
-        said = f"stopped with {done()} of {len(jobs)} logs whole. Run the same command to go on."
+        said = f"stopped with {done()} of {len(jobs)} logs done. Run the same command to continue."
         print_error(said, name="sysid")
         return INTERRUPTED
     kept = f", {len(found.kept)} of them made earlier" if found.kept else ""
@@ -143,7 +150,7 @@ def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]", secret: "Secret") 
     for line in wrong:
         click.echo(line)
     if not wrong:
-        click.echo(f"{place.folder}: {len(jobs)} logs, all as they were made; the seal is whole.")
+        click.echo(f"{place.folder}: {len(jobs)} logs, all unchanged; the seal is intact.")
     return NOT_RIGHT if wrong else DONE
 
 

@@ -37,11 +37,12 @@ def inspect(
     as_json: bool,
     **entries: str | None,
 ) -> int:
-    """Say what is wrong with the record of one mechanism: which fault, where, and what to do.
+    """Look for faults in the logs of one mechanism: which fault, where, and what to do.
 
     For example: sysid inspect drive.wpilog
 
-    Exit code 0 means that no fault was found, 1 that there is one, or that none could be.
+    Exit code 0 means that no fault was found; 1 that there is a fault, or that the log could not
+    be checked.
     """
     from sim.inspect.detect_faults import inspect as look  # noqa: PLC0415 - --help must not wait for it
 
@@ -78,7 +79,7 @@ def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
     ordered = sorted(doubts, key=lambda doubt: not doubt.grave)
     shown = []
     for doubt in ordered:
-        text = click.wrap_text(f"look: {doubt.message}", width=WIDTH, subsequent_indent="      ")
+        text = click.wrap_text(f"warning: {doubt.message}", width=WIDTH, subsequent_indent=" " * 9)
         lines = text.splitlines()
         if len(lines) + 1 <= room:
             shown += lines

@@ -30,7 +30,7 @@ def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
     return value
 
 
-as_json = click.option("--json", "as_json", is_flag=True, help="Plain data for other programs.")
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON for other programs.")
 
 
 def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -40,7 +40,7 @@ def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
         ),
-        click.option("--motor", help="Which motor, where the log has several: left, right, …"),
+        click.option("--motor", help="Which motor, if the log has several: left, right, …"),
         click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
         click.option("--position", metavar="ENTRY", help="Log entry with the position."),
         click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
@@ -58,7 +58,7 @@ def velocity_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--pick",
             type=click.IntRange(min=1),
             metavar="N",
-            help="Which mechanism, where the log has several: its number in the message.",
+            help="Which mechanism, if the log has several: its number in the message.",
         ),
         click.option(
             "--velocity-scale",
@@ -66,12 +66,12 @@ def velocity_options(command: Callable[..., Any]) -> Callable[..., Any]:
             type=float,
             callback=_factor,
             default=1.0,
-            help="Multiply the velocity by X, where its factor in the robot's code is wrong.",
+            help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
         ),
         click.option(
             "--ignore-velocity",
             is_flag=True,
-            help="Take the slope of the position for the velocity.",
+            help="Use the slope of the position as the velocity.",
         ),
     )
     for option in reversed(options):

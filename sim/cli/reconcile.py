@@ -32,14 +32,14 @@ def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--travel",
             type=float,
-            help=("Distance from stop to stop, in the log's units, if known."),
+            help="Distance from stop to stop, in the log's units, if known.",
         ),
         click.option(
             "--time-limit",
             type=click.FloatRange(min=0.0, min_open=True),
             metavar="SECONDS",
-            help="Processor time after which the best model so far is taken: 20, none without "
-            "Numba.",
+            help="Processor time after which the search stops with the best model so far. "
+            "[default: 20; without Numba, no limit]",
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
     )
@@ -66,15 +66,16 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     as_json: bool,  # noqa: FBT001 - click passes it by name
     **entries: str | None,
 ) -> int:
-    """Find where logs disagree with their model, name what the model lacks, show the gap shrink.
+    """Find which effects the model of a mechanism lacks, and show how much they reduce the gap.
 
-    FILES hold the four tests of one mechanism. What is named is admitted only if it predicts the
-    validation's runs better; without one, each run is predicted by the others.
+    FILES contain the four tests of one mechanism. An effect is accepted only if the model with it
+    predicts the runs of --validation better; without --validation, each run is predicted from the
+    others.
 
     For example: sysid reconcile arm.wpilog --validation faster.wpilog --html arm.html
 
-    Exit code 0 means that nothing is missing, or that what is missing was named; 1 that something
-    remains unexplained or ambiguous.
+    Exit code 0 means that nothing is missing, or that the missing effects were found; 1 that
+    something remains unexplained or ambiguous.
     """
     if html is not None:
         from sim.report.page_file import choose_page_path  # noqa: PLC0415 - draws, as all of its folder

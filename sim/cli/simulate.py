@@ -31,9 +31,9 @@ PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
 @click.option(
     "--recorder",
     metavar="NAME",
-    help="What measures and logs: its rates, filters and delays, as published. One of roborio, "
-    "roborio-2020, talonfx, talonfx-canfd, signal-logger, phoenix5, sparkmax, sparkmax-encoder, "
-    "venom.",
+    help="The hardware that measures and logs, with its published rates, filters and delays. One "
+    "of roborio, roborio-2020, talonfx, talonfx-canfd, signal-logger, phoenix5, sparkmax, "
+    "sparkmax-encoder, venom.",
 )
 @click.option(
     "--period", type=float, help="Loop of the robot program [s].  [default: the recorder's, 0.02]"
@@ -50,7 +50,10 @@ PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
     multiple=True,
     shell_complete=EFFECT_NAMES,
     metavar="EFFECT[:SIZE]",
-    help=("Effect to add that the model does not have; once for each. `sysid effects` lists them."),
+    help=(
+        "Effect to add that the model does not contain; may be repeated. `sysid effects` lists "
+        "them."
+    ),
 )
 @click.option(
     "--fault",
@@ -58,7 +61,7 @@ PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
     multiple=True,
     shell_complete=FAULT_NAMES,
     metavar="NAME[:SEVERITY][@TEST[+SECONDS]]",
-    help="Fault to add to the log; once for each. `sysid faults` lists them.",
+    help="Fault to add to the log; may be repeated. `sysid faults` lists them.",
 )
 @click.option(
     "--battery",
@@ -74,8 +77,12 @@ PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
 )
 @click.option("--vary", is_flag=True, help="Draw another mechanism of this kind at random.")
 @click.option("--electrical", is_flag=True, help="Record current and battery voltage, too.")
-@click.option("--seed", type=int, help="Same seed, same log; a new log every time without.")
-@click.option("--truth", type=FILE, help="Also write what is true to this JSON file.")
+@click.option(
+    "--seed", type=int, help="The same seed gives the same log. Without a seed, each log is new."
+)
+@click.option(
+    "--truth", type=FILE, help="Also write the true gains, effects and faults to this JSON file."
+)
 def simulate(  # noqa: PLR0917 - click passes options by name
     mechanism: str,
     output: Path,
@@ -133,7 +140,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     samples = sum(len(part) for part in log.runs)
     after = "inspect" if faults else "fit"
     for doubt in log.doubts:
-        click.echo(f"look: {doubt.message}")
+        click.echo(f"warning: {doubt.message}")
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid {after} {output}")
 
 
@@ -147,7 +154,7 @@ def _fed(mechanism: "Mechanism", battery: str | None, controller: str) -> "Mecha
         fed = Battery(float(rest), float(ohms) if colon else mechanism.battery.resistance)
     except ValueError:
         raise BadRequest(
-            f"{battery!r} is no battery", advice="Write VOLTS[:OHMS], as 12.2:0.035."
+            f"{battery!r} is not a battery", advice="Write VOLTS[:OHMS], as 12.2:0.035."
         ) from None
     return replace(mechanism, battery=fed, brownout=stop)
 

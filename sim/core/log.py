@@ -207,7 +207,7 @@ class Log:
         if find_unit(self.units).angular != find_unit(other.units).angular:
             raise BadRequest(
                 f"{self.source} is in {self.units}, {other.source} in {other.units}",
-                advice="Fit one mechanism at a time, or say --units if a file is mislabeled.",
+                advice="Fit one mechanism at a time, or add --units if a file is mislabeled.",
             )
         return replace(self, runs=self.runs + other.runs, doubts=self.doubts + other.doubts)
 

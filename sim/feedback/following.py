@@ -46,7 +46,7 @@ class FollowedProfile:
     def description(self) -> str:
         """What happens, in short sentences with rounded numbers."""
         parts = [part for part in (self._held(), self._went(), self._stands()) if part]
-        told = " ".join(parts) or "It does nearly what is asked of it here."
+        told = " ".join(parts) or "Here it does nearly what it should."
         return re.sub(r"\b[Ii]t\b", lambda it: self._named(it[0]), told, count=1)
 
     def _named(self, it: str) -> str:
@@ -70,7 +70,7 @@ class FollowedProfile:
         """How fast it is when it should be steady."""
         place = self.target.cruise_end
         wanted, found = self.target.velocity[place], self.velocity[place]
-        told = f"Told to do {wanted:.2g} {self.symbol}/s, it"
+        told = f"Asked for {wanted:.2g} {self.symbol}/s, it"
         if self.position[place] in self.stops:
             return f"{told} is at its stop."
         if abs(found) <= STANDS * abs(wanted):
@@ -79,7 +79,7 @@ class FollowedProfile:
             return f"{told} goes the other way."
         off = (found - wanted) * math.copysign(1.0, wanted)
         if abs(off) > CLEAR * abs(wanted) and self._size(found) != self._size(wanted):
-            return f"{told} does {self._size(found)}/s."
+            return f"{told} reaches {self._size(found)}/s."
         if abs(off) > SEEN * abs(wanted):
             return f"{told} is {self._size(off)}/s too {'fast' if off > 0.0 else 'slow'}."
         return self._gets_there()
@@ -92,9 +92,8 @@ class FollowedProfile:
         if abs(off) <= SEEN * max(map(abs, wanted)):
             return ""
         ahead = off * wanted[self.target.cruise_end] > 0.0
-        return (
-            f"While it gets faster, it is up to {self._size(off)}/s {'ahead' if ahead else 'late'}."
-        )
+        way = "fast" if ahead else "slow"
+        return f"While it gets faster, it is up to {self._size(off)}/s too {way}."
 
     def _stands(self) -> str:
         """How far it is off in the end."""

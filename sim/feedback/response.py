@@ -229,5 +229,5 @@ def _check(plant: Plant, *, loop: str, numbers: tuple[float, ...]) -> None:
         raise BadRequest(
             f"no loop can be simulated with kS = {gains['kS']:.4g}, kV = {gains['kV']:.4g}, "
             f"kA = {gains['kA']:.4g}",
-            advice="Settle first why the fit finds a gain below zero.",
+            advice="First find out why the fit gives a negative gain.",
         )

@@ -50,13 +50,13 @@ class Verdict:
                     f", goes {self.overshoot:.0%} past the target" if self.overshoot > BAND else ""
                 )
                 return (
-                    f"is 90% there after {_time(self.reached)}{past} and is settled after "
-                    f"{_time(self.settled)}"
+                    f"reaches 90% of the target after {_time(self.reached)}{past} and settles "
+                    f"after {_time(self.settled)}"
                 )
             case "oscillates":
                 return (
-                    f"oscillates and does not settle: still by {self.swing:.0%} of the step "
-                    f"after {_time(self.duration)}"
+                    f"oscillates and does not settle: it still swings by {self.swing:.0%} of "
+                    f"the step after {_time(self.duration)}"
                 )
             case "stays-short":
                 return f"stops {self.left:.0%} of the step before the target"

@@ -60,7 +60,10 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
     if median != 1:
         raise BadRequest(
             f"a median window of {median} samples with method {method}",
-            advice="It belongs to SysId's recipe: ask for --method sysid; this one needs none.",
+            advice=(
+                "The median filter belongs to SysId's method: add --method sysid. Our method "
+                "needs no filter."
+            ),
         )
     from sim.fit.output_error import fit_output_error  # noqa: PLC0415 - the same
 
@@ -71,5 +74,5 @@ def _type_from_name(log: Log) -> Doubt:
     return Doubt(
         "type-from-name",
         f"Fitted as of type {log.type}, as the log's mechanism is named {log.mechanism!r}. If "
-        "gravity does not act on it like that, say --type.",
+        "gravity does not act on it like that, add --type.",
     )

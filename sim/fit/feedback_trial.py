@@ -127,17 +127,17 @@ def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
     other = next((one for one in _suggest_others(found, trial) if one.is_good), None)
     cure = (
-        f"Start the {trial.loop} loop with {format_gain_pair(other.gains)}: simulated{late}, it "
-        f"{other.verdict.description}."
+        f"Start the {trial.loop} loop with {format_gain_pair(other.gains)}: in "
+        f"simulation{late}, it {other.verdict.description}."
         if other
-        else f"There is no good start for the {trial.loop} loop: no allowed error gives gains that "
-        "settle. Move the target along a profile, so that the feedforward does the work, and use a "
-        "signal with less delay."
+        else f"There is no good start for the {trial.loop} loop: no setting of the allowed error "
+        "gives gains that settle. Move the target along a profile, so that the feedforward "
+        "does the work, and use a signal with less delay."
     )
     return Doubt(
         "unsettled-feedback",
         f"{cure} (Do not use SysId's own suggestion, {format_gain_pair(trial.gains)} for "
-        f"{trial.preset.name}: simulated, it {trial.verdict.description}.)",
+        f"{trial.preset.name}: in simulation, it {trial.verdict.description}.)",
     )
 
 

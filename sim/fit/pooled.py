@@ -42,7 +42,7 @@ def pool_fits(fits: Mapping[str, Fit]) -> Fit:
         raise BadRequest(
             f"fits of types {', '.join(dict.fromkeys(one.type for one in fits.values()))} have no "
             "common gains",
-            advice="Say --type, so that all are fitted as the same.",
+            advice="Add --type, so that all are fitted as the same type.",
         )
     if not others:
         return first

@@ -229,7 +229,7 @@ def _rows_of_run(run: Run) -> Rows:
     """A run as SysId takes it in: every sample with the time to the next, so the last one goes."""
     if len(run) <= NOISE_WINDOW:
         raise NotIdentifiable(
-            f"{run.test} has {len(run)} samples, too few to tell motion from noise",
+            f"{run.test} has {len(run)} samples, too few to separate motion from noise",
             advice="Hold the button until the mechanism has moved for a second or more.",
         )
     period = np.diff(run.time)

@@ -27,7 +27,7 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {per.name}",
             where=log.source,
-            advice="Say --units radians, rotations or degrees, or --type elevator.",
+            advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
     prepared = prepare_rows(log, median=median)
     found = regress_acceleration(prepared.rows, type=type)

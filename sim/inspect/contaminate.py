@@ -106,7 +106,7 @@ def contaminate(
         )
     if log.type and log.type not in fault.types:
         raise BadRequest(
-            f"{name} cannot strike a mechanism of type {log.type}",
+            f"{name} cannot happen to a mechanism of type {log.type}",
             where=log.source,
             advice=f"It takes one of type {' or '.join(fault.types)}.",
         )
@@ -138,11 +138,11 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
             raise BadRequest(
                 f"there is no {test} test in this log",
                 where=log.source,
-                advice=f"It holds {', '.join(names) or 'none at all'}: choose one of its own.",
+                advice=f"It contains {', '.join(names) or 'none at all'}: choose one of these.",
             )
         if log.runs[there[0]].kind not in fault.kinds:
             raise BadRequest(
-                f"{fault.name} cannot strike a {test} test", advice=f"Choose a {kinds} test."
+                f"{fault.name} cannot happen in a {test} test", advice=f"Choose a {kinds} test."
             )
         there = there[:1]
     else:
@@ -150,7 +150,7 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
         there = [index for index in there if len(log.runs[index]) >= FEWEST] or there
     if not there:
         raise BadRequest(
-            f"no test in this log that {fault.name} could strike",
+            f"no test in this log that {fault.name} could happen in",
             where=log.source,
             advice=f"It takes a {kinds} test.",
         )
@@ -196,6 +196,6 @@ def _parse_number(text: str, part: str | None, *, default: float) -> float:
 
 def _refuse_syntax(text: str, why: str) -> BadRequest:
     return BadRequest(
-        f"{text!r} is no fault to ask for: {why}",
+        f"{text!r} is not a fault: {why}",
         advice="Write NAME[:SEVERITY][@TEST[+SECONDS]], as encoder-slip:0.5@dynamic-forward+0.4.",
     )

@@ -310,7 +310,7 @@ def _reader(path: Path, head: bytes) -> Format:
     suffixes = ", ".join(suffix for module in seen for suffix in module.SUFFIXES)
     looks = "some binary format" if b"\x00" in head else "plain text without a log's first line"
     raise UnreadableFile(
-        f"no log that can be read here; it looks like {looks}",
+        f"not a log that can be read here; it looks like {looks}",
         advice=f"Logs are {suffixes}; a CSV log begins with test,time_s,voltage,position,velocity.",
     )
 
@@ -356,7 +356,7 @@ def _head(given: str) -> bytes:
         ) from None
     except ValueError as error:  # a path no system can hold, with a zero byte in it
         raise UnreadableFile(
-            f"this is no path ({error})", advice="Give the path of a log file."
+            f"this is not a path ({error})", advice="Give the path of a log file."
         ) from None
 
 

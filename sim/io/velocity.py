@@ -82,9 +82,9 @@ def check_velocity(log: Log) -> Log:
         return log
     doubt = Doubt(
         "velocity-scale",
-        f"{log.source}: the velocity is {share:.3g} times as fast as the position moves. Look at "
-        f"the factors of both in the robot's code. If the position is right, say --velocity-scale "
-        f"{1.0 / share:.3g} or --ignore-velocity.",
+        f"{log.source}: the velocity is {share:.3g} times as fast as the position moves. Look "
+        "at the factors of both in the robot's code. If the position is right, add "
+        f"--velocity-scale {1.0 / share:.3g} or --ignore-velocity.",
     )
     return log.add_doubts(doubt)
 

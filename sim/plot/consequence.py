@@ -92,7 +92,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
 def _draw(axes: Axes, one: Trace) -> None:
     """One panel; what is wanted is a broad line, so that a curve upon it stays visible."""
     time = np.asarray(one.time, dtype=float)
-    name = "there it must stand" if one.limit else "what was wanted"
+    name = "it must have stopped here" if one.limit else "what was wanted"
     axes.plot(
         time, one.wanted, color=REFERENCE, linewidth=1.4 if one.limit else 3.0,
         alpha=1.0 if one.limit else 0.45, linestyle="--" if one.limit else "-", label=name,

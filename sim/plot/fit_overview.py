@@ -26,7 +26,7 @@ def plot_fit_overview(
     """
     loops = group_by_loop(tried)
     if not runs and not loops:
-        raise BadRequest("there is nothing to draw", advice="Settle first what the doubts say.")
+        raise BadRequest("there is nothing to draw", advice="First do what the warnings say.")
     figure, empty = draw_all_runs(runs, per=per, more=len(loops))
     for part, mine in zip(empty, loops, strict=False):
         draw_loop(part, mine, per=per)

@@ -178,7 +178,7 @@ def _curves(axes: Axes, time: Array, seen: Array, said: Array) -> None:
 
 def _left(axes: Axes, time: Array, rest: Array, *, band: float) -> None:
     axes.axhspan(-band, band, color="#BBBBBB", alpha=0.6, linewidth=0, label="95% of the noise")
-    _line(axes, time, rest, color=COLORS[0], label="measured less simulated")
+    _line(axes, time, rest, color=COLORS[0], label="measured minus simulated")
     axes.axhline(0.0, color=INK, linewidth=0.6)
 
 

@@ -80,7 +80,7 @@ class Picture:
         kind = target.suffix.lower()
         if kind not in SUFFIXES:
             raise BadRequest(
-                f"no picture ends in {target.suffix or 'nothing'!r}",
+                f"a picture cannot end in {target.suffix or 'nothing'!r}",
                 where=str(target),
                 advice=f"End its name in one of: {', '.join(SUFFIXES)}.",
             )

@@ -62,7 +62,7 @@ def plot_r2_vs_gain_error(
         _errors(right, scores, off)
         add_legend(figure, [right])
     right.set_xlabel("off by [%]", color=INK)
-    right.set_title("the truth, which no robot tells", fontsize=10, color=INK)
+    right.set_title("the truth, which no robot shows", fontsize=10, color=INK)
     return Picture(figure, _words(scores, good, score, off), _table(scores, good, score, off))
 
 

@@ -109,7 +109,14 @@ def _numbers(tried: Sequence[FeedbackTrial], per: Unit) -> Table:
         )
         for trial in tried
     )
-    header = ("loop", "step", "90% there [s]", "past the target", "settled [s]", "most volts [V]")
+    header = (
+        "loop",
+        "step",
+        "90% of the target [s]",
+        "past the target",
+        "settled [s]",
+        "most volts [V]",
+    )
     return Table(header, rows)
 
 

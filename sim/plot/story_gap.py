@@ -34,7 +34,7 @@ TITLES = {
     RUN: "run by run, from its beginning to its end",
     SPEED: "by speed",
     POSITION: "by position",
-    STEPS: "after the voltage jumps (faster: it answers too much)",
+    STEPS: "after the voltage jumps (faster: the reaction is too strong)",
     REST: "where the model rests",
 }
 
@@ -52,8 +52,8 @@ def plot_residual_maps(story: Story) -> Picture:
     maps = {title: _map(story, chapter.tracks) for title, chapter in wanted.items()}
     if not any(maps.values()):
         raise BadRequest(
-            "there is too little to compare, or the simulation ran away",
-            advice="Give longer runs, or see what the fit doubts.",
+            "there is too little to compare, or the simulated motion grew without limit",
+            advice="Give longer runs, or read the warnings of the fit.",
         )
     titles = [title for title, one in maps.items() if one]
     found = [one for one in maps.values() if one]
@@ -112,8 +112,8 @@ def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object
     bar.ax.set_xticklabels([f"{tick:+d}".replace("-", "−") if tick else "0" for tick in TICKS])
     bar.ax.tick_params(labelsize=8, colors=INK)
     bar.set_label(
-        "the robot is slower (−) or faster (+) than the simulation, in noises of the velocity;\n"
-        "a number stands where it is more than the noise",
+        "the robot is slower (−) or faster (+) than the simulation, in times the noise of the "
+        "velocity;\na number stands where it is more than the noise",
         fontsize=8, color=INK,
     )  # fmt: skip
     figure.legend(
@@ -191,7 +191,7 @@ def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
         if places:
             said.append(f"{title}: " + "; ".join(place.sentence for place in places) + ".")
         else:
-            said.append(f"{title}: nowhere beyond doubt.")
+            said.append(f"{title}: nowhere clearly more than the noise.")
     again = [f"{pair.test}, repeated: what is left {pair.verdict}" for pair in found[0].repeats]
     return " ".join(said + [". ".join(again) + "."] * bool(again))
 
@@ -203,6 +203,6 @@ def _numbers(found: Sequence[GapMap], titles: Sequence[str]) -> Table:
         for place in one.find_places(TOLD, signal="velocity")
     ]
     if not rows:
-        rows = [("nowhere beyond doubt", "", "", "any")]
-    header = ("where", "off by [noises]", "how sure [standard errors]", "model")
+        rows = [("nowhere clearly more than the noise", "", "", "any")]
+    header = ("where", "error [times the noise]", "how sure [standard errors]", "model")
     return Table(header, tuple(rows), "Where the velocity is off: above 0 the robot is faster")

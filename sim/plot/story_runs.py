@@ -94,7 +94,7 @@ def plot_overlays(story: Story, chapter: int = -1) -> Picture:
     for (curve, left), one in zip(grid.tolist(), drawn, strict=True):
         _draw(curve, left, one, said, per=per, noise=noise)
     grid[0, 0].set_title("velocity", fontsize=9, color=INK)
-    grid[0, 1].set_title("measured less simulated", fontsize=9, color=INK)
+    grid[0, 1].set_title("measured minus simulated", fontsize=9, color=INK)
     for panel in grid[-1]:
         panel.set_xlabel("time [s]", color=INK, fontsize=9)
     add_shared_legend(figure, grid[0])
@@ -152,7 +152,7 @@ def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise:
         told.append(f"{one.run.test}: {' before, '.join(sizes)}{' after' * (len(sizes) - 1)}.")
     if len(runs) > DRAWN:
         told.append(f"The other {len(runs) - DRAWN} runs are not drawn.")
-    return f"{first} Times the noise of the velocity, RMS: {' '.join(told)}"
+    return f"{first} Residual of the velocity, RMS, in times its noise: {' '.join(told)}"
 
 
 def _tracks(one: RunOverlay, said: Sequence[str]) -> tuple[Array, ...]:
@@ -171,7 +171,7 @@ def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> T
         )
         for number, one in enumerate(runs, start=1)
     )
-    header = ("run", *(f"{name}, off by [noises]" for name in said))
+    header = ("run", *(f"{name}, error [times the noise]" for name in said))
     return Table(header, rows)
 
 

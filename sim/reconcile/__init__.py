@@ -199,9 +199,9 @@ def _fit_base_model(
     base = _fit_structure(problem, log, type=type)
     if not math.isfinite(base.cost):
         raise NotIdentifiable(
-            "no gains follow what is left of it once its damage is set aside",
+            "without its damaged parts, no gains fit this log",
             where=log.source,
-            advice="Inspect the log, and record it anew.",
+            advice="Inspect the log, and record it again.",
         )
     if _missed_share(problem, base) < LOST:
         return problem, base

@@ -42,8 +42,9 @@ from sim.reconcile.thresholds import (
 )
 
 TURNLESS = (
-    "How much free play there is, is known to a factor of two: no run that was fitted turns, and "
-    "only one that does is sure to cross all of it. Record steps forth and back."
+    "The free play is known only to a factor of two: no fitted run changes direction, and "
+    "only a run that does is sure to cross all of the play. Record steps forward and back in "
+    "one run."
 )
 
 BELIED = (

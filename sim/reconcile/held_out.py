@@ -28,15 +28,17 @@ TOLD = 5  # places
 LOOKS = 3  # at where in its free play a run began, each nearer
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on a log that nothing was fitted to.",
-    "validation": "No held-out log was given: the gap is shown on the validation's, by which the "
-    "effects were chosen.",
-    "log": "Only one log was given: an effect is admitted if the other runs, fitted with it, "
-    "predict each run better; the gap is shown on the log that was fitted.",
+    "validation": (
+        "No held-out log was given: the gap is shown on the validation log, which was also used "
+        "to choose the effects."
+    ),
+    "log": "Only one log was given: an effect is accepted if it helps to predict each run from the "
+    "others. The gap is shown on the fitted log itself.",
 }
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
 MESHED = (
-    "Where in its free play each run of it began is taken from that run, as its first position is: "
-    "no log says so."
+    "Where in its free play each run began is estimated from that run itself, because no log "
+    "contains it."
 )
 AGAIN: Mapping[str, str] = {
     "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
@@ -94,9 +96,9 @@ class HeldOutLog:
         if not self.held_out or gap <= OTHER_MATTER * max(fitted, self.problem.noise.velocity):
             return said
         far = (
-            f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times what "
-            "it misses of the others: make sure that it is of the same mechanism, in the same "
-            "units, and that nothing was changed in between."
+            f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times "
+            "as much as it misses the others: make sure that it is of the same mechanism, in "
+            "the same units, and that nothing was changed in between."
         )
         return (far, *said)
 

@@ -39,7 +39,7 @@ def check_logs(
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {log.units}",
             where=log.source,
-            advice="Say --units radians, rotations or degrees, or --type elevator.",
+            advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
     _check_voltage(log)
     guess = guess_gains(log, type=type)
@@ -99,7 +99,10 @@ def _check_direction(log: Log, guess: dict[str, float], *, type: str) -> None:  
         raise BadRequest(
             "a positive voltage drives it backward",
             where=log.source,
-            advice="Invert the encoder or the motor, so that plus is plus, and record again.",
+            advice=(
+                "Invert the encoder or the motor, so that a positive voltage gives a positive "
+                "velocity, and record again."
+            ),
         )
 
 
@@ -175,5 +178,5 @@ def _check_travel(log: Log, travel: float) -> None:
         raise BadRequest(
             f"positions span {way:.3g} {find_unit(log.units).symbol}, and the travel is {travel:g}",
             where=log.source,
-            advice="Give the way from stop to stop, in the log's units, or leave it out.",
+            advice="Give the distance from stop to stop, in the log's units, or leave it out.",
         )

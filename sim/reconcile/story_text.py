@@ -68,7 +68,7 @@ def is_gap_narrower(before: float, after: float) -> bool:
 def format_gap(gap: float, story: Story) -> str:
     """A gap in noise floors, as text."""
     if not (math.isfinite(gap) and story.noise_floor > 0.0):
-        return "not known: the simulation ran away"
+        return "not known: the simulated motion grew without limit"
     return f"{gap / story.noise_floor:.3g}"
 
 

@@ -65,8 +65,8 @@ def _describe_cut(limit: float) -> str:
     if math.isinf(limit):
         return ""
     return (
-        f"The search stopped at its time limit of {limit:g} s of processor time, so more effects "
-        f"may be missing. To search on: --time-limit {10.0 * limit:g}."
+        f"The search stopped at its time limit of {limit:g} s of processor time, so more "
+        f"effects may be missing. To search longer: --time-limit {10.0 * limit:g}."
     )
 
 
@@ -76,19 +76,20 @@ def _describe_remainder(
     """A sentence about how far the last model still is, or why it may be another; or nothing."""
     if strays > STRAYS:
         return (
-            f"The last model leaves the log by {strays:.1f} times the velocity's noise, and no "
-            "effect of the catalogue makes that less."
+            f"The last model misses the log by {strays:.1f} times the noise of the velocity, "
+            "and no effect in the catalogue makes that smaller."
         )
     if likely := list_blocked(done[-1].candidates):
         return (
-            f"With {likely[0].candidate.effect} the log would be far likelier, and yet runs that "
-            "were not fitted are missed by more: something else is missing, or more than that."
+            f"With {likely[0].candidate.effect} the model fits this log far better, but "
+            "predicts other runs worse: something else is missing, or more than one thing."
         )
     if series := _find_nested_pair(findings):
         return (
-            f"The log wants {series}, and the one does much of what the other does: together they "
-            "follow any force that changes along the way, so it may be one of another kind. Hold "
-            "the mechanism still at ten places, and write down the voltage at each."
+            f"This log can be fitted with {series}, which do nearly the same: together they "
+            "can follow any force that changes with the position, so the real force may be "
+            "another one. Hold the mechanism still at ten places, and write down the voltage "
+            "at each."
         )
     return ""
 
@@ -99,17 +100,18 @@ def _describe_residual(problem: PredictionErrorProblem, left: ResidualSummary, p
         moment = left.worst_window
         record = problem.records[moment.record]
         return (
-            f"In {record.test}, {moment.start:.2f} to {moment.end:.2f} s, the log does what no "
-            f"effect of the catalogue explains ({moment.size:.0f} times what is ordinary)."
+            f"In {record.test}, {moment.start:.2f} to {moment.end:.2f} s, the log shows a "
+            f"motion that no effect in the catalogue explains ({moment.size:.0f} times the "
+            "usual size)."
         )
     if left.is_repeated:
         return _describe_repeated(left.repeated, per)
     if left.is_periodic:
         return (
-            f"Something pushes to and fro every {1.0 / left.peak.rate:.2f} s, whatever the "
-            "mechanism does meanwhile, and no effect of the catalogue explains it. Look for what "
-            "has a time of its own: a robot that rocks on its blocks, a compressor, another "
-            "mechanism."
+            f"Something pushes back and forth every {1.0 / left.peak.rate:.2f} s, whatever "
+            "the mechanism does, and no effect in the catalogue explains it. Look for "
+            "something with a rhythm of its own: a robot that rocks on its blocks, a "
+            "compressor, another mechanism."
         )
     return ""
 
@@ -123,7 +125,7 @@ def _find_nested_pair(findings: Sequence[Finding]) -> str:
     named = {one.effect for one in findings if one.kind == "effect"}
     for one, other in permutations(sorted(named), 2):
         if contains_effect(one, other):
-            return f"{one} beside {other}"
+            return f"{one} together with {other}"
     return ""
 
 
@@ -133,7 +135,7 @@ def _describe_repeated(alike: RepeatedResidual, per: Unit) -> str:
     where, of = ("places", "") if alike.what == POSITION else ("speeds", "/s")
     way = "forward" if alike.way > 0 else "in reverse"
     return (
-        f"At the same {where} runs do the same, run after run ({alike.size:.0f} times what chance "
-        f"would), and no effect of the catalogue explains it; most of it {way}, between {low} and "
-        f"{high} {per.symbol}{of}."
+        f"At the same {where} the same error comes back in every run ({alike.size:.0f} times "
+        "as large as by chance), and no effect in the catalogue explains it; most of it "
+        f"{way}, between {low} and {high} {per.symbol}{of}."
     )

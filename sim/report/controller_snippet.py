@@ -143,7 +143,7 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
     if radius is None or not (math.isfinite(radius) and radius > 0.0):
         raise BadRequest(
             f"no radius between {given.name} and {wanted.name}",
-            advice="Give --radius, that of wheel or drum in meters.",
+            advice="Add --radius: the radius of the wheel or drum, in meters.",
         )
     between = radius if wanted.angular else 1.0 / radius  # meters per radian, or the other way
     return Conversion(name, wanted.si * between / given.si, wanted.symbol)
@@ -185,7 +185,7 @@ def _phoenix6_notes(found: Fit) -> tuple[str, ...]:
     return (
         "Volts per rotation of the mechanism. Set Feedback.SensorToMechanismRatio first.",
         "For requests in volts: VelocityVoltage, PositionVoltage, MotionMagicVoltage.",
-        "EnableFOC has to be as in the tests; it changes kA, and kV a little.",
+        "Set EnableFOC as in the tests; it changes kA, and kV a little.",
         *((level,) if found.type == "arm" else ()),
         "kP: sysid fit --preset ctre-phoenix6, converted as kV is.",
     )
@@ -247,7 +247,7 @@ def _yagsl_imports(found: Fit, season: int) -> tuple[str, ...]:  # noqa: ARG001 
 
 def _yagsl_notes(found: Fit) -> tuple[str, ...]:  # noqa: ARG001 - as the others
     return (
-        "Volts per meter of the wheel's way. YAGSL takes them for all modules:",
+        "Volts per meter that the wheel rolls. YAGSL takes them for all modules:",
         "swerveDrive.replaceSwerveModuleFeedforward(FEEDFORWARD);",
     )
 

@@ -60,13 +60,15 @@ def show_fit(
         f"RMSE {found.acceleration_rmse:.3g} {per.symbol}/s²"
     )
     if tried:
-        console.print(f"feedback to start from, as SysId suggests it ({preset.name}), simulated:")
+        console.print(
+            f"feedback gains to start with, as SysId suggests them ({preset.name}), simulated:"
+        )
     _show_trials(tried, per, console)
     for note in notes:
         console.print(note)
     for doubt in doubts:
         if not doubt.grave:
-            console.print(f"look: {doubt.message}", style="bold")
+            console.print(f"warning: {doubt.message}", style="bold")
 
 
 def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:

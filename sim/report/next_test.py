@@ -37,7 +37,7 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
     for test in last:
         index = max((k for k, run in enumerate(log.runs) if run.test == test), default=None)
         if index is None:
-            return f"Repeat {test}: its log holds no motion."
+            return f"Repeat {test}: its log contains no motion."
         said = _judge_run(index, log, found=found, inspection=inspection)
         if said:
             return said
@@ -45,7 +45,7 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
     if missing:
         return f"{_enumerate(missing)} {'is' if len(missing) == 1 else 'are'} missing."
     if found is None:
-        return "Run `sysid inspect` on the log: all four tests are there, and give no gains."
+        return "All four tests are there, but they give no gains. Run `sysid inspect` on the log."
     grave = [doubt for doubt in found.doubts if doubt.grave]
     if grave:
         return grave[0].message

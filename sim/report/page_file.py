@@ -45,7 +45,7 @@ def choose_page_path(path: str | os.PathLike[str]) -> Path:
     target = Path(path)
     if target.suffix.lower() not in PAGES:
         raise BadRequest(
-            f"no page ends in {target.suffix or 'nothing'!r}",
+            f"a page cannot end in {target.suffix or 'nothing'!r}",
             where=str(target),
             advice="End its name in .html.",
         )

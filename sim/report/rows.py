@@ -15,7 +15,7 @@ from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, wr
 
 SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
 MEANS = {
-    "kS": "friction: the volts before it moves at all",
+    "kS": "friction: the volts before the mechanism moves",
     "kV": "the volts for a steady speed, for each unit of speed",
     "kA": "the volts for acceleration, for each unit of acceleration",
     "kG": "gravity: the volts that hold it where gravity pulls most",
@@ -82,12 +82,12 @@ def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
     per = find_unit(found.units).symbol
     rows = [
         (
-            "velocity, simulated: R²",
+            "simulated velocity R²",
             _number(found.simulated_velocity_r2),
             "1 is perfect; below 0.9 look at the figures",
         ),
         (
-            f"velocity, simulated: off by, RMS [{per}/s]",
+            f"simulation error of the velocity, RMS [{per}/s]",
             _number(found.simulated_velocity_rmse),
             "it cannot be smaller than the sensor noise",
         ),
@@ -96,7 +96,11 @@ def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
             _number(found.acceleration_r2),
             "low on nearly every robot, because differences are noisy",
         ),
-        (f"acceleration: off by, RMS [{per}/s²]", _number(found.acceleration_rmse), "the same"),
+        (
+            f"error of the acceleration, RMS [{per}/s²]",
+            _number(found.acceleration_rmse),
+            "the same",
+        ),
     ]
     late = found.method == "output-error" and max(found.velocity_delay, found.position_delay) > 0.0
     if late:
@@ -172,4 +176,8 @@ def _minus(text: str) -> str:
 
 
 def _number(value: float) -> str:
-    return to_text(value) if math.isfinite(value) else "not known: the simulation ran away"
+    return (
+        to_text(value)
+        if math.isfinite(value)
+        else "not known: the simulated motion grew without limit"
+    )

@@ -69,7 +69,7 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     for test in list_next_tests(story):
         say(f"Test to run next: {test}", style="bold")
     for message in list_remarks(story):
-        say(f"look: {message}", style="bold")
+        say(f"warning: {message}", style="bold")
 
 
 class _Sayer:

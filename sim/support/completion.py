@@ -41,7 +41,7 @@ def explain_completion(command: str) -> str:
     """
     variable = f"_{command.upper()}_COMPLETE"
     return (
-        f'Names are completed with Tab after, in bash: eval "$({variable}=bash_source {command})"; '
-        f'in zsh: eval "$({variable}=zsh_source {command})"; '
-        f"in fish: {variable}=fish_source {command} | source"
+        "To complete names with Tab, run this once in each terminal. In bash: eval "
+        f'"$({variable}=bash_source {command})"; in zsh: eval "$({variable}=zsh_source '
+        f'{command})"; in fish: {variable}=fish_source {command} | source'
     )

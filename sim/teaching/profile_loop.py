@@ -226,7 +226,7 @@ def follow_in_closed_loop(
         answer = volts(LoopInput(now, after, position[-1], velocity[-1]))
         if not isinstance(answer, int | float | np.number) or not math.isfinite(answer):
             raise BadRequest(
-                f"the loop answers {answer!r} in place of volts", advice="Return one number."
+                f"the loop answers {answer!r} instead of volts", advice="Return one number."
             )
         asked.append(min(max(float(answer), -BATTERY), BATTERY))
         track = simulate_run(

@@ -69,7 +69,7 @@ def _volts(questions: str) -> float:
         for sign in (
             r"A shooter has kS = ([\d.]+)",
             r"kV = ([\d.]+) V",
-            r"Told to spin at\s+(\d+) rpm",
+            r"Its target is\s+(\d+) rpm",
         )
     )
     return float(ks) + float(kv) * float(rpm) / 60.0

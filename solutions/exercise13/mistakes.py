@@ -47,7 +47,7 @@ MISTAKES = (
         "did you swap them?",
         "M-ARGORDER",
     ),
-    Mistake("another module", ANSWERS, another_module, "worn", "turns more often for the same"),
+    Mistake("another module", ANSWERS, another_module, "worn", "turns more often over the same"),
     Mistake(
         "a module there is not", ANSWERS, put_value("worn", '"middle"'), "worn", "none of them"
     ),
@@ -88,7 +88,7 @@ MISTAKES = (
         ANSWERS,
         put_value("rate_unit", '"volts"'),
         "rate-unit",
-        "SysId knows nothing else",
+        "SysId knows only volts",
         "M-UNITS",
     ),
     Mistake(
@@ -138,7 +138,7 @@ MISTAKES = (
         ANSWERS,
         scale_numbers(4.0, "slip_current"),
         "slip-current",
-        "of all four motors",
+        "for all four motors together",
     ),
     Mistake(
         "turning for going",

@@ -79,7 +79,7 @@ MISTAKES = (
         ANSWERS,
         first(f"{WHOLE} + sign-flip whole fix-config"),
         "log01",
-        "Find it in a plot first: what",
+        "Can you find that in a plot? What",
     ),
     Mistake(
         "a word that is none",

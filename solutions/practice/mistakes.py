@@ -98,7 +98,7 @@ MISTAKES = (
             ("linearVelocity", "angularVelocity"),
         ),
         "one-mechanism",
-        "They are two mechanisms",
+        "They are two different mechanisms",
         "M-UNITS",
     ),
     Mistake(

@@ -69,7 +69,7 @@ def read_spec(path: Path) -> Spec:
     total = max(len(spec.students), 1) * sum(one.count * len(one.mechanisms) for one in logs)
     if total > MOST_LOGS:
         top.refuse(
-            f"{total} logs are asked for", advice=f"Split it: one dataset has at most {MOST_LOGS}."
+            f"{total} logs are requested", advice=f"Split it: one dataset has at most {MOST_LOGS}."
         )
     return spec
 

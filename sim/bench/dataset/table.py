@@ -50,7 +50,7 @@ class TomlTable:
     def __init__(self, content: object, *, where: str, known: Sequence[str]) -> None:
         self.where = where
         if not isinstance(content, dict):
-            self.refuse(f"{_shown(content)} stands where keys and values should", advice="Use = .")
+            self.refuse(f"{_shown(content)} is in the place of keys and values", advice="Use = .")
         self.content: Mapping[str, object] = content
         for key in content:
             if key not in known:

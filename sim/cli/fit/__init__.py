@@ -136,9 +136,10 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
 
-    Files of one test each are joined. Sides of a drivetrain, modules and whole recordings are
-    fitted alone, compared, and their gains averaged. Directions are compared, too; not with --json
-    and --paste, which should be quick. --straight prints the moment of inertia, too.
+    Files with one test each are joined. If there are several sides of a drivetrain, modules or
+    recordings, each is fitted alone; then they are compared, and their gains averaged. Forward and
+    reverse are compared, too, except with --json and --paste, which should be quick. With
+    --straight it also prints the moment of inertia.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
@@ -264,7 +265,7 @@ def _read_own_gains(
     if kp is None:
         if kd is None and loop is None:
             return None
-        raise click.UsageError("Missing option '--own-kp': your kP, for --own-kd and --loop.")
+        raise click.UsageError("Missing option '--own-kp': --own-kd and --loop need your kP.")
     if not (math.isfinite(kp) and math.isfinite(kd or 0.0)):
         raise click.UsageError("--own-kp and --own-kd are numbers. Give finite ones.")
     return OwnGains(loop or LOOPS[0], Feedback(kp, kd or 0.0))

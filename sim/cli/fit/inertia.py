@@ -48,7 +48,7 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
             "--lever",
             type=float,
             help="… and how far a wheel's push passes from the middle [m]: trackwidth/√2 of a "
-            "square swerve, half of it of a tank.  [default: what the speeds tell]",
+            "square swerve, half of it of a tank.  [default: computed from the speeds]",
         ),
     )
 
@@ -139,12 +139,12 @@ def describe_inertia(turned: "MomentOfInertia") -> str:
     least, most = turned.without_rotors
     share = turned.error / turned.value
     error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"
-    said = " as the speeds tell it" if turned.lever == turned.lever_seen else ""
+    said = " (computed from the speeds)" if turned.lever == turned.lever_seen else ""
     if turned.lever_seen is None:
         said = ", which cannot be checked, as the log of going straight is not in meters"
     return (
-        f"Moment of inertia {turned.value:.3g} {error}: mass · lever · kA "
-        f"turning / kA straight, with a lever of {turned.lever:.3g} m{said}. Wheels and rotors are "
-        "in it: if they are worth 3 to 10 % of the mass, as usual, the robot's own is "
+        f"Moment of inertia {turned.value:.3g} {error}: mass · lever · kA turning / kA "
+        f"straight, with a lever of {turned.lever:.3g} m{said}. This includes wheels and "
+        "rotors. They usually count like 3 to 10 % of the mass; without them the robot has "
         f"{least:.3g} to {most:.3g} kg·m²."
     )

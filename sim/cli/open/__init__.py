@@ -39,10 +39,10 @@ def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option("--raw", is_flag=True, help="Show the data alone: no faults, no fit.")
 @page_options
 def open(files: tuple[Path, ...], *, raw: bool, port: int, no_browser: bool) -> int:  # noqa: A001 - the command's own name
-    """Show logs on a page of this machine: faults, runs, gains to move over the measured curve.
+    """Open logs in your browser: see faults and runs, and move the gains until the curves match.
 
-    Drop logs on the page, or name them here. Nothing leaves this machine, and no network is
-    needed. Ctrl-C ends it.
+    Drop logs on the page, or name them here. Nothing leaves this machine, and it works offline.
+    Ctrl-C ends it.
 
     For example: sysid open drive.wpilog
     """

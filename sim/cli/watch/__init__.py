@@ -60,15 +60,15 @@ def watch(
     as_json: bool,
     **entries: str | None,
 ) -> int:
-    """Fit a robot's log while the tests are run, and say after each what to do next.
+    """Follow a robot's log during the tests: fit it after each test, and say what to do next.
 
-    Give the .wpilog that a robot or a simulation is writing, or the folder in which it will appear;
-    or --nt ADDRESS to follow NetworkTables. Ctrl-C ends it and prints the gains.
+    Name the .wpilog that a robot or a simulation is writing, or the folder in which it will
+    appear, or give --nt ADDRESS to follow NetworkTables. Ctrl-C ends it and prints the gains.
 
     For example: sysid watch logs
     """
     if (place is None) == (nt is None):
-        raise click.UsageError("Give a log or a folder, or --nt ADDRESS: one of them.")
+        raise click.UsageError("Give either a log or folder, or --nt ADDRESS.")
     if save is not None and nt is None:
         raise click.UsageError("--save keeps what NetworkTables sends, so it needs --nt.")
     from sim.cli.watch.live_fit import LiveFit  # noqa: PLC0415 - --help must not wait for it

@@ -50,5 +50,5 @@ def physical_doubts(
 
 def _advise_model_first(doubt: Doubt) -> Doubt:
     """The same doubt about a model that does not hold: the cause may be no part at all."""
-    said = f"{doubt.message.removesuffix('.')}; but the simulation does not match this log, and the"
+    said = f"{doubt.message.removesuffix('.')}; but the simulation does not match this log. The"
     return replace(doubt, message=f"{said} missing effect may be the cause: find it first.")

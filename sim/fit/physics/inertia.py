@@ -118,7 +118,7 @@ def _per_radian(turning: Fit, lever: float | None) -> Fit:
     """The fit of turning per radian of the robot, from the one per meter of its wheels."""
     if lever is None:
         raise BadRequest(
-            "the log of turning has the way of the wheels and no angle of the robot",
+            "the log of turning contains the distance of the wheels, not the angle of the robot",
             advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
         )
     found = _scaled(turning.in_units("meters"), lever)
@@ -146,15 +146,21 @@ def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> 
         )
     if find_unit(straight.units).angular and lever is None:
         raise BadRequest(
-            f"the log of going straight is in {straight.units}, so the speeds tell no lever",
+            (
+                f"the log of going straight is in {straight.units}, so the lever cannot be "
+                "computed from the speeds"
+            ),
             advice="Give --lever as well: trackwidth/√2 of a square swerve, half of it of a tank.",
         )
     for what, one in (("turning", turning), ("going straight", straight)):
         low = [gain for gain in ("kV", "kA") if not one.gains[gain] > 0.0]
         if low:
             raise BadRequest(
-                f"{low[0]} of {what} is {one.gains[low[0]]:.3g}, and no inertia follows from that",
-                advice="Look at that log with  sysid inspect  first.",
+                (
+                    f"{low[0]} of {what} is {one.gains[low[0]]:.3g}, and no inertia can be "
+                    "computed from that"
+                ),
+                advice="First run `sysid inspect` on that log.",
             )
 
 

@@ -75,9 +75,9 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
         return [
             Doubt(
                 "gravity-above-g",
-                f"{said} is above {GRAVITY} m/s². {may}: kA would be too small or kG too large. "
-                "Look at the unit of position, at the dynamic tests, and for something that pulls "
-                "it down besides its weight.",
+                f"{said} is above {GRAVITY} m/s². {may}: kA would be too small or kG too "
+                "large. Look at the unit of position, at the dynamic tests, and for "
+                "something other than its weight that pulls it down.",
                 grave=not cascade,
             )
         ]
@@ -85,9 +85,10 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
         return [
             Doubt(
                 "gravity-below-g",
-                f"{said} is {1.0 - lift / GRAVITY:.0%} below {GRAVITY} m/s², and rotors explain 3 "
-                "to 10 %: look for a spring or counterweight that carries it, a slope, a late or "
-                "averaged velocity that swells kA, and the unit of position.",
+                f"{said} is {1.0 - lift / GRAVITY:.0%} below {GRAVITY} m/s², and rotors "
+                "explain 3 to 10 %: look for a spring or counterweight that carries it, a "
+                "slope, a late or averaged velocity that makes kA too large, and the unit of "
+                "position.",
             )
         ]
     return []
@@ -105,9 +106,9 @@ def timescale_doubts(found: Fit, period: float) -> list[Doubt]:
     return [
         Doubt(
             "fast-mechanism",
-            f"kA/kV = {scale * 1000:.2g} ms is only {scale / period:.1f} of the {period * 1000:.3g}"
-            " ms between two samples, so kA depends on the exact time of each: log every "
-            f"{max(scale / 4.0, 0.001) * 1000:.2g} ms (a faster status frame and a Notifier), or "
-            "compute kA from the load and set the loop up with kV alone.",
+            f"kA/kV = {scale * 1000:.2g} ms is only {scale / period:.1f} times the "
+            f"{period * 1000:.3g} ms between two samples, so kA is uncertain. Log every "
+            f"{max(scale / 4.0, 0.001) * 1000:.2g} ms (a faster status frame and a Notifier), "
+            "or compute kA from the load, and use only kV for the feedback gains.",
         )
     ]

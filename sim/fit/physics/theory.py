@@ -74,8 +74,8 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
         return [
             Doubt(
                 "kv-above-theory",
-                f"{said}. Drag does not explain so much. Check the units first, then whether the "
-                "log has the applied voltage, then for "
+                f"{said}. Drag alone does not explain so much. Check the units first, then "
+                "whether the log has the applied voltage, then for "
                 f"{_parts_instead(kv, parts)}, and at last for a part that rubs.",
             )
         ]

@@ -82,8 +82,8 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 where=_whole(index, run),
                 confidence=0.95,
                 evidence=f"The velocity is {ratio:.4g} times the slope of the position: {said}.",
-                advice="Set both conversion factors of the encoder alike, and divide the recorded "
-                f"velocity by {ratio:.4g}.",
+                advice="Make the conversion factors of position and velocity agree, and "
+                f"divide the recorded velocity by {ratio:.4g}.",
             )
     yield from _no_such_drive(features)
 
@@ -129,8 +129,8 @@ def _named(ratio: float) -> str:
     if abs(ratio / sought[nearest] - 1.0) < NEAR:
         return nearest
     return (
-        "the factor of no unit, so probably a gear ratio or a circumference that only one of"
-        " them contains"
+        "this factor belongs to no unit; probably only one of the two contains a gear ratio "
+        "or a circumference"
     )
 
 

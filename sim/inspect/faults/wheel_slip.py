@@ -206,7 +206,7 @@ def _smooth(values: Array) -> Array:
 FAULT = Fault(
     name="wheel-slip",
     summary="the wheels lose their grip in a step and spin faster than the robot moves",
-    ordinary="the tires hold 40 % of what the step asks of them",
+    ordinary="the tires have 40 % of the grip that the step needs",
     spoil=spoil,
     detect=detect,
     kinds=("dynamic",),

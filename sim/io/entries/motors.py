@@ -237,8 +237,8 @@ def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
         if lacking:
             yield Doubt(
                 "incomplete-motor",
-                f"{where}: motor {motor.name!r} has no {' and no '.join(lacking)} and was left "
-                "out. Log all three of every motor whose signals shall count.",
+                f"{where}: motor {motor.name!r} has no {' and no '.join(lacking)} and was "
+                "left out. Log all three signals of every motor that should count.",
             )
 
 

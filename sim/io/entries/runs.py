@@ -113,7 +113,7 @@ def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -
                 f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "
                 f"{scale.units}: an angle and a length",
                 where=where,
-                advice=f"Choose one with --motor {motors[0].name}, or say --units.",
+                advice=f"Choose one with --motor {motors[0].name}, or add --units.",
             )
         ratio = UNITS[scale.units].si / UNITS[first.units].si
         factors = {
@@ -214,8 +214,9 @@ def _doubt_sparse_signals(
     elif any(find_sparse_signals(parts)):
         yield Doubt(
             "uneven-rates",
-            f"{where}: the signals were logged at different rates ({many} samples). As in SysId, "
-            "the voltage's times count and straight lines fill the rest. Log all in every loop.",
+            f"{where}: the signals were logged at different rates ({many} samples). As in "
+            "SysId, the other signals were interpolated to the times of the voltage. Log "
+            "every signal in every loop.",
         )
 
 

@@ -175,7 +175,7 @@ def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
             "an angle and a length",
             where=where,
-            advice="Say which is right with --units, and let the robot log both in one.",
+            advice="Give the right one with --units, and let the robot log both in one.",
         )
     units = asked.units or (stated[0] if stated else asked.units_or_default)
     factors, doubts = {}, []
@@ -198,10 +198,10 @@ def _rate_doubt(name: str, where: str) -> Doubt:
     """The doubt about a rate that stands where a voltage is expected, as CTRE's program logs it."""
     return Doubt(
         "rate-as-voltage",
-        f"{where}: {name!r} is no voltage but the rate, in rad/s, that CTRE's rotation routine "
-        "asks for. The gains describe how the modules follow it: kV is about 1 for each rad/s, and "
-        "no moment of inertia follows from kA. For that, name the MotorVoltage of a drive motor "
-        "with --voltage.",
+        f"{where}: {name!r} is not a voltage but the rate, in rad/s, that CTRE's rotation "
+        "routine asks for. The gains describe how the modules follow it: kV is about 1 for "
+        "each rad/s, and you cannot compute a moment of inertia from this kA. For that, name "
+        "the MotorVoltage of a drive motor with --voltage.",
     )
 
 
@@ -219,7 +219,9 @@ def _problem(
     if said is None and text:
         return "unknown-unit", f"is {text!r}, which is not understood; it was taken as {units}."
     if said is None and units != VOLTS and not ordered:
-        return "units-assumed", f"is not stated and was taken as {units}; else say --units."
+        return "units-assumed", (
+            f"is not stated and was taken as {units}; if that is wrong, add --units."
+        )
     if said is None or (said.units == units and said.factor == 1.0):
         return None
     if said.units != units and ordered:

@@ -33,7 +33,14 @@ EFFECT = Effect(
     summary="kV that differs between forward and reverse",
     formula="lean·|v| (kV + lean forward, kV - lean in reverse)",
     parameters=(
-        Parameter("lean", "kV forward beyond kV", "V·s/{u}", power=1, least=-1e6, most=1e6),
+        Parameter(
+            "lean",
+            "added to kV forward, subtracted in reverse",
+            "V·s/{u}",
+            power=1,
+            least=-1e6,
+            most=1e6,
+        ),
     ),
     fingerprint="The voltage-velocity lines of forward and reverse have different slopes.",
     inspect="A brushed motor with advanced timing, a roller or belt that folds one way.",

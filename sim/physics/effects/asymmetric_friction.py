@@ -41,7 +41,11 @@ EFFECT = Effect(
     kind="term",
     summary="dry friction that differs between forward and reverse",
     formula="lean (kS + lean forward, kS - lean in reverse)",
-    parameters=(Parameter("lean", "friction forward beyond kS", "V", least=-12.0, most=12.0),),
+    parameters=(
+        Parameter(
+            "lean", "added to kS forward, subtracted in reverse", "V", least=-12.0, most=12.0
+        ),
+    ),
     fingerprint="Forward needs more voltage than reverse by the same amount at every speed.",
     inspect="A worm gear or ratchet, a bearing loaded on one side, a brake that drags.",
     apart={

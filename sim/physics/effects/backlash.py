@@ -49,8 +49,14 @@ EFFECT = Effect(
     fingerprint="After every start and turn the velocity jumps up, drops, and goes on as usual.",
     inspect="Gears, hex shafts and chains: turn the mechanism by hand with the motor held.",
     apart={
-        "compliance": "Turn at two sizes of step, logged at 5 ms: play stays, a spring gives more.",
-        "stribeck": "A triangle: play shows at each turn, Stribeck friction at each start.",
+        "compliance": (
+            "Change direction with two sizes of step, logged at 5 ms: free play stays the "
+            "same, a spring bends further."
+        ),
+        "stribeck": (
+            "A triangle: free play shows at each change of direction, Stribeck friction at each "
+            "start."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

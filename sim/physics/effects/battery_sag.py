@@ -51,7 +51,7 @@ EFFECT = Effect(
         "a battery whose voltage drops under current, although the log shows the commanded voltage"
     ),
     formula="(u - kV·v)/(1 + share·(u/12)²) in place of u - kV·v",
-    parameters=(Parameter("share", "battery's resistance over the motors'", "1", most=100.0),),
+    parameters=(Parameter("share", "resistance of the battery / of the motors", "1", most=100.0),),
     fingerprint="Steps start more slowly than kA says, and larger steps even more so.",
     inspect="An old battery, a loose Anderson connector, a log of commanded voltage.",
     apart={

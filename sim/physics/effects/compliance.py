@@ -49,7 +49,7 @@ EFFECT = Effect(
     summary="a soft joint between motor and load (belt, long shaft, bending arm)",
     formula="push = (x_motor - x_load)/softness",
     parameters=(
-        Parameter("softness", "how far it gives way per volt", "{u}/V", power=-1, most=1e6),
+        Parameter("softness", "how far it bends per volt", "{u}/V", power=-1, most=1e6),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.3),
     ),
     fingerprint=(
@@ -57,8 +57,13 @@ EFFECT = Effect(
     ),
     inspect="Belts, chains and long shafts: push the load with the motor held and watch it spring.",
     apart={
-        "backlash": "Turn at two sizes of step, logged at 5 ms: a spring gives more, play stays.",
-        "cogging": "Run at another speed: a vibration keeps its times, cogging its places.",
+        "backlash": (
+            "Change direction with two sizes of step, logged at 5 ms: a spring bends further, "
+            "free play stays the same."
+        ),
+        "cogging": (
+            "Run at another speed: a vibration keeps its frequency, cogging keeps its positions."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

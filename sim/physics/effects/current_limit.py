@@ -40,7 +40,11 @@ EFFECT = Effect(
     kind="path",
     summary="a bound on the motor's current, and so on its torque",
     formula="u - kV·v kept within ± limit",
-    parameters=(Parameter("limit", "volts of the limiting current", "V", least=1e-3, neutral=1e6),),
+    parameters=(
+        Parameter(
+            "limit", "limit, as the voltage that drives this current", "V", least=1e-3, neutral=1e6
+        ),
+    ),
     fingerprint="A step's velocity rises in a straight line before it bends, instead of bending "
     "from the start.",
     inspect="Stator and supply limits in the motor controller's configuration.",

@@ -121,11 +121,13 @@ EFFECT = Effect(
     summary="inertia that changes at one moment (a game piece taken up)",
     formula="kA + extra from onset to until",
     parameters=(
-        Parameter("extra", "inertia beyond kA", "V·s²/{u}", power=1, least=-1e6, most=1e6),
-        Parameter("onset", "moment, since the log began", "s", most=1e6, searched=False),
+        Parameter("extra", "inertia added to kA", "V·s²/{u}", power=1, least=-1e6, most=1e6),
+        Parameter(
+            "onset", "when it changes, after the start of the log", "s", most=1e6, searched=False
+        ),
         Parameter(
             "until",
-            "moment at which it is as before",
+            "when it changes back",
             "s",
             most=1e6,
             neutral=LATER,
@@ -134,7 +136,7 @@ EFFECT = Effect(
         ),
         Parameter(
             "shared",
-            "share of the momentum that what joins takes",
+            "1: the new load was at rest before, 0: it already moved along",
             "1",
             most=1.0,
             searched=False,

@@ -50,7 +50,7 @@ EFFECT = Effect(
     summary="breakaway friction: larger at very low speed",
     formula="extra·exp(-|v|/slow)·sgn(v)",
     parameters=(
-        Parameter("extra", "friction at rest beyond kS", "V", most=12.0),
+        Parameter("extra", "friction added to kS at rest", "V", most=12.0),
         Parameter("slow", "speed over which it fades", "{u}/s", power=-1, least=1e-6, neutral=1.0),
     ),
     fingerprint=(

@@ -64,7 +64,7 @@ EFFECT = Effect(
     kind="sense",
     summary="a velocity that is averaged over some time, and is therefore late",
     formula="seen(t) = (x(t) - x(t - window))/window",
-    parameters=(Parameter("window", "time averaged over", "s", most=1.0),),
+    parameters=(Parameter("window", "time over which it averages", "s", most=1.0),),
     fingerprint="The velocity follows the slope of the position with a delay; steps look rounded.",
     inspect="Velocity filter and measurement period of the motor controller's encoder.",
     apart={

@@ -41,12 +41,18 @@ EFFECT = Effect(
     kind="sense",
     summary="a velocity whose unit does not fit the position's",
     formula="seen = scale·v",
-    parameters=(Parameter("scale", "seen over true", "1", least=1e-6, most=1e6, neutral=1.0),),
+    parameters=(
+        Parameter(
+            "scale", "logged velocity / true velocity", "1", least=1e-6, most=1e6, neutral=1.0
+        ),
+    ),
     fingerprint="The velocity is the slope of the position times a constant, in every run.",
     inspect="Conversion factors of position and of velocity: gear ratio, wheel, minutes.",
     apart={
-        "asymmetric-back-emf": "Compare velocity and slope of the position: only a scale parts "
-        "them.",
+        "asymmetric-back-emf": (
+            "Compare velocity and slope of the position: only this effect makes them differ by a "
+            "constant factor."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -57,7 +57,7 @@ def run_jobs_locally(
         yield from collect_results(executor, work, jobs, ahead=AHEAD * processes)
     except BrokenProcessPool:
         raise WorkerLost(
-            "a process that worked for this was ended from outside, perhaps for want of memory",
+            "a worker process was stopped from outside, perhaps because the memory was full",
             advice="Run the same command again to go on; with --processes 1 if it recurs.",
         ) from None
     finally:

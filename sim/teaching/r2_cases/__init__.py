@@ -95,19 +95,19 @@ _RECIPES = (
         spoil=harm.add_early_stop,
     ),
     _Recipe(
-        "asked volts, 7 V step",
-        "a 120 A limit, good battery (20 mΩ); the log holds the volts that were asked for",
+        "commanded volts, 7 V step",
+        "a 120 A limit, good battery (20 mΩ); the log contains the commanded voltage",
         setup=drivetrains.GOOD_BATTERY,
         spoil=harm.log_commanded_voltage(drivetrains.GOOD_BATTERY),
     ),
     _Recipe(
-        "asked volts, 10 V step",
+        "commanded volts, 10 V step",
         "the same with a weak battery (35 mΩ)",
         setup=drivetrains.WEAK_BATTERY,
         spoil=harm.log_commanded_voltage(drivetrains.WEAK_BATTERY),
     ),
     _Recipe(
-        "brownout, asked volts",
+        "brownout, commanded volts",
         "the motors are off for 0.3 s of the forward ramp, and the log does not say so",
         spoil=harm.add_brownout,
     ),
@@ -123,15 +123,15 @@ _RECIPES = (
         setup=drivetrains.SLOW_FILTER,
     ),
     _Recipe(
-        "40 A limit, asked volts",
-        "a stator limit engages; the log holds the volts that were asked for",
+        "40 A limit, commanded volts",
+        "a stator limit engages; the log contains the commanded voltage",
         setup=drivetrains.LIMITED,
         spoil=harm.log_commanded_voltage(drivetrains.LIMITED),
     ),
     *(
         _Recipe(
             f"wheel slip, {setup.routine.step:g} V step",
-            "the step asks the carpet for more than it holds",
+            "the step needs more grip than the carpet has",
             setup=setup,
             spoil=harm.add_wheel_slip(setup),
         )

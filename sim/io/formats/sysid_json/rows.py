@@ -202,7 +202,7 @@ def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:
     (name, times) = Counter(name for name, _ in pairs).most_common(1)[0] if pairs else ("", 0)
     if times > 1:
         raise UnreadableFile(
-            f"{name[:40]!r} stands in it {times} times", advice="Keep one, and remove the others."
+            f"{name[:40]!r} appears in it {times} times", advice="Keep one, and remove the others."
         )
     return dict(pairs)
 

@@ -270,7 +270,7 @@ def first_record(file: File, *, size: int, where: str) -> int:
     opening = file.content[: min(PREFACE, file.size)]
     if not opening.startswith(MAGIC[: len(opening)]):
         raise UnreadableFile(
-            f"it does not begin with {MAGIC.decode()}, so it is no WPILOG file",
+            f"it does not begin with {MAGIC.decode()}, so it is not a WPILOG file",
             where=f"{where}, byte 0",
             advice="Give the .wpilog file itself; export a .hoot file to WPILOG first.",
         )
