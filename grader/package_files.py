@@ -37,6 +37,7 @@ SOURCES = (
     ".css",
     ".svg",
     "example.toml",
+    "probability.json",
     "setup.sh",
     "run_autograder",
 )

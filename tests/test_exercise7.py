@@ -93,7 +93,7 @@ def test_twenty_students_get_twelve_solvable_logs_and_all_of_the_faults_come_up(
     ("taken_for", "said"),
     [
         ("loop-overrun, whole, rerun", "Count: are samples missing, or are there too many alike?"),
-        ("stuck-sensor, whole, rerun", "Once, or all the time?"),
+        ("stuck-sensor, whole, rerun", "once, or all the time?"),
         ("clean", "Plot the velocity close up with a dot for each sample: is each one new?"),
         ("stale-samples, whole, rerun", "What would prevent it from happening again?"),
     ],

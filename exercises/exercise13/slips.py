@@ -84,41 +84,47 @@ def _of_tests(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Rows]
     }
 
 
+def _of_inertia(variant: "Variant", asked: Mapping[str, float]) -> Rows:
+    """The slips about the moment of inertia."""
+    lever, turning = asked["lever"], asked["kA_turning"]
+    return (
+        (asked["inertia"] / math.sqrt(2.0), HALF, LEVER),
+        (
+            asked["inertia"] * math.sqrt(2.0),
+            "did you use the trackwidth for the lever? How far is a wheel from the middle?",
+            LEVER,
+        ),
+        (
+            variant.mass * turning / asked["kA"],
+            "the lever is missing: the unit would be kg·m. Multiply by the lever",
+            UNITS,
+        ),
+        (
+            variant.mass * lever * asked["kA"] / turning,
+            "the fraction is upside down: kA of turning belongs on top",
+            "",
+        ),
+        (
+            variant.mass * variant.trackwidth**2 / 6.0,
+            (
+                "this is an estimate for a flat plate with the mass spread evenly. You have "
+                "measured yours: use both kA"
+            ),
+            "",
+        ),
+        (
+            asked["inertia"] * math.pi / 180.0,
+            "57.3 = 180/π. Use kA of turning per radian, not per degree",
+            UNITS,
+        ),
+    )
+
+
 def _of_settings(variant: "Variant", asked: Mapping[str, float]) -> dict[str, Rows]:
     """The slips about what goes into a planner."""
-    lever, turning = asked["lever"], asked["kA_turning"]
+    lever = asked["lever"]
     return {
-        "inertia": (
-            (asked["inertia"] / math.sqrt(2.0), HALF, LEVER),
-            (
-                asked["inertia"] * math.sqrt(2.0),
-                "did you use the trackwidth for the lever? How far is a wheel from the middle?",
-                LEVER,
-            ),
-            (
-                variant.mass * turning / asked["kA"],
-                "the lever is missing: the unit would be kg·m. Multiply by the lever",
-                UNITS,
-            ),
-            (
-                variant.mass * lever * asked["kA"] / turning,
-                "the fraction is upside down: kA of turning belongs on top",
-                "",
-            ),
-            (
-                variant.mass * variant.trackwidth**2 / 6.0,
-                (
-                    "this is an estimate for a flat plate with the mass spread evenly. You have "
-                    "measured yours: use both kA"
-                ),
-                "",
-            ),
-            (
-                asked["inertia"] * math.pi / 180.0,
-                "57.3 = 180/π. Use kA of turning per radian, not per degree",
-                UNITS,
-            ),
-        ),
+        "inertia": _of_inertia(variant, asked),
         "slip_current": (
             (
                 4.0 * asked["slip_current"],

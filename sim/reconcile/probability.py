@@ -13,12 +13,9 @@ from functools import cache
 from pathlib import Path
 
 from sim.physics.effects import EFFECTS
+from sim.reconcile.thresholds import LEAST_STRAYS, NARROWEST, SIZES
 
 FILE = Path(__file__).with_name("probability.json")
-NARROWEST = 0.05  # [1] of the gap: what is beyond it, or beyond its inverse, counts as that
-SIZES = (math.exp(-2.0), math.exp(3.0))  # [everyday sizes] that differ in what they say
-LEAST_STRAYS = 0.5  # [noises of a velocity] the same of a gap
-HALVINGS = 30  # of the range in which an effect's size is searched
 
 
 @dataclass(frozen=True)
@@ -117,12 +114,12 @@ def log_size(effect: str, values: Mapping[str, float]) -> float:
             }
         )
 
-    low, high = map(math.log, SIZES)
+    low, high = SIZES
     if is_ordinary(math.exp(low)):
         return low
     if not is_ordinary(math.exp(high)):
         return high
-    for _ in range(HALVINGS):
+    for _ in range(30):  # halvings of the range, far below what the probability notices
         middle = 0.5 * (low + high)
         low, high = (low, middle) if is_ordinary(math.exp(middle)) else (middle, high)
     return high

@@ -48,6 +48,12 @@ LIKELIER_RIGHT = 0.5
 costs much reads the number. Named only from 5/6 on (a wrong name costs five silences), a quarter of
 the right names of the logs it was learnt on would not be told."""
 
+# What an effect's probability is told by, within bounds beyond which nothing more is told apart.
+
+NARROWEST = 0.05  # [1] of a gap over another; and its inverse
+SIZES = (-2.0, 3.0)  # ln of an effect's size [everyday sizes]
+LEAST_STRAYS = 0.5  # [noises of a velocity] of the last model's gap
+
 MAJOR = 0.87
 """[1] of the gap before: an effect that shrinks the validation's velocity gap by more is major.
 Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)

@@ -136,10 +136,9 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
 
-    Files with one test each are joined. If there are several sides of a drivetrain, modules or
-    recordings, each is fitted alone; then they are compared, and their gains averaged. Forward and
-    reverse are compared, too, except with --json and --paste, which should be quick. With
-    --straight it also prints the moment of inertia.
+    Files with one test each are joined. Of several sides of a drivetrain, modules or recordings,
+    each is fitted alone; then they are compared, and their gains averaged. Forward and reverse are
+    compared, too, except with --json and --paste. --straight adds the moment of inertia.
 
     For example: sysid fit drive.wpilog --html drive.html
     """

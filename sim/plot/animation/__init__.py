@@ -165,14 +165,12 @@ def animate_mechanism(
     if span is None and kind in FLOORS:
         low -= min(LONG, BEHIND * (high - low))  # a position is that of the front
     stage = {
-        "kind": kind,
         "low": _short(low),
         "high": _short(high),
         "wall": _describe_value(wall),
         "marks": [{"label": n, "at": _describe_value(at)} for n, at in (marks or {}).items()],
         "slow": slow,
-        "unit": "rad" if kind in {"arm", "flywheel"} else "m",
-        "words": f"{kind}, drawn at the time of the cursor",
+        **_describe_kind(kind),
     }
     data = {
         "stage": stage,
@@ -188,6 +186,11 @@ def animate_mechanism(
         "scenes": {"|".join(key): _describe_scene(scene) for key, scene in every.items()},
     }
     return Animation(data, alt)
+
+
+def _describe_kind(kind: str) -> dict[str, str]:
+    unit = "rad" if kind in {"arm", "flywheel"} else "m"
+    return {"kind": kind, "unit": unit, "words": f"{kind}, drawn at the time of the cursor"}
 
 
 def _check_scenes(scenes: Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]) -> None:
