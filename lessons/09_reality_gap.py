@@ -687,9 +687,9 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
 # | unexplained | a gap remains that no effect in the catalogue explains | look at the robot |
 #
-# Reconcile can be wrong. *Minor* findings are small, and on a clean log reconcile sometimes names
-# an effect that is not there. So ask: does the gap of other data shrink (section 4)? And can you
-# find the cause on the robot?
+# Reconcile can be wrong. So it says how likely each effect is: of ten effects with "90 % likely",
+# about nine are real. (This was counted on hundreds of logs whose hidden effects are known.) Still
+# ask: does the gap of other data shrink (section 4)? And can you find the cause on the robot?
 
 # %% [markdown]
 # ## 8 Your own robot

@@ -61,9 +61,10 @@ def make_findings(
     """Findings, faults first, then effects, major ones first; and all effects that were judged.
 
     An effect is a finding if it is likelier right than wrong. What any robot has a little of stays
-    in the model and is no finding, however much of a small gap it takes. Nor is an effect with
-    which the shown log is missed by more, unless that log is held out: then it decides nothing. A
-    fault that is cut out for safety's sake, but may be physics, comes after the major effects.
+    in the model and is no finding, however much of a small gap it takes. Nor is a minor effect
+    beside a major one with which the gap of other runs does not shrink, nor one with which the
+    shown log is missed by more, unless that log is held out: then it decides nothing. A fault that
+    is cut out for safety's sake, but may be physics, comes after the major effects.
 
     Args:
         problem: the measurements.
@@ -88,6 +89,11 @@ def make_findings(
     if not held_out:
         effects = [_demote_unseen(one) for one in effects]
         effects = [one for one in effects if not one.gap_after > SHOWN_WIDER * one.gap_before]
+    if any(one.size == "major" for one in effects):
+        rounds = {one.candidate.effect: one for one in done[1:]}
+        effects = [
+            one for one in effects if one.size == "major" or _narrows(rounds[one.effect], done[-1])
+        ]
     effects.sort(key=lambda one: -_expected_share_closed(told[one.effect]))
     return tuple(sorted((*faults, *effects), key=_sort_key)), judged
 

@@ -154,12 +154,8 @@ def animate_mechanism(
         BadRequest: no such mechanism, a combination of options without a scene, or a motion whose
             numbers are not as many as its scene's times.
     """
-    if kind not in KINDS:
-        raise BadRequest(f"no drawing of {kind!r}", advice=f"Choose one of: {', '.join(KINDS)}.")
-    every: dict[tuple[str, ...], Scene] = (
-        {(): scenes} if isinstance(scenes, Scene) else dict(scenes)
-    )
-    _check_scenes(every, choices)
+    _check_kind(kind)
+    every = _by_options(scenes, choices)
     start = {knob.name: knob.value for knob in knobs}
     low, high = span or _limits(_curves("position", every, start))
     if span is None and kind in FLOORS:
@@ -175,22 +171,40 @@ def animate_mechanism(
     data = {
         "stage": stage,
         "colors": list(COLORS),
-        "choices": [
-            {"label": c.label, "options": list(c.options), "value": c.value or c.options[0]}
-            for c in choices
-        ],
+        "choices": [_describe_choice(choice) for choice in choices],
         "knobs": [vars(knob) for knob in knobs],
         "score": None if score is None else vars(score),
-        "rules": [{**vars(rule), "at_most": _describe_value(rule.at_most)} for rule in rules],
+        "rules": [vars(rule) | {"at_most": _describe_value(rule.at_most)} for rule in rules],
         "panels": [_describe_panel(panel, every, start) for panel in panels],
         "scenes": {"|".join(key): _describe_scene(scene) for key, scene in every.items()},
     }
     return Animation(data, alt)
 
 
+def _describe_choice(choice: Choice) -> dict[str, object]:
+    first = choice.value or choice.options[0]
+    return {"label": choice.label, "options": list(choice.options), "value": first}
+
+
+def _check_kind(kind: str) -> None:
+    if kind not in KINDS:
+        raise BadRequest(f"no drawing of {kind!r}", advice=f"Choose one of: {', '.join(KINDS)}.")
+
+
 def _describe_kind(kind: str) -> dict[str, str]:
     unit = "rad" if kind in {"arm", "flywheel"} else "m"
     return {"kind": kind, "unit": unit, "words": f"{kind}, drawn at the time of the cursor"}
+
+
+def _by_options(
+    scenes: Scene | Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]
+) -> dict[tuple[str, ...], Scene]:
+    """Options -> scene, checked."""
+    every: dict[tuple[str, ...], Scene] = (
+        {(): scenes} if isinstance(scenes, Scene) else dict(scenes)
+    )
+    _check_scenes(every, choices)
+    return every
 
 
 def _check_scenes(scenes: Mapping[tuple[str, ...], Scene], choices: Sequence[Choice]) -> None:
