@@ -157,7 +157,7 @@ def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
 def test_a_value_beyond_physics_is_no_crash(tmp_path):
     text = 'effects = ["delay"]\ndelay.lag = -1\n'
 
-    assert "is not physics" in graded(text, "ann", tmp_path)["held-out"].hint
+    assert "is physically impossible" in graded(text, "ann", tmp_path)["held-out"].hint
 
 
 def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypatch, capsys):

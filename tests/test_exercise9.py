@@ -113,7 +113,7 @@ def test_a_function_that_stands_alone_is_not_graded_and_says_why(copy, tmp_path)
     result = copy.grade(alone, student="ann")
 
     assert result.status == "ungradable"
-    assert "answers.toml is not beside it" in result.reason
+    assert "answers.toml is not in the same folder" in result.reason
 
 
 def test_numbers_are_graded_where_there_is_no_function(copy):

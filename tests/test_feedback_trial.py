@@ -64,7 +64,7 @@ def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
 
     assert doubt.code == "unsettled-feedback"
     assert doubt.message.startswith("Start the position loop with kP ")
-    assert "simulated with 112 ms of delay" in doubt.message
+    assert "in simulation with 112 ms of delay" in doubt.message
     assert "for REV brushless port" in doubt.message
     kp, kd = map(float, re.findall(r"loop with kP (\S+), kD (\S+): ", doubt.message)[0])
     plant = Plant("simple", LIGHT)

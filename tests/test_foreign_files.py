@@ -13,12 +13,12 @@ from sim.core.log import Log, Run
 LOG = Log((Run("dynamic-forward", [0.0, 0.1], [7.0, 7.0], [0.0, 0.1], [0.0, 2.0]),))
 
 FOREIGN = [
-    ("log.hoot", b"\x00hoot", "SignalLogger", "Phoenix Tuner X .* or with owlet"),
+    ("log.hoot", b"\x00hoot", "SignalLogger", "Phoenix Tuner X .*owlet on PATH"),
     ("match.dslog", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
     ("match.dsevents", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
     ("renamed.wpilog", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
-    ("log.revlog", b"\x01\x02", "REV", "AdvantageScope, export it as WPILOG"),
-    ("log.rlog", b"\x01\x02", "AdvantageKit", "AdvantageScope, export it as WPILOG"),
+    ("log.revlog", b"\x01\x02", "REV", "revlog-converter"),
+    ("log.rlog", b"\x01\x02", "AdvantageKit", "revlog-converter"),
     ("logs.zip", b"PK\x03\x04\x14", "zip archive or a workbook", "Unpack it, or save .* as CSV"),
     ("log.csv", b"PK\x03\x04\x14", "zip archive or a workbook", "Unpack it, or save .* as CSV"),
     ("log.csv.gz", b"\x1f\x8b\x08", "gzip", "Unpack it first"),
@@ -60,7 +60,7 @@ def test_a_foreign_file_is_called_by_its_name(
         pytest.param("zzz.wpilog", r"no such file\. Check the spelling", id="missing"),
         pytest.param("deep/x.csv", r"no such file\. There is no folder .*deep", id="no folder"),
         pytest.param("train.csv/x.csv", "no such file", id="a file for a folder"),
-        pytest.param("a\0b.csv", "this is no path.*path of a log file", id="a zero byte"),
+        pytest.param("a\0b.csv", "this is not a path.*path of a log file", id="a zero byte"),
         pytest.param("x" * 5000, "cannot be read|no such file", id="a name too long"),
     ],
 )

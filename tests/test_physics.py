@@ -275,7 +275,7 @@ def test_a_timescale_shorter_than_the_sampling_is_told(method, period, doubted):
 
     assert codes(said) == ["fast-mechanism"] * doubted
     assert all("kA/kV = 29 ms" in doubt.message for doubt in said)
-    assert all("log every 7" in doubt.message for doubt in said)
+    assert all("Log every 7" in doubt.message for doubt in said)
 
 
 @pytest.mark.parametrize("kind", ["drivetrain", "shooter", "turret", "arm", "intake"])

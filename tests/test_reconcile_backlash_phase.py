@@ -162,7 +162,7 @@ def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
     one = SelectionRound(score_estimate(problem, point, "backlash"), Gap(0.0, 0.0), Gap(0.0, 0.0))
 
     (said,) = list_remarks(problem, [one], [named("backlash")], ResidualSummary())
-    assert "no run that was fitted turns" in said
+    assert "no fitted run changes direction" in said
 
     turned = session(0, step=4.0, seed=1)
     back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))

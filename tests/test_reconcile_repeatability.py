@@ -123,4 +123,4 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
 
     assert (verdict, remainder) == ("unexplained", True)
     assert said in remains
-    assert f"({alike.size:.0f} times what chance would)" in remains
+    assert f"({alike.size:.0f} times as large as by chance)" in remains

@@ -117,4 +117,4 @@ def test_it_is_told_how_often():
     verdict, remainder, remains = remains_of(ResidualSummary(peak=SpectralPeak(320.0, 1.6)))
 
     assert (verdict, remainder) == ("unexplained", True)
-    assert "to and fro every 0.62 s" in remains
+    assert "back and forth every 0.62 s" in remains
