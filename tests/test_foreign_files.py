@@ -18,7 +18,7 @@ FOREIGN = [
     ("match.dsevents", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
     ("renamed.wpilog", b"\x00\x00\x00\x04\x00", "Driver Station", "DataLogManager"),
     ("log.revlog", b"\x01\x02", "REV", "revlog-converter"),
-    ("log.rlog", b"\x01\x02", "AdvantageKit", "revlog-converter"),
+    ("log.rlog", b"\x01\x02", "AdvantageKit", "AdvantageScope, export it as WPILOG"),
     ("logs.zip", b"PK\x03\x04\x14", "zip archive or a workbook", "Unpack it, or save .* as CSV"),
     ("log.csv", b"PK\x03\x04\x14", "zip archive or a workbook", "Unpack it, or save .* as CSV"),
     ("log.csv.gz", b"\x1f\x8b\x08", "gzip", "Unpack it first"),
