@@ -170,8 +170,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     ),
     "M-FILTER-FREE": Misconception(
         "A filter has a price: a long one flattens everything that is faster than itself. A "
-        "long median cuts off the start of a step, and kA becomes too small; an average makes "
-        "the velocity late, and kA becomes too large.",
+        "long median cuts off the start of a step, and kA becomes too small. A sensor that "
+        "averages, as a NEO's own encoder does, makes the velocity late, and kA becomes too large.",
         lesson="07_fit_it_yourself",
         section="A filter is not free",
     ),
