@@ -131,7 +131,7 @@ def test_doubts_stand_on_the_page_the_gravest_first(brief):
         replace(brief, found=replace(brief.found, doubts=doubts), notes=("All is even.",))
     )
 
-    assert 0 < told.index("<b>Wrong:</b> It cannot be.") < told.index("<b>Look:</b> Only a look.")
+    assert 0 < told.index("<b>Wrong:</b> It cannot be.") < told.index("<b>Warning:</b> Only a look.")
     assert "All is even." in told
     assert "no code for gains that cannot be right" in told  # in place of each snippet
 
@@ -179,7 +179,7 @@ def test_a_real_arm_has_a_page_that_says_what_to_doubt(shared):
 
     assert page_flaws(told) == []
     assert told.count("<h3>Run ") == len(log.runs)
-    assert "<b>Look:</b> A simulation with these gains has a velocity error of" in told
+    assert "<b>Warning:</b> A simulation with these gains has a velocity error of" in told
 
 
 def test_a_page_is_written_whole(brief, tmp_path, monkeypatch):

@@ -147,7 +147,7 @@ def test_in_a_folder_logs_of_another_day_do_not_count(tmp_path, content):
     old.write_bytes(content)
     live = LiveFit(FileSource(tmp_path), READ)
     assert live.look() is None
-    assert live.source.status == f"waiting for a log that grows in {tmp_path}"
+    assert live.source.status == f"waiting for a log that grows in the folder {tmp_path}"
     new = tmp_path / "new.wpilog"
     grow(new, content, 0.6)
     first = live.look()

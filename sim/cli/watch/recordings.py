@@ -87,7 +87,7 @@ class FileSource:
         """What it waits for or follows."""
         if self._recordings:
             return f"following {self._recordings[-1].path}"
-        return f"waiting for a log that grows in {self.place}"
+        return f"waiting for a log that grows in the folder {self.place}"
 
     def look(self) -> Sequence[Recording]:
         """All recordings so far."""

@@ -432,7 +432,7 @@ function showDoubts() {
 
 function doubtItem({ message, grave }) {
   const made = item(grave ? "grave" : "look");
-  made.append(text("b", grave ? "Wrong" : "Look"), " ", ...prose(message));
+  made.append(text("b", grave ? "Wrong" : "Warning"), " ", ...prose(message));
   return made;
 }
 
