@@ -179,7 +179,10 @@ def empty_course(tmp_path, monkeypatch):
     [
         (["release"], "Say where: grade release -o FOLDER"),
         (["release", "-o", "out", "--roster", "r.csv"], "numbers for a class need a secret"),
-        (["release", "-o", "out", "--roster", "r.csv", "--secret", "out/s"], "be given away"),
+        (
+            ["release", "-o", "out", "--roster", "r.csv", "--secret", "out/s"],
+            "everybody would get it",
+        ),
         (["release", "--check", "."], "no secret was named"),
         (["release", "--check", ".", "--secret", "short"], "fewer than 16 characters"),
         (["class", "in", "--secret", "nowhere"], "there is no such file with a secret"),

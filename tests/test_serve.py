@@ -214,7 +214,7 @@ def test_a_port_that_is_taken_is_one_line(root, tmp_path, monkeypatch, capsys):
         command = ["serve", str(tmp_path / "homes"), "--roster", str(tmp_path / "r.csv"),
                    "--host", "127.0.0.1", "--port", port, "--unprotected"]  # fmt: skip
         assert run_command(command) == 2
-    assert f"port {port} cannot be had" in capsys.readouterr().err
+    assert f"port {port} cannot be used" in capsys.readouterr().err
 
 
 def test_personal_packages_are_not_served_unprotected_unasked(root, tmp_path, monkeypatch, capsys):

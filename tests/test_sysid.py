@@ -118,7 +118,7 @@ def test_gains_that_cannot_be_right_give_exit_code_1(drive):
         (["fit"], "Missing argument 'FILES...'. See 'sysid fit --help'."),
         (["fit", "drive.csv", "--type", "crane"], "'crane' is not one of 'simple', 'elevator'"),
         (["fit", "drive.csv", "--median", "99", "--method", "sysid"], "a median window of 99"),
-        (["fit", "drive.csv", "--median", "5"], "It belongs to SysId's recipe"),
+        (["fit", "drive.csv", "--median", "5"], "The median filter belongs to SysId's method"),
         (["fit", "drive.csv", "--type", "arm", "--units", "meters"], "must be an angle"),
         (["fit", "."], "sysid: .:"),
         (["simulate", "trebuchet", "-o", "x.csv"], "Choose one of: arm, cascade-elevator,"),

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from sim.physics.effects import EFFECTS
-from sim.reconcile.thresholds import LEAST_STRAYS, NARROWEST, SIZES
+from sim.reconcile.thresholds import FEWEST_NOISES, MOST_NOISES, NARROWEST, SIZES
 
 FILE = Path(__file__).with_name("probability.json")
 
@@ -89,12 +89,12 @@ def log_gap_ratio(with_: float, without: float) -> float:
 
 
 def log_strays(noises: float) -> float:
-    """Ln of a gap.
+    """Ln of a gap, within what is told apart.
 
     Args:
         noises: of it [noises of a velocity].
     """
-    return math.log(max(noises, LEAST_STRAYS))
+    return math.log(min(max(noises, FEWEST_NOISES), MOST_NOISES))
 
 
 def log_size(effect: str, values: Mapping[str, float]) -> float:
