@@ -11,6 +11,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import Refusal
 from sim.fit import fit
+from sim.physics.effects import EFFECTS
 
 ROBOT = MECHANISMS["drivetrain"]
 
@@ -76,3 +77,37 @@ def test_more_rows_of_the_same_readings_make_ka_smaller():
     assert found[0] == pytest.approx(1.0, abs=0.1)
     assert found == sorted(found, reverse=True)
     assert found[-1] < 0.3
+
+
+def test_noise_in_a_column_makes_ka_too_large():
+    assert "does not average out" in MISCONCEPTIONS["M-NOISE-AVERAGES"].says
+    assert "kA becomes too large" in MISCONCEPTIONS["M-NOISE-AVERAGES"].says
+
+    means = [
+        np.mean([share(recorded(velocity_noise=noise, seed=seed)) for seed in range(4)])
+        for noise in (0.005, 0.02, 0.04)  # [m/s]
+    ]
+
+    assert means[0] == pytest.approx(1.0, abs=0.03)
+    assert means == sorted(means)
+    assert means[-1] > 1.5
+
+
+def test_a_heavier_robot_needs_more_ka_and_no_more_ks_by_itself():
+    assert "Weight makes kG and kA larger" in MISCONCEPTIONS["M-HEAVIER-MORE-KS"].says
+
+    light, heavy = (
+        fit(simulate(replace(ROBOT, load=mass), Routine(), rng=np.random.default_rng(0))).gains
+        for mass in (50.0, 70.0)
+    )
+
+    assert heavy["kS"] == pytest.approx(light["kS"], rel=0.02)
+    assert heavy["kV"] == pytest.approx(light["kV"], rel=0.01)
+    assert heavy["kA"] > 1.3 * light["kA"]
+
+
+def test_drag_is_air_and_neither_grease_nor_a_belt():
+    looks = EFFECTS["drag"].inspect
+
+    assert looks.startswith("Whatever moves air")
+    assert "not thick grease, which raises kV, nor a tight belt, which raises kS" in looks
