@@ -18,7 +18,7 @@ HOOT = b"can_s0".ljust(70, b"\x00") + b"\x13" + bytes(range(200))
 
 @pytest.fixture
 def hoot(tmp_path):
-    """A log of CTRE's; only owlet can know what is in it."""
+    """A log of CTRE's SignalLogger, which only CTRE's owlet can convert."""
     path = tmp_path / "a match.hoot"
     path.write_bytes(HOOT)
     return path
