@@ -15,7 +15,9 @@ from grader.cli import run_command
 posix = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in is a script")
 pytestmark = posix
 
-STAND_IN = """#!{python}
+STAND_IN = """#!/bin/sh
+'''exec' "{python}" "$0" "$@"
+' '''  # for the shell, since a path with a space cannot stand behind #!
 import json, os, subprocess, sys
 from pathlib import Path
 words = sys.argv[1:]
