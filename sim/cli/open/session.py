@@ -40,7 +40,7 @@ class Reading:
     entries: tuple[tuple[str, str], ...] = ()
 
     @property
-    def needs_slope(self) -> bool:
+    def differentiates_position(self) -> bool:
         """Whether a position was chosen and no velocity: its slope is the velocity."""
         chosen = dict(self.entries)
         return "position" in chosen and "velocity" not in chosen
@@ -99,7 +99,7 @@ class OpenLog:
                 read_parts(
                     [self.path], units=reading.units, type=reading.type, motor=None,
                     entries=dict(reading.entries),
-                    velocity=None if reading.needs_slope else 1.0, pick=None,
+                    velocity=None if reading.differentiates_position else 1.0, pick=None,
                 )
             )  # fmt: skip
 
@@ -157,7 +157,16 @@ class OpenLog:
         """The search for missing effects, begun when it is first asked for."""
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
-        return self._once(("reconcile", reading), lambda: ReconcileJob(self, reading))
+        def read_file() -> "Log":
+            from sim.io import read  # noqa: PLC0415 - reads formats
+
+            entries = dict(reading.entries)
+            return read(self.path, units=reading.units, type=reading.type, entries=entries)
+
+        return self._once(
+            ("reconcile", reading),
+            lambda: ReconcileJob(read_file, name=self.name, type=reading.type),
+        )
 
     def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:
         """Take the tests that have ended by now; what was computed of fewer is forgotten."""
