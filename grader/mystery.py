@@ -73,7 +73,7 @@ class MysteryState:
         return MysteryState(self.number + 1, level)
 
 
-def find_folder(course: Path, student: str) -> Path:
+def find_mystery_folder(course: Path, student: str) -> Path:
     """Where a learner's mystery is."""
     return course / FOLDER / make_folder_name(student)
 
