@@ -74,7 +74,7 @@ class MysteryState:
 
 
 def find_mystery_folder(course: Path, student: str) -> Path:
-    """Where a learner's mystery is."""
+    """The folder of a learner's mystery."""
     return course / FOLDER / make_folder_name(student)
 
 

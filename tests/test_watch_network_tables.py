@@ -112,7 +112,7 @@ def connect(live, *, times=1):
     """Wait until values come in one by one, for the first time or again."""
 
     def beats(_):
-        recordings = live.source.look()
+        recordings = live.source.poll()
         if len(recordings) < times:
             return False
         entries = {one.name: len(one) for one in list_entries(recordings[-1].path)}
@@ -123,7 +123,7 @@ def connect(live, *, times=1):
 
 def disconnect(live):
     """Wait until the source knows that it is not connected any more."""
-    wait_for(lambda _: live.source.status.startswith("waiting"), live.look)
+    wait_for(lambda _: live.source.status.startswith("waiting"), live.poll)
 
 
 def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(drive, start, watched):
@@ -132,7 +132,7 @@ def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(dri
     said = []
     for number in range(4):
         robot.publish(number)
-        update = wait_for(lambda one: one, watched.look)
+        update = wait_for(lambda one: one, watched.poll)
         said.append((update.tests, update.advice))
 
     (kept,) = watched.last.paths
@@ -151,7 +151,7 @@ def test_a_step_alone_is_found_by_the_voltage_that_was_there_before_it(start, wa
     robot = start()
     connect(watched)
     robot.publish(2)
-    update = wait_for(lambda one: one, watched.look)
+    update = wait_for(lambda one: one, watched.poll)
 
     assert [run.test for run in update.log.runs] == ["dynamic-forward"]
     assert set(update.log.runs[0].voltage) == {3.5}
@@ -164,17 +164,17 @@ def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(
     robot = start()
     connect(watched)
     robot.publish(0)
-    wait_for(lambda one: one, watched.look)
+    wait_for(lambda one: one, watched.poll)
     robot.publish(1, share=0.5, ends=False)
-    running = watched.source.look()[0].growing.list_tests
-    wait_for(lambda _: len(running()) > 1, watched.look)
+    running = watched.source.poll()[0].growing.list_tests
+    wait_for(lambda _: len(running()) > 1, watched.poll)
     robot.stop()
     disconnect(watched)
     robot = start()
     connect(watched, times=2)
     for number in (1, 2, 3):
         robot.publish(number)
-        update = wait_for(lambda one: one, watched.look)
+        update = wait_for(lambda one: one, watched.poll)
 
     first, second = update.paths
     assert [run.test for run in read(first).runs] == ["quasistatic-forward"]
@@ -194,7 +194,7 @@ def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
     connect(live)
     robot.clock = 60.0
     robot.publish(1)
-    update = wait_for(lambda one: one, live.look)
+    update = wait_for(lambda one: one, live.poll)
     source.close()
 
     assert update.tests == ("quasistatic-reverse",)
@@ -213,7 +213,7 @@ def test_a_recording_never_replaces_a_file(start, watched, tmp_path):
     robot = start()
     connect(watched)
     robot.publish(0)
-    update = wait_for(lambda one: one, watched.look)
+    update = wait_for(lambda one: one, watched.poll)
 
     assert [path.name for path in update.paths] == ["networktables-2.wpilog"]
     assert kept.read_text(encoding="utf-8") == "mine"

@@ -140,7 +140,7 @@ def _fair(log: "Log", asked: Mapping[str, AskedNumber], *, si: float, noisy: boo
         abs(value - one.expected) <= ROOM * one.band.widths(one.expected)[0]
         for value, one in zip(honest, asked.values(), strict=True)
     )
-    caught = not all(map(AskedNumber.right, asked.values(), naive.tolist()))
+    caught = not all(map(AskedNumber.is_right, asked.values(), naive.tolist()))
     return room and (caught or not noisy)
 
 

@@ -68,7 +68,7 @@ def execute_notebook(
 
 
 def keep_notebook(notebook: Any, path: Path, *, folder: Path) -> None:  # noqa: ANN401 - nbformat has no types
-    """Keep an executed notebook, so that `find_kept_notebook` spares running it again.
+    """Store an executed notebook for ``find_kept_notebook``.
 
     Args:
         notebook: as `execute_notebook` returns it.

@@ -24,7 +24,7 @@ FINE = 20  # steps between two samples; the wheels' own time constant is some mi
 
 
 def wheels_slip(mechanism: Mechanism, track: Track) -> bool:
-    """Whether a motion asks for more than the floor can hold.
+    """Whether the wheels slip in a motion, because it needs more than the traction limit.
 
     Args:
         mechanism: what moves.

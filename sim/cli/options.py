@@ -149,13 +149,13 @@ def read_parts(
     Raises:
         Refusal: a file cannot be read, or one measures a length and another an angle.
     """
-    from sim.cli.fit.parts import parts_of_files  # noqa: PLC0415 - only for a fit
+    from sim.cli.fit.parts import list_parts  # noqa: PLC0415 - only for a fit
 
     read = partial(
         read_file_parts, units=units, type=type, motor=motor, entries=entries, velocity=velocity,
         pick=pick,
     )  # fmt: skip
-    return parts_of_files([(file, read(file)) for file in files])
+    return list_parts([(file, read(file)) for file in files])
 
 
 def read_file_parts(

@@ -205,7 +205,7 @@ def _missed_share(problem: PredictionErrorProblem, base: Estimate) -> float:
 
 def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
     """Fit the base model, without effects."""
-    guess = clamp_to_physical(recordings.guess)
+    guess = clamp_to_physical(recordings.initial_gains)
     structure = ModelStructure(recordings.type)
     values = {name: guess[name] for name in structure.names}
     begin = problem.evaluate(

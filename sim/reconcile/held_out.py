@@ -64,9 +64,9 @@ class HeldOutLog:
     @classmethod
     def choose(cls, recordings: Recordings) -> "HeldOutLog":
         """The one that was used least: held out, else validation, else the log itself."""
-        name = next(one for one in HOW if one in recordings.given)
+        name = next(one for one in HOW if one in recordings.logs_by_name)
         # numbers of one story have one unit
-        log = replace(recordings.given[name], units=recordings.log.units)
+        log = replace(recordings.logs_by_name[name], units=recordings.log.units)
         again = _describe_repeats(recordings)
         others = [text for other, text in again.items() if other != name]
         return cls(
@@ -163,5 +163,5 @@ def _describe_repeats(recordings: Recordings) -> dict[str, str]:
 
 def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
     """What reading the logs left to say, each once; the log that was used least first."""
-    logs = [recordings.given[name] for name in HOW if name in recordings.given]
+    logs = [recordings.logs_by_name[name] for name in HOW if name in recordings.logs_by_name]
     return tuple(dict.fromkeys(doubt.message for log in logs for doubt in log.doubts))

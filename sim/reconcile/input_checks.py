@@ -44,9 +44,9 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
             advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
     _check_voltage(log)
-    guess = recordings.guess
+    guess = recordings.initial_gains
     _check_direction(log, guess, type=base)
-    for name, other in recordings.given.items():
+    for name, other in recordings.logs_by_name.items():
         if name == "log":
             continue
         _check_units(log, other)

@@ -35,7 +35,7 @@ class Recordings:
     damage: DamageDecision = field(default_factory=DamageDecision)
 
     @property
-    def given(self) -> Mapping[str, Log]:
+    def logs_by_name(self) -> Mapping[str, Log]:
         """Name -> log, of those that were given, in the order in which they were recorded."""
         logs = zip(ORDER, (self.log, self.validation, self.held_out), strict=True)
         return {name: log for name, log in logs if log is not None}
@@ -46,7 +46,7 @@ class Recordings:
         return find_unit(self.log.units)
 
     @cached_property
-    def guess(self) -> Mapping[str, float]:
+    def initial_gains(self) -> Mapping[str, float]:
         """First estimates of the base model's gains, as ``guess_gains`` makes them."""
         return guess_gains(self.log, type=self.type)
 
@@ -57,7 +57,7 @@ class Recordings:
 
     def make_problem(self) -> PredictionErrorProblem:
         """The problem of all runs that may be fitted, without what is damaged."""
-        fitted = [name for name in self.given if name != "held_out"]
+        fitted = [name for name in self.logs_by_name if name != "held_out"]
         return PredictionErrorProblem.from_records(
             [one for n, name in enumerate(fitted) for one in self._records(name, session=n)]
         )
@@ -68,21 +68,23 @@ class Recordings:
 
     def count_repeated_runs(self, name: str) -> int:
         """How many runs of a log stand in those before it as well, sample by sample."""
-        if name not in self.given:
+        if name not in self.logs_by_name:
             return 0
         known = [run for log in self._before(name) for run in log.runs]
         return sum(
-            any(_is_same_run(run, other) for other in known) for run in self.given[name].runs
+            any(_is_same_run(run, other) for other in known) for run in self.logs_by_name[name].runs
         )
 
     def _before(self, name: str) -> list[Log]:
         """The logs that were recorded before one."""
-        return [log for one, log in self.given.items() if ORDER.index(one) < ORDER.index(name)]
+        return [
+            log for one, log in self.logs_by_name.items() if ORDER.index(one) < ORDER.index(name)
+        ]
 
     def _records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
         """The runs of one log; its clock goes on where the log before it ended."""
         return run_records(
-            self.given[name],
+            self.logs_by_name[name],
             session=session,
             since=session_length(*self._before(name)),
             aside=self.damage.excluded_from(name),

@@ -58,7 +58,7 @@ class Floor:
 
 @dataclass(frozen=True, eq=False)
 class FloorTest:
-    """A test as it went.
+    """The result of a simulated test on a floor.
 
     Args:
         floor: where.

@@ -111,9 +111,9 @@ class OpenLog:
         Raises:
             Refusal: as ``parts``.
         """
-        from sim.cli.fit.parts import joined_log  # noqa: PLC0415 - with the formats
+        from sim.cli.fit.parts import join_parts  # noqa: PLC0415 - with the formats
 
-        return self._once(("log", reading), lambda: joined_log(self.parts(reading)))
+        return self._once(("log", reading), lambda: join_parts(self.parts(reading)))
 
     def entries(self) -> "list[Entry]":
         """The entries of the file, for a person who chooses signals.
@@ -143,12 +143,12 @@ class OpenLog:
         """
 
         def find() -> "PooledParts":
-            from sim.cli.fit.parts import fit_parts, kind_of_parts  # noqa: PLC0415 - once needed
+            from sim.cli.fit.parts import describe_kind, fit_parts  # noqa: PLC0415 - once needed
             from sim.fit import fit  # noqa: PLC0415 - the same
 
             parts = self.parts(reading)
             return fit_parts(
-                parts, lambda log: fit(log, type=reading.type or ""), kind=kind_of_parts(parts, 1)
+                parts, lambda log: fit(log, type=reading.type or ""), kind=describe_kind(parts, 1)
             )
 
         return self._once(("fit", reading), find)
@@ -169,7 +169,7 @@ class OpenLog:
         )
 
     def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:
-        """Take the tests that have ended by now; what was computed of fewer is forgotten."""
+        """Replace the finished tests; results computed from fewer tests are dropped."""
         self.finished, self.path, self.revision = finished, path, self.revision + 1
         self._kept = {}
 
@@ -320,7 +320,7 @@ class Session:
         with self._imports:
             import sim.bench.mechanisms  # noqa: PLC0415 - as above
             import sim.bench.simulate  # noqa: PLC0415 - the same
-            import sim.cli.fit.against  # noqa: PLC0415 - the same
+            import sim.cli.fit.plausibility  # noqa: PLC0415 - the same
             import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
             import sim.cli.reconcile  # noqa: PLC0415 - the same
             import sim.fit.physics  # noqa: PLC0415 - the same

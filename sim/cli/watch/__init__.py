@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.fit.against import check_against_physics, compare_directions_alone
+from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
 from sim.cli.open import open_browser, page_options
 from sim.cli.options import FILE, as_json, read_file_parts, reading_options, velocity_options
 from sim.core.vocabulary import FOUR_TESTS
@@ -152,7 +152,7 @@ def _follow(live: "LiveFit", session: "Session | None", *, as_json: bool) -> Non
     """Look again and again; only an exception ends it."""
     status = ""
     while True:
-        update = live.look()
+        update = live.poll()
         if update is not None:
             show = _show_json if as_json else _show_update
             show(update)
@@ -171,7 +171,7 @@ def _renew_page(session: "Session", live: "LiveFit") -> None:
     """Show on the page what has ended since, and what to do next."""
     from sim.cli.open.session import LiveView  # noqa: PLC0415 - only with --page
 
-    for one in live.take_renewed():
+    for one in live.take_changed():
         session.renew(one, one.path, one.logs)
     update = live.last
     log = None if update is None else update.log

@@ -57,7 +57,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         return
     tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
     some = slice(None, None, max(seen.position.size // ENOUGH, 1))
-    few = seen.thin(some)
+    few = seen.select_samples(some)
     turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # by which each wave is ahead
     waves = np.repeat(turned[:, None], tried.size, axis=1)
     waves[:, 0] = np.exp(1j * tried[0] * few.position)

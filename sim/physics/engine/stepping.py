@@ -77,7 +77,7 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
-    """Move the whole mechanism by a share of how far a measurement is from what was expected.
+    """Kalman correction: move the state by the gain times the innovation.
 
     ``trust`` (4,) is the share of ``ahead``, then of ``faster``, for the position, then the same
     for the velocity.
@@ -200,5 +200,5 @@ trust: Array, out: Array ) -> None:  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
-    """Room for what ``move`` writes about ``n`` samples."""
+    """Allocate the output array of ``move`` for ``n`` samples."""
     return np.zeros((n, 8))

@@ -12,7 +12,7 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadSample, UnreadableFile
 from sim.core.log import LARGEST, Array
-from sim.io.formats.sysid_json.said import FileHeader
+from sim.io.formats.sysid_json.file_header import FileHeader
 
 RUNS = {
     "slow-forward": "quasistatic-forward",
