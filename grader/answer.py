@@ -198,7 +198,7 @@ def judge_number(
 def diagnose_number(
     name: str, given: Mapping[str, object], key: AnswerKey
 ) -> tuple[WrongNumber, ...]:
-    """The mistakes that would explain a wrong number; those that another number shares come alone."""
+    """The mistakes that would explain a wrong number; those that another number shares alone."""
     found = _find_wrong_numbers(name, given, key)
     for other in key.asked:
         if other != name and other in given:

@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import read_file_parts
+from sim.cli.options import PartReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
 from sim.core.errors import UnreadableFile
@@ -29,9 +28,7 @@ from sim.io.entries.state import FOREVER
 from sim.io.formats.wpilog.growing import GrowingLog
 from sim.report.next_test import ENOUGH, advise_next, find_voltage_limit, settled_step
 
-READ = partial(
-    read_file_parts, units=None, type=None, motor=None, entries={}, velocity=1.0, pick=None
-)
+READ = PartReader().read_file
 SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
 
 

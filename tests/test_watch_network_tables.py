@@ -5,7 +5,6 @@ import socket
 import subprocess
 import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,7 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import read_file_parts
+from sim.cli.options import PartReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.network_tables import CUT, NetworkTablesSource
 from sim.core.errors import BadRequest
@@ -26,9 +25,7 @@ from sim.report.next_test import ENOUGH
 pytestmark = pytest.mark.robot
 pytest.importorskip("ntcore", reason="pyntcore is not installed")
 
-READ = partial(
-    read_file_parts, units=None, type=None, motor=None, entries={}, velocity=1.0, pick=None
-)
+READ = PartReader().read_file
 PATIENCE = 60.0  # [s] for what takes a moment
 SEVERAL = 3  # values of a topic, of which the first may have been there before
 

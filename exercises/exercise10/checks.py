@@ -125,7 +125,7 @@ def consequence(code: Code) -> Consequence | None:
 def named(code: Code) -> None:
     """A class CharacterizationConstants holds every gain under its own name."""
     wanted = (*code.variant.gains, "kP")
-    there = [one for one in wanted if code.facts.constant(one)]
+    there = [one for one in wanted if code.facts.find_constant(one)]
     if not there:
         raise WrongAnswer(
             "no gain in this file",
@@ -183,7 +183,7 @@ def _right(constant: GainConstant, variant: Variant) -> bool:
 
 
 def _constant(gain: str, code: Code) -> GainConstant:
-    found = code.facts.constant(gain)
+    found = code.facts.find_constant(gain)
     if found is None:
         raise NotReachedError(f"checked after you write a constant {gain}")
     return found
@@ -288,7 +288,7 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     given = next(
         (arg for arg in one.arguments.values() if arg.gain == gain), one.arguments.get(gain)
     )
-    constant = code.facts.constant(gain)
+    constant = code.facts.find_constant(gain)
     if given is None and one.spread:
         hint = "Write the arguments one by one."
         raise WrongAnswer(f"the grader cannot see by reading what {gain} it gets", hint=hint)

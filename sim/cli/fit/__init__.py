@@ -18,7 +18,7 @@ from sim.cli.fit.plausibility import (
     compare_directions_alone,
     read_motor_parts,
 )
-from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
+from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -151,10 +151,10 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    parts = read_parts(
-        files, units=units, type=type_, motor=motor, entries=entries, pick=pick,
-        velocity=None if ignore_velocity else velocity_scale,
-    )  # fmt: skip
+    reader = PartReader(
+        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
+    )
+    parts = reader.read(files)
     log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
     pooled = fit_parts(parts, find, kind=describe_kind(parts, len(files)))

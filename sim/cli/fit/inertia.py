@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.parts import describe_kind, fit_parts
-from sim.cli.options import FILE, read_parts
+from sim.cli.options import FILE, PartReader
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -104,15 +104,7 @@ def find_inertia(
             where=log.source,
             advice="Name the MotorVoltage of a drive motor with --voltage.",
         )
-    parts = read_parts(
-        (turning.straight,),
-        units=None,
-        type="simple",
-        motor=None,
-        entries={},
-        velocity=1.0,
-        pick=None,
-    )
+    parts = PartReader(type="simple").read((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
     gone = fit_parts(parts, find, kind=describe_kind(parts, 1)).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)

@@ -93,15 +93,15 @@ class OpenLog:
         def read() -> "dict[str, Log]":
             if self.finished is not None and reading == Reading():
                 return dict(self.finished)
-            from sim.cli.options import read_parts  # noqa: PLC0415 - reads formats
+            from sim.cli.options import PartReader  # noqa: PLC0415 - reads formats
 
-            return dict(
-                read_parts(
-                    [self.path], units=reading.units, type=reading.type, motor=None,
-                    entries=dict(reading.entries),
-                    velocity=None if reading.differentiates_position else 1.0, pick=None,
-                )
-            )  # fmt: skip
+            reader = PartReader(
+                reading.units,
+                reading.type,
+                entries=dict(reading.entries),
+                velocity=None if reading.differentiates_position else 1.0,
+            )
+            return dict(reader.read([self.path]))
 
         return self._once(("parts", reading), read)
 

@@ -7,7 +7,6 @@ import threading
 import time
 from contextlib import ExitStack, suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,7 @@ import click
 
 from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
 from sim.cli.open import open_browser, page_options
-from sim.cli.options import FILE, as_json, read_file_parts, reading_options, velocity_options
+from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
 from sim.core.vocabulary import FOUR_TESTS
 from sim.feedback import PRESETS
 from sim.support.command_line import DONE
@@ -73,13 +72,12 @@ def watch(
         raise click.UsageError("--save keeps what NetworkTables sends, so it needs --nt.")
     from sim.cli.watch.live_fit import LiveFit  # noqa: PLC0415 - --help must not wait for it
 
-    read = partial(
-        read_file_parts, units=units, type=type_, motor=motor, entries=entries,
-        velocity=None if ignore_velocity else velocity_scale, pick=pick,
-    )  # fmt: skip
+    reader = PartReader(
+        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
+    )
     with ExitStack() as ends:
         source = _open_source(place, nt=nt, save=save, state=entries["state"], ends=ends)
-        live = LiveFit(source, read, type=type_ or "")
+        live = LiveFit(source, reader.read_file, type=type_ or "")
         session = _open_page(port, ends=ends, no_browser=no_browser) if page else None
         if not as_json:
             click.echo(f"Run {', '.join(FOUR_TESTS)}, in any order.\nCtrl-C here ends it.")
