@@ -21,7 +21,7 @@ MADE_FROM = "made_from"  # in a kept notebook's metadata: the digest of what its
 def execute_notebook(
     path: Path, *, environment: Mapping[str, str] | None = None, allow_errors: bool = False
 ) -> Any:  # noqa: ANN401 - nbformat has no types
-    """Run a notebook; what it shows, and the state of its widgets, is in what comes back.
+    """Execute a notebook; the result holds its outputs and the state of its widgets.
 
     Args:
         path: of the notebook, in the folder ``lessons`` of a course.

@@ -26,7 +26,7 @@ LONGEST = 200  # [characters] of what is said about anything
 
 
 def main() -> None:
-    """Do what standard input asks for."""
+    """Carry out the orders on standard input."""
     orders = json.load(sys.stdin)
     say = _open_result_stream(orders["nonce"])
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]

@@ -32,7 +32,7 @@ LONGEST_WAIT = 5.0  # [s] longer, and whoever holds the button waits in vain
 
 
 class Decorators:
-    """Tells what a library's method does to the command that it is given.
+    """Interprets WPILib's command decorators: whether a decorated command starts and lasts.
 
     Args:
         names: the names of the program.

@@ -121,7 +121,7 @@ def _one_of(node: Node) -> Node:
 
 
 def find_constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
-    """The class a call makes, by its own name whatever it is called here; empty if it is none."""
+    """The original name of the class that a call constructs; empty if it constructs none."""
     target = call.target
     if isinstance(target, Name):
         brought = find_imported_name(target.name, scope)
@@ -195,7 +195,7 @@ def fold_text(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -
 def find_called_functions(
     call: Call, scope: Scope, names: SymbolTable, *, owner: Placed | None = None
 ) -> list[Method]:
-    """The functions of these files that a call may mean: those of its name that take as much.
+    """The functions of these files that a call may mean, by name and number of arguments.
 
     Args:
         call: the call.

@@ -68,7 +68,7 @@ class DeviceReading:
 
 @dataclass
 class DeviceSettings:
-    """What the program sets its devices to.
+    """The settings that the program gives its devices.
 
     Args:
         per_pulse: encoder -> what it counts per pulse; None if that cannot be told.
@@ -146,7 +146,7 @@ def find_native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[
 def read_device_settings(
     home: Scope, names: SymbolTable, measures: ConstantFolder
 ) -> DeviceSettings:
-    """What a class, and the file it is in, sets its devices to."""
+    """The settings that a class and its file give to devices."""
     return _SettingsReader(names, measures).read(home)
 
 

@@ -1,4 +1,4 @@
-"""Where a piece of code stands, and which names get a value there."""
+"""Scopes: the file, classes and functions around a piece of code, and the names assigned there."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ MOST_FUNCTIONS = 20  # functions one inside the other whose variables are still 
 
 @dataclass(frozen=True)
 class Scope:
-    """Where a piece of code stands: its file, the classes around it, the functions around it."""
+    """The scope of a piece of code: its file, and the classes and functions around it."""
 
     module: Module
     classes: tuple[Class, ...] = ()

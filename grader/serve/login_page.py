@@ -145,17 +145,17 @@ class StartQueue:
 
 
 class BasePage(RequestHandler):
-    """What both pages share."""
+    """The base class of both pages."""
 
     queue: StartQueue
     delays: LoginDelays
 
     def initialize(self, queue: StartQueue, delays: LoginDelays) -> None:
-        """Tornado's own way to hand something in."""
+        """Take what the application passes to each request (Tornado calls this)."""
         self.queue, self.delays = queue, delays
 
     def set_default_headers(self) -> None:
-        """Nothing from elsewhere, and nothing kept."""
+        """Set headers: load nothing from elsewhere, cache nothing."""
         for name, value in CLOSED.items():
             self.set_header(name, value)
 
@@ -170,7 +170,7 @@ class BasePage(RequestHandler):
         self.redirect(f"http://{self.request.host_name}:{room.port}{place}", status=303)
 
     def refuse(self, name: str, wrong: str, status: int = 403) -> None:
-        """The page again, with what was wrong."""
+        """Show the page again with what was wrong."""
         self.set_status(status)
         self.finish(PAGE.generate(wrong=wrong, student=name))
 

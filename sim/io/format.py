@@ -64,7 +64,7 @@ class Format(Protocol):
         """Whether a file whose first bytes are ``head`` is of this format."""
 
     def read(self, path: Path, asked: ReadOptions) -> Log:
-        """Read a file."""
+        """Read a file of this format into a log."""
 
 
 def doubt_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:

@@ -75,7 +75,7 @@ def _continue_search(data: SelectionData, done: list[SelectionRound]) -> list[Se
 
 
 def take_nearest(done: list[SelectionRound]) -> list[SelectionRound]:
-    """The same, with the last effect replaced by the one of its round that left the smallest gap.
+    """The rounds, with the last effect replaced by the one that left the smallest gap.
 
     What any robot has a little of goes first, since the next round finds the rest. Where there is
     no time for a next round, what closes most of the gap matters more.

@@ -78,7 +78,7 @@ class HeldOutLog:
         )
 
     def notes(self, last: Chapter, fitted: float) -> tuple[str, ...]:
-        """What a person should know of the logs.
+        """Remarks about the logs, for people.
 
         Args:
             last: the last model, on this log.
@@ -106,7 +106,7 @@ class HeldOutLog:
         return tuple(one.measurements.informative for one in self.problem.records)
 
     def gap_places(self, base: Chapter) -> tuple[Place, ...]:
-        """Where the base model's velocity is off, the surest first."""
+        """Places where the base model's velocity is off, the most significant first."""
         noise = self.problem.noise.velocity
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(TOLD, signal="velocity") if found else ()

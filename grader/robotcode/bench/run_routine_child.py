@@ -139,7 +139,7 @@ class Bench:
         self.routine.mechanism.log = log_callback
 
     def run_loop(self, run: Callable[[], None]) -> None:
-        """One loop of the robot program, and what moves meanwhile."""
+        """Run one loop of the robot program, and move the mechanisms meanwhile."""
         from wpilib import DriverStation  # noqa: PLC0415 - whoever only reads needs none
 
         get_by_season_name(self.simulation.DriverStationSim, "notifyNewData")()
@@ -278,7 +278,7 @@ def enable_test_mode(folder: Path) -> None:
 
 
 def run_file(file: Path, name: str, folder: Path, look: Callable[[Any], Any]) -> dict[str, object]:
-    """Run one file; everything that happens to it is an answer."""
+    """Run one file; errors of the learner's code are part of the result."""
     bench = None
     try:
         enable_test_mode(folder)
@@ -299,7 +299,7 @@ def sign_result(nonce: str, told: bytes) -> bytes:
 
 
 def start_child(look: Callable[[Any], Any] = Bench) -> None:
-    """Do what the command line asks for, and give up in time."""
+    """Run the file of the command line within its time limit, and write the results."""
     nonce, place = sys.stdin.read(), Path(sys.argv[3])
     out = os.dup(1)
     os.dup2(2, 1)  # what the learner's code prints is no word of ours

@@ -33,7 +33,7 @@ def default_key_path(folder: Path) -> Path:
 
 
 def entries_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
-    """The entry of each file."""
+    """File -> its entry."""
     return {file: entry for entry in entries for file in entry["files"]}
 
 

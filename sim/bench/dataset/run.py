@@ -92,7 +92,7 @@ def check_folder(
 
 
 def rehearse_jobs(jobs: Sequence[LogJob]) -> None:
-    """Make the fullest log of each kind and throw it away: what is impossible shows at once.
+    """Make one log of each kind with all its effects and faults, to find impossible specs early.
 
     Raises:
         BadRequest: one of them cannot be made.

@@ -262,7 +262,7 @@ class Session:
         return plain, folder / plain
 
     def find(self, number: int) -> OpenLog:
-        """An open log.
+        """Look up an open log by its number.
 
         Raises:
             BadRequest: it is not open.
@@ -315,7 +315,7 @@ class Session:
             import sim.physics.engine  # noqa: F401, PLC0415 - the same
 
     def import_everything(self) -> None:
-        """Import what requests need, as ``import_reading``."""
+        """Import all that requests need, once and in one thread."""
         self.import_reading()
         with self._imports:
             import sim.bench.mechanisms  # noqa: PLC0415 - as above

@@ -59,7 +59,7 @@ class NetworkTablesSource:
 
     @property
     def status(self) -> str:
-        """What it waits for or follows."""
+        """The status: what it waits for or follows."""
         if self._connected:
             return f"following NetworkTables of {self._address}"
         again = " again" if self._recordings else ""

@@ -45,7 +45,7 @@ class Source(Protocol):
 
     @property
     def status(self) -> str:
-        """What it waits for or follows, in a few words."""
+        """The status in a few words: what it waits for or follows."""
 
     def close(self) -> None:
         """Stop following."""

@@ -39,7 +39,7 @@ class ObjectCode:
 
     @classmethod
     def from_bytes(cls, written: bytes) -> "ObjectCode | None":
-        """What was written; None where a byte of it is damaged."""
+        """Read what ``to_bytes`` wrote; None if it is damaged."""
         head, _, content = written.partition(b"\n")
         try:
             says = json.loads(head)

@@ -64,7 +64,7 @@ def advance_step(
 
 
 def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
-    """Write down what is true at sample ``k``, but for what the sensor says."""
+    """Write the true state at sample ``k`` into the output; sensor readings follow later."""
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
@@ -100,7 +100,7 @@ def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: floa
 
 
 def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
-    """In how many steps a time [s] is gone: short ones where it is fast, and places matter."""
+    """Number of steps of a time span [s]: more where it moves fast and positions matter."""
     longest = steps[LONGEST]
     if steps[ALONG] < math.inf:
         most = max(abs(v), abs(volts) / c[KV])

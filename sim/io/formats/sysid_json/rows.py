@@ -181,7 +181,7 @@ def _has_battery_column(tables: Mapping[str, Array]) -> bool:
 
 
 def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
-    """Refuse what is no measurement, in the columns that are read.
+    """Refuse columns with values that cannot be measurements.
 
     Raises:
         BadSample: a number that is missing, not finite or absurdly large.
