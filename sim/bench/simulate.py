@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.slip import slip_voltage, spin_wheels, wheels_slip
+from sim.bench.slip import slip_part, slip_voltage, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -68,6 +68,7 @@ def simulate(
     """
     _check_period(period)
     model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
+    slips = slip_part(mechanism)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -76,16 +77,21 @@ def simulate(
         cut = cut or _is_cut(state)
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
-        begun, state = _at_rest(state, _begin(mechanism, test, last))
-        track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
-        track, left_out = _slip(mechanism, time, voltage, wires=wires, track=track)
-        gripped = gripped or left_out
+        begun = _at_rest(state, _begin(mechanism, test, last))
+        state = _copy_state(begun)
+        moves = model
+        track = simulate_run(moves, time=time, voltage=voltage, state=state, wires=wires)
+        if wheels_slip(mechanism, track):
+            gripped = gripped or slips is None
+            moves = model if slips is None else model + slips
+            state = _copy_state(begun)
+            track = simulate_run(moves, time=time, voltage=voltage, state=state, wires=wires)
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
             if state.memory.any():  # nothing that someone ended goes on to warm a motor
-                state = begun
-                track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
+                state = _copy_state(begun)
+                track = simulate_run(moves, time=time, voltage=voltage, state=state, wires=wires)
             else:
                 track = track.truncate(end)
         run = _record_run(mechanism, test, time, track, rng=rng, electrical=electrical)
@@ -96,28 +102,19 @@ def simulate(
     return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
 
 
-def _at_rest(state: State, position: float) -> tuple[State, State]:
-    """The state at rest somewhere, with what a motor remembers; twice, as a run changes its own."""
-    body = State.cold_at(position).body
-    begun = replace(state, body=body, memory=state.memory.copy())
-    return begun, replace(begun, body=body.copy(), memory=begun.memory.copy())
+def _at_rest(state: State, position: float) -> State:
+    """The state at rest somewhere, with what a motor remembers."""
+    return replace(_copy_state(state), body=State.cold_at(position).body)
+
+
+def _copy_state(state: State) -> State:
+    """The same state, which may go on by itself."""
+    return replace(state, body=state.body.copy(), memory=state.memory.copy())
 
 
 def _is_cut(state: State) -> bool:
     """Whether the robot controller has taken the motors off."""
     return bool(state.body[OFF_UNTIL] > 0.0)
-
-
-def _slip(
-    mechanism: Mechanism, time: Array, command: Array, *, wires: Array, track: Track
-) -> tuple[Track, bool]:
-    """The motion with wheels that slip, and whether hidden effects forbid to simulate that."""
-    if not wheels_slip(mechanism, track):
-        return track, False
-    if mechanism.hidden:
-        return track, True
-    slipped = spin_wheels(mechanism, time=time, command=command, wires=wires, track=track)
-    return slipped, False
 
 
 def _record_run(
@@ -146,8 +143,8 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
         yield Doubt(
             "slip-left-out",
             f"Here the wheels would slip above {slip_voltage(mechanism):.1f} V from "
-            "standstill. With a hidden effect, the simulation leaves out the slip. Use a "
-            "smaller step, or hide no effect.",
+            "standstill. Beside a hidden joint (backlash, compliance), the simulation leaves out "
+            "the slip. Use a smaller step, or hide no joint.",
         )
     if cut:
         yield Doubt(
