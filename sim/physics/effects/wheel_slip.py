@@ -17,7 +17,7 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
 LIGHT = 0.06  # [share of kA] of rotors, gears and wheels: four Krakens of a 60 kg robot have that
-HELD = (0.9, 0.75, 0.6, 0.45, 0.3, 0.2)  # [share of the largest push] that the floor may hold
+HELD = (0.96, 0.92, 0.88, 0.84, 0.8, 0.75, 0.7, 0.64, 0.57, 0.5, 0.42, 0.35, 0.28, 0.2)
 
 
 def grip_limit(grip: float) -> float:
