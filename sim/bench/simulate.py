@@ -78,20 +78,16 @@ def simulate(
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
         begun = _at_rest(state, _begin(mechanism, test, last))
-        state = _copy_state(begun)
         moves = model
-        track = simulate_run(moves, time=time, voltage=voltage, state=state, wires=wires)
+        track, state = _move(moves, time, voltage, begun=begun, wires=wires)
         if wheels_slip(mechanism, track):
-            gripped = gripped or slips is None
-            moves = model if slips is None else model + slips
-            state = _copy_state(begun)
-            track = simulate_run(moves, time=time, voltage=voltage, state=state, wires=wires)
+            moves, gripped = (model + slips, gripped) if slips else (model, True)
+            track, state = _move(moves, time, voltage, begun=begun, wires=wires)
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
             if state.memory.any():  # nothing that someone ended goes on to warm a motor
-                state = _copy_state(begun)
-                track = simulate_run(moves, time=time, voltage=voltage, state=state, wires=wires)
+                track, state = _move(moves, time, voltage, begun=begun, wires=wires)
             else:
                 track = track.truncate(end)
         run = _record_run(mechanism, test, time, track, rng=rng, electrical=electrical)
@@ -105,6 +101,15 @@ def simulate(
 def _at_rest(state: State, position: float) -> State:
     """The state at rest somewhere, with what a motor remembers."""
     return replace(_copy_state(state), body=State.cold_at(position).body)
+
+
+def _move(
+    model: Model, time: Array, voltage: Array, *, begun: State, wires: Array
+) -> tuple[Track, State]:
+    """The motion from a state, which stays as it is, and the state after it."""
+    state = _copy_state(begun)
+    track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
+    return track, state
 
 
 def _copy_state(state: State) -> State:
