@@ -67,16 +67,15 @@ def simulate(
         ['quasistatic-forward', 'quasistatic-reverse']
     """
     _check_period(period)
-    model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
-    slips = slip_part(mechanism)
+    model, slips = mechanism.model, slip_part(mechanism)
+    wires = power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
-        began = runs[0].time[0] if runs else start + time[0]
-        state.clock = float(start + time[0] - began)  # what the log's own times say
+        state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as the log says
         begun = _at_rest(state, _begin(mechanism, test, last))
         moves = model
         track, state = _move(moves, time, voltage, begun=begun, wires=wires)
@@ -85,15 +84,14 @@ def simulate(
             track, state = _move(moves, time, voltage, begun=begun, wires=wires)
         end = _end(track, mechanism, test=test)
         time, voltage = time[:end], voltage[:end]
-        if end < track.position.size:
-            if state.memory.any():  # nothing that someone ended goes on to warm a motor
-                track, state = _move(moves, time, voltage, begun=begun, wires=wires)
-            else:
-                track = track.truncate(end)
-        run = _record_run(mechanism, test, time, track, rng=rng, electrical=electrical)
+        if end < track.position.size and state.memory.any():  # what was ended warms no motor
+            track, state = _move(moves, time, voltage, begun=begun, wires=wires)
+        run = _record_run(
+            mechanism, test, time, track.truncate(end), rng=rng, electrical=electrical
+        )
         runs.append(replace(run, time=start + time))
         cool_down(state, model, PAUSE)
-        start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
+        start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
     return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
 
