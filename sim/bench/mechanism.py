@@ -141,7 +141,7 @@ class Mechanism:
 
     @property
     def scale(self) -> Scale:
-        """What is ordinary for it."""
+        """Ordinary speeds, voltages and times of the mechanism, by which effects are sized."""
         gains = self.gains
         speed = max(ORDINARY_STEP - gains["kS"], 0.1 * ORDINARY_STEP) / gains["kV"]
         return Scale(

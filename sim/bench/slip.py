@@ -18,7 +18,7 @@ SLIP = EFFECTS["wheel-slip"]
 
 
 def wheels_slip(mechanism: Mechanism, track: Track) -> bool:
-    """Whether a motion asks for more than the floor can hold.
+    """Whether the wheels slip in a motion, because it needs more than the traction limit.
 
     Args:
         mechanism: what moves.

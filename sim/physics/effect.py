@@ -80,7 +80,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Scale:
-    """What is ordinary for a mechanism, so that an effect can be given an ordinary size.
+    """Ordinary speeds, voltages and times of a mechanism, by which effects are sized.
 
     Args:
         ks: [V].
@@ -104,18 +104,18 @@ class Scale:
 
     @property
     def speed(self) -> float:
-        """[unit/s] that the step ends in."""
+        """[unit/s] steady-state speed of the step."""
         return max(self.step - self.ks, 0.1 * self.step) / self.kv
 
     @property
     def timescale(self) -> float:
-        """[s] in which a step is answered."""
+        """[s] time constant kA/kV of a step."""
         return self.ka / self.kv
 
 
 @dataclass(frozen=True)
 class Effect:
-    """One kind of physics.
+    """One physical effect: its parameters, its functions in the engine, and its start values.
 
     Args:
         name: as on the command line: ``gravity-cosine``.
@@ -187,7 +187,7 @@ class Effect:
 
     @property
     def neutral(self) -> dict[str, float]:
-        """Parameters with which it is not there."""
+        """Parameter values at which the effect vanishes."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
 
     def contract_breaches(self) -> list[str]:

@@ -62,7 +62,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Model:
-    """What moves, as a formula with numbers.
+    """A model of a mechanism: gains, effects and travel.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.

@@ -24,7 +24,7 @@ APART = 0.12  # [share of a panel] between markers
 
 @dataclass(frozen=True)
 class TrackingError:
-    """By how much something misses what it follows.
+    """RMS and largest difference from a target.
 
     Args:
         typical: root mean square.

@@ -69,7 +69,7 @@ class ResidualView:
 def compute_missing_volts(
     log: Log, simulated: Sequence[Array], gains: Mapping[str, float]
 ) -> list[Array]:
-    """What a simulation would need on top of its voltage to move as the log did.
+    """Per run, (n,) [V] voltage that the simulation would need in addition to move as the log did.
 
     Args:
         log: what was measured.

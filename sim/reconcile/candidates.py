@@ -121,7 +121,7 @@ def rank_candidates(
 def descend_candidate(
     problem: PredictionErrorProblem, point: Estimate, start: Estimate
 ) -> Estimate:
-    """A candidate after some optimizer steps, for comparison with others.
+    """A candidate after a few optimizer steps, for comparison with others.
 
     Where in free play a run began is told before the gains have adjusted to it: if that leads to
     less than the point without the candidate, the start may do better untold.

@@ -25,12 +25,12 @@ def command_delay(on: Numbers, p: Numbers) -> float:
 def transform_voltage(
     on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float
 ) -> float:
-    """[V] that gets through to the motor."""
+    """[V] voltage at the motor, after all path effects."""
     return u
 
 
 def force(on: Numbers, p: Numbers, x: float, v: float) -> float:
-    """[V] that terms take from the motor's."""
+    """[V] sum of the forces of all effects."""
     return 0.0
 
 
@@ -83,5 +83,5 @@ def update_memory(
 def transform_velocity(
     on: Numbers, p: Numbers, now: int, time: Array, position: Array, velocity: Array
 ) -> float:
-    """[unit/s] that the sensor says at sample ``now``."""
+    """[unit/s] velocity that the sensor reports at sample ``now``."""
     return float(velocity[now])

@@ -69,7 +69,7 @@ def advance_step(
 
 
 def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
-    """Write down what is true at sample ``k``, but for what the sensor says."""
+    """Write the true state at sample ``k`` into the output; sensor readings follow later."""
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
@@ -82,7 +82,7 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
-    """Move the whole mechanism by a share of how far a measurement is from what was expected.
+    """Kalman correction: move the state by the gain times the innovation.
 
     ``trust`` (4,) is the share of ``ahead``, then of ``faster``, for the position, then the same
     for the velocity.
@@ -105,7 +105,7 @@ def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: floa
 
 
 def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
-    """In how many steps a time [s] is gone: short ones where it is fast, and places matter."""
+    """Number of steps of a time span [s]: more where it moves fast and positions matter."""
     longest = steps[LONGEST]
     if steps[ALONG] < math.inf:
         most = max(abs(v), abs(volts) / c[KV])
@@ -205,5 +205,5 @@ trust: Array, out: Array ) -> None:  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
-    """Room for what ``move`` writes about ``n`` samples."""
+    """Allocate the output array of ``move`` for ``n`` samples."""
     return np.zeros((n, 8))

@@ -41,7 +41,7 @@ class Case:
     harmful: bool
 
     def gain_error(self, gain: str) -> float:
-        """By which share a gain is off: 0.1 is 10 % too large, -2 has the wrong sign."""
+        """Relative error of a gain: 0.1 is 10 % too large, -2 has the wrong sign."""
         return self.fit.gains[gain] / self.truth[gain] - 1.0
 
     @property
