@@ -32,7 +32,7 @@
 #
 # You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
 # prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
-# with the same numbers to change. Its picture is folded to a bar, so click on the bar. All lessons
+# with the same numbers to change. A bar hides its picture: click on the bar to see it. All lessons
 # work this way.
 # </details>
 
@@ -41,8 +41,8 @@
 #
 # Your robot program wants the drivetrain (motors, gears and wheels) to move at 2 m/s. But the
 # program can only set a **voltage**. How many volts give 2 m/s? A **feedforward** is a formula that
-# computes the voltage for the motion you want. It does not wait until the robot is too slow: it
-# gives the right voltage from the start.
+# computes the voltage for the motion you want. A feedforward does not wait until the robot is too
+# slow: it gives the right voltage from the start.
 #
 # The formula contains three numbers, called **gains**:
 #
@@ -311,8 +311,7 @@ race(KS, KV, KA)
 # > voltage = kS + kV · velocity
 #
 # This is a straight line: kV is its slope (how steep it is), and kS is the voltage where the line
-# meets velocity 0. The picture below also shows the *misses*, the vertical distances from the dots
-# to the line. Here they are too small to see.
+# meets velocity 0.
 #
 # **Predict:**
 
@@ -343,6 +342,9 @@ slope, start = np.polyfit(speeds, VOLTS, 1)  # the ruler: the straight line that
 plot_misses(
     speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]"
 )
+
+# %% [markdown]
+# (A *miss* is the vertical distance from a dot to the line. Here the misses are too small to see.)
 
 # %%
 pencil = {"kS": float(start), "kV": float(slope), "kA": 0.0}
@@ -382,7 +384,7 @@ Table(
 # Guessing asks: **which number makes the robot behave as I like?** SysId asks: **which physical
 # model best explains what the robot did?** The official definition says the same: system
 # identification is finding a mathematical model of a system "through statistical analysis of its
-# inputs and outputs". The two questions lead to different things:
+# inputs and outputs". The two questions give different results:
 #
 # | | guessing | measuring |
 # |---|---|---|
@@ -660,7 +662,7 @@ else:
 # %% [markdown]
 # ### A first try
 #
-# In the terminal, these two commands do the same as lines one and two of the race:
+# In the terminal, these two commands do the work of lines one and two of the race:
 #
 # ```
 # sysid simulate drivetrain --seed 1 -o drive.wpilog
@@ -720,15 +722,15 @@ quick
 # <details><summary>Answer</summary>
 #
 # kV (the slope) and kS (where the line meets velocity 0). Both are good: this kV is as good as that
-# of the fit. It cannot give kA, because at a steady speed nothing accelerates.
+# of the fit. The line cannot give kA, because at a steady speed nothing accelerates.
 # </details>
 #
 # **3.** The robot gets 4 kg heavier in week 3. Which of its gains has to change, and which not?
 #
 # <details><summary>Answer</summary>
 #
-# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction;
-# neither depends on the weight of the robot. (For an elevator or an arm, kG grows, too.)
+# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction. Both
+# stay the same. (For an elevator or an arm, kG grows, too.)
 # </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?
