@@ -729,9 +729,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction. Both
-# stay the same. (For an elevator or an arm, kG grows, too.)
-# </details>
+# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction.
+# Both stay the same. (For an elevator or an arm, kG grows, too.) </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?
 #

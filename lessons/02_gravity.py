@@ -392,8 +392,13 @@ plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
 # depends on how somebody mounted it. Suppose our encoder shows 25° too much. Then the true angle is
 # reading + *offset*, with an offset of −25°.
 #
-# You can find the offset from the windows. Let r be the reading. The middle of the window is
-# kG·cos(r + offset). A rule of mathematics splits this into a cosine and a sine:
+# You can find the offset from the windows: by eye in the next picture, or by a fit, as the next
+# cell does.
+#
+# <details><summary>How to compute the offset (you need it for exercise 3)</summary>
+#
+# Let r be the reading. The middle of the window is kG·cos(r + offset). A rule of mathematics splits
+# this into a cosine and a sine:
 #
 # > kG·cos(r + offset) = **A**·cos(r) + **B**·sin(r), with A = kG·cos(offset) and
 # > B = −kG·sin(offset)
@@ -402,6 +407,7 @@ plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
 # the cosine is 0, so the middle is B. If you have more rows, a least-squares fit uses all of them
 # (`np.linalg.lstsq`; lesson 7 explains it). Then kG = √(A² + B²), and the offset is the angle whose
 # tangent is −B/A (`np.arctan2`).
+# </details>
 
 # %%
 TILT = 25.0  # [deg] our encoder shows this much too much
@@ -623,7 +629,7 @@ def up_and(down_rows: int) -> Picture:
         *SIDES
     )
     return plot_ellipses(
-        {f"95 of 100 fits, with {down_rows} rows from the way down": told},
+        {f"95 of 100 fits (rows from the way down: {down_rows})": told},
         names=("kS [V]", "kG [V]"),
         truth=(truth["kS"], truth["kG"]),
         reach=(0.25, 0.25),
