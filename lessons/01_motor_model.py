@@ -627,9 +627,9 @@ animate_mechanism(
     Scene(since, tuple(spin_up(kind, since) for kind in KINDS)),
     panels=(Panel("velocity", "share of its final speed [%]", low=0.0, high=105.0, scale=100.0),),
     slow=12.0,
-    alt="Four wheels for four mechanisms get up to speed after a step of 4 V. The others are there "
-    f"within a quarter of a second; the shooter, with a τ of {1000 * tau('shooter'):.0f} ms, is "
-    "the last.",
+    alt="Four wheels for four mechanisms get up to speed after a step of 4 V. The shooter, with a "
+    f"τ of {1000 * tau('shooter'):.0f} ms, is the last; the others need less than a quarter of a "
+    "second.",
 )
 
 # %%

@@ -134,6 +134,7 @@ plot_curves(
     ylabel="speed [m/s]",
     levels={"final speed": top},
     marked=(round(tau, 3), at_tau),
+    mark="after τ",
 )
 
 # %% [markdown]
@@ -215,6 +216,7 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
             ylabel="kS [V]",
             levels={"the true kS": gains["kS"]},
             marked=(ramp, line.intercept),
+            mark="the line in the picture above",
         ),
     ]
 
