@@ -569,7 +569,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # ### Check somebody else's numbers
 #
 # One published lesson gives a drivetrain with kV = 2.68 V·s/m, a ratio of 8.46, 4 inch wheels and
-# TalonFX motors. A TalonFX can be one of three motors. Which of them could it be?
+# TalonFX motors. A TalonFX is a controller that is built into three kinds of motor. Which of these
+# motors could it be?
 #
 # <details><summary>For mentors: the source lesson's drivetrain</summary>
 #
