@@ -79,6 +79,7 @@ def plot_curves(
     ylabel: str,
     levels: Mapping[str, float] | None = None,
     marked: tuple[float, float] | None = None,
+    mark: str = "here",
 ) -> Picture:
     """One or more curves over a common axis.
 
@@ -89,6 +90,7 @@ def plot_curves(
         ylabel: with unit.
         levels: name -> height of a horizontal line: the truth, a limit.
         marked: a point to draw attention to.
+        mark: what the legend calls the marked point.
 
     Raises:
         BadRequest: there are no curves, or one has another length than ``x``.
@@ -107,7 +109,7 @@ def plot_curves(
     for name, level in (levels or {}).items():
         axes.axhline(level, color=REFERENCE, linestyle="--", linewidth=1.0, label=name)
     if marked is not None:
-        axes.plot(*marked, "*", color=REFERENCE, markersize=14, label="here")
+        axes.plot(*marked, "*", color=REFERENCE, markersize=14, label=mark)
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     axes.legend(fontsize=8)
@@ -121,7 +123,7 @@ def plot_curves(
         f"A dashed line marks “{name}”, {to_text(level)}." for name, level in (levels or {}).items()
     ]
     if marked is not None:
-        said.append(f"A star marks {to_text(marked[1])} at {marked[0]:g}.")
+        said.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
         _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
