@@ -289,10 +289,10 @@ print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.
 # | skipped | what was wrong that morning |
 # |---|---|
 # | 1 room | there is no tape on the floor, so you do not know when to let go |
-# | 2 battery | the robot has driven all day: 11.6 V at rest; and the battery is old: its resistance is 35 mΩ |
+# | 2 battery | the robot drove all day: 11.6 V at rest, and an old battery (resistance 35 mΩ) |
 # | 3 encoder | the encoder is inverted: when the robot drives forward, the position falls |
 # | 4 log | nobody knows where the robot saves the log |
-# | 5 guard | somebody presses the button in the pit: the wall is 1.5 m away, and *Disable* takes 1 s |
+# | 5 guard | somebody presses the button in the pit: the wall is 1.5 m away, *Disable* takes 1 s |
 
 # %%
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
@@ -548,9 +548,7 @@ print(f"kA ÷ true: {arrived:.2f} with the applied voltage, {asked:.2f} with the
 # └─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
 # ```
 #
-# WPILib's Data Log Tool and AdvantageScope can always fetch the log. (On a competition field, use a
-# USB cable: the firewall of the radio blocks them.) The Driver Station copies logs only if you
-# ticked *Upload WPILogs*. The table shows three robots. Which row is yours?
+# The table shows three robots. Which row is yours?
 #
 # <details><summary>For mentors: the log folder, with sources</summary>
 #
@@ -586,9 +584,11 @@ Table(
 )
 
 # %% [markdown]
-# How to fetch the log:
-#
 # <details><summary>Four ways to fetch the log, step by step</summary>
+#
+# WPILib's Data Log Tool and AdvantageScope can always fetch the log. (On a competition field, use a
+# USB cable: the firewall of the radio blocks them.) The Driver Station copies logs only if you
+# ticked *Upload WPILogs*.
 #
 # - **AdvantageScope:** *File* > *Download Logs…*. You should see a list, the newest at the top.
 #   Select, then click the ↓ sign. If it finds no robot: set its address and the log folder in the
@@ -659,7 +659,8 @@ Table(
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
-# An arm or an elevator needs `--type arm` or `--type elevator`. If your log has several motors, name one: `--motor left`.
+# An arm or an elevator needs `--type arm` or `--type elevator`. If your log has several motors,
+# name one: `--motor left`.
 #
 # <details><summary>If the entries in your log have other names</summary>
 #
@@ -731,7 +732,8 @@ Table(
 # %% [markdown]
 # ### Watch the tests live
 #
-# `sysid watch` reads the log while the robot writes it. After each test it fits the gains again and says what to do next: which test is missing, which test to repeat, or that you have enough data.
+# `sysid watch` reads the log while the robot writes it. After each test it fits the gains again and
+# says what to do next: which test is missing, which test to repeat, or that you have enough data.
 #
 # <details><summary>Try it with a simulated robot, or use it with your own</summary>
 #
@@ -754,7 +756,8 @@ Table(
 #
 # With a real robot, your laptop does not see the log file while it grows. Follow *NetworkTables*
 # instead, the values that the robot sends to the dashboard: `sysid watch --nt 1234`, with your own
-# team number. Then the robot program has to send voltage, position, velocity and the name of the test. The example program does it.
+# team number. Then the robot program has to send voltage, position, velocity and the name of the
+# test. The example program does it.
 # </details>
 #
 # The next table shows what `sysid watch` would say after each test of our simulated robot.
@@ -789,9 +792,11 @@ print(f"The ramp needs up to {slow.final_position / FOOT:.0f} feet, at 0.5 V/s."
 # %% [markdown]
 # But it takes long to find room and carpet, to charge a battery, to fetch the log and to try again.
 #
-# **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and you still have time to use the gains.
+# **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and
+# you still have time to use the gains.
 #
-# Do gains from the shop work at the competition? Only if the robot and the floor stay the same. The next table changes one thing at a time. Which gain changes?
+# Do gains from the shop work at the competition? Only if the robot and the floor stay the same. The
+# next table changes one thing at a time. Which gain changes?
 #
 # <details><summary>For mentors: do the gains transfer to competition?</summary>
 #
