@@ -73,9 +73,7 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
-print(
-    f"kA/kV = {1000 * TAU:.0f} ms: after this time in a step, nearly two thirds of the speed is reached"
-)
+print(f"kA/kV = {1000 * TAU:.0f} ms: a step then has nearly two thirds of its final speed")
 
 # %% [markdown]
 # ## 2 The model: what a good log looks like
@@ -424,7 +422,7 @@ for rate in (50, 100, 250):
 Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
 
 # %% [markdown]
-# Between two equal readings, SysId sees an acceleration of zero. So log as often as the frames
+# Between two equal readings, SysId sees an acceleration of zero. So log as fast as the frames
 # come, or set faster frames for the test. (`sysid fit` finds the repeated readings and leaves them
 # out.)
 
