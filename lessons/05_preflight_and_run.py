@@ -98,8 +98,7 @@ Table(
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# (The formula ignores a small delay: the speed follows the voltage a little later. The simulation
-# includes the delay.)
+# (The formula ignores a small delay. The simulation includes it.)
 #
 # Then you let go of the button. You need time to react, and the motors still drive during this
 # time. Then the motors brake, if their neutral mode is *Brake* (the neutral mode says what a motor
@@ -188,8 +187,8 @@ Table(
 )
 
 # %% [markdown]
-# After ten feet you have only *some* data, and the robot still needs room to brake. More room
-# allows more speed, and you need speed to measure kV.
+# Ten feet give you only *some* data, and the robot still needs room to brake. More room allows more
+# speed, and you need speed to measure kV.
 #
 # **And on blocks?** If the robot stands on blocks, its wheels hang in the air. The motors only turn
 # the wheels. Suppose that the load on the motors is then a tenth of the robot:
@@ -203,8 +202,7 @@ print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
 # Here kV is almost right (a real robot also has less friction on blocks). But this kA only
-# describes the wheels and the motors. You cannot use it for a robot on the floor. So test on the
-# floor, and compute the room that you need.
+# describes the wheels and the motors. So test on the floor, and compute the room that you need.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
@@ -329,8 +327,7 @@ morning("2 battery", STEP, moment=1.0)
 # First look at *2 battery* in the *step*. The step draws so much current that the battery voltage
 # falls below the dashed line. Then the robot controller turns the motors off to protect itself:
 # this is a *brownout*. The battery recovers, the motors start again, and so on. The robot hardly
-# moves. (A real robot switches on and off more slowly than our simulation.) Then try the other
-# checks.
+# moves. Then try the other checks.
 #
 # If you skip check 3 or 4, the robot drives as always.
 #
@@ -458,8 +455,7 @@ Table(
 # lesson 4, does not compensate.) With a brownout, both columns are wrong, and the commanded one is
 # far worse. So charge the battery, begin with a small step, and log the applied voltage.
 #
-# Require **12.5 V or more at rest**. A battery tester also shows the resistance: require 20 mΩ or
-# less.
+# Require **12.5 V or more at rest**. On a battery tester, require 20 mΩ or less.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
@@ -487,8 +483,7 @@ Table(
 # tests and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable in
 # Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
 # *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables. The **space
-# bar** is the emergency stop: it works even if another window is in front, and you have to reboot
-# the roboRIO afterwards. ([WPILib docs: Driver
+# bar** is the emergency stop; you have to reboot the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Safety code in your own *commands* does not run during a test. Limits *in the motor controller*
@@ -626,8 +621,7 @@ Table(
 # 10. `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
 # 11. `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
 #
-# You may run the four tests in any order. After forward and reverse, the robot is back at its
-# start.
+# You may run the four tests in any order.
 #
 # **Do step 10 before anybody packs up.** To repeat a test takes five minutes now, and an evening
 # tomorrow.

@@ -145,7 +145,7 @@ show_interactive(
 ramp_picture(1.0)
 
 # %% [markdown]
-# The next table shows all four ramps, and compares them with a rule that we explain below:
+# The next table compares all four ramps with a rule that we explain below:
 
 # %%
 timescale = truth["kA"] / truth["kV"]
@@ -178,8 +178,8 @@ Table(
 # section 4 shows how noise bends a line.
 # </details>
 #
-# So this plot is only good for a *first look*. For kS and kA we need all three terms at once. SysId
-# does not use this line either: it fits all four tests together.
+# So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId fits
+# all four tests together, too.
 #
 # <details><summary>For mentors: does SysId read an intercept?</summary>
 #
@@ -310,12 +310,12 @@ Table(
 )
 
 # %% [markdown]
-# kV is very good, but kA is far from the truth. There is no fault in this log. What happened?
+# kV is very good, but kA is far from the truth. This log has no fault. What happened?
 #
 # ### Which side is noisy?
 #
-# Try a small experiment. The truth is y = 2·x. First we add noise to **y**. Then, in a second data
-# set, we add the same noise to **x**. Each time, least squares finds the slope.
+# Try a small experiment. The truth is y = 2·x. We add noise first to **y**, then, in a second data
+# set, to **x**. Least squares finds both slopes.
 #
 # **Predict:**
 
@@ -451,8 +451,8 @@ plot_curves(
 # %% [markdown]
 # ## 5 What SysId does before it fits
 #
-# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps. (Names
-# in italics are settings in SysId's window.)
+# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps (in
+# italics: its settings).
 #
 # 1. **Threshold** (*Velocity Threshold*). SysId drops quasistatic rows that are slower than a
 #    threshold: at standstill, friction holds the robot at any voltage up to kS, so these rows do
@@ -690,8 +690,8 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect, and 0 is no better than guessing the mean every time. (For the velocity we take
-# the two forward tests; SysId takes all four.)
+# So 1 is perfect, and 0 is no better than guessing the mean every time. (We take the two forward
+# tests; SysId takes all four.)
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -728,9 +728,8 @@ print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} with squares, as in the te
 # **Myth check.** "R² must be above 0.9." *Which one?* The *simulated velocity* R² should be above
 # 0.9. The *acceleration* R² "rarely goes above 0.5, even on very good datasets"; do not trust kA if
 # this score is below about 0.2. And the simulated velocity R² is not the textbook's R²: SysId
-# computes 1 − RMSE / (root mean square of v). RMSE, the root mean square error, is the typical
-# error. So SysId's 0.9 is stricter than the textbook's 0.9. From now on, always say which R² you
-# mean.
+# computes 1 − RMSE / (root mean square of v). (RMSE, the root mean square error, is the typical
+# error.) So SysId's 0.9 is stricter than the textbook's. Always say which R² you mean.
 #
 # <details><summary>For mentors: SysId's two R², with sources</summary>
 #
@@ -821,8 +820,8 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # small, or even negative.
 #
 # So if kS is negative, do not look at friction first. Ask: **why is kA too large?** Possible causes
-# are noise, a log of the commanded voltage, a slipping wheel, or a lurch. (For an arm or an
-# elevator, first check the analysis type: lesson 2.)
+# are noise, a log of the commanded voltage, a slipping wheel, or a lurch. (With gravity, first
+# check the analysis type: lesson 2.)
 
 # %% [markdown]
 # ## 9 A filter is not free
@@ -877,7 +876,7 @@ plot_curves(
 #
 # SysId also suggests a feedback gain, kP. A feedback loop compares the measured velocity with the
 # wanted one; kP is the voltage that it adds per unit of velocity error. SysId computes kP from kV,
-# kA and **three settings** that you choose (in italics: their names in SysId's window):
+# kA and **three settings** (in italics: their names in SysId's window):
 #
 # - **q**, the velocity error that you accept (*Max Velocity Error*);
 # - **r**, the volts that the feedback may use for it (*Max Control Effort*);
@@ -965,9 +964,8 @@ for name, q, delay in (
 Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
 # %% [markdown]
-# The gains and the method are the same, but the values of kP are very different. So a suggested kP
-# is only a first guess: tune it on the robot. And if kA is wrong by a factor of two, kP is wrong,
-# too, without any warning.
+# The gains are the same, but the values of kP are very different. So a suggested kP is only a first
+# guess: tune it on the robot. And if kA is wrong, kP is wrong, too, without any warning.
 #
 # <details><summary>Want to know more? Where these numbers come from</summary>
 #

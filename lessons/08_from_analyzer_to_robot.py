@@ -32,7 +32,7 @@
 #
 # A *feedforward* computes the voltage from the motion that you **want**: "for 40 rotations per
 # second I need 5 V". *Feedback* measures the motion that you **get**, and corrects the voltage.
-# Today we simulate both, and make the mistakes on purpose.
+# Today we simulate both, with mistakes.
 
 # %%
 import math
@@ -87,8 +87,8 @@ Table(
 )
 
 # %% [markdown]
-# *One standard error* is the typical error that noise alone causes. On a real robot, effects that
-# are not in the model cause far larger errors (lesson 9). So trust two or three digits.
+# *One standard error* is the typical error from noise alone. On a real robot, effects that are not
+# in the model cause larger errors (lesson 9). So trust two or three digits.
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
@@ -201,8 +201,8 @@ print(guess_season.reveal("the package and a method's name"))
 # > **Try it:** an elevator is told to hold still. Somebody learned "kS, kV, kA" and puts kG last.
 # </details>
 #
-# Somebody remembers "kS, kV, kA" and puts kG last. The code asks the elevator to hold still.
-# **Predict:**
+# Somebody remembers "kS, kV, kA" and puts kG last. The code asks the carriage, the moving part of
+# the elevator, to hold still. **Predict:**
 
 # %%
 lift = elevator.gains
@@ -216,8 +216,8 @@ guess_slot = Prediction(
 guess_slot
 
 # %% [markdown]
-# The function `moved` simulates a mechanism, one loop of 20 ms after another. In each loop it asks
-# the function `volts` for a voltage.
+# The function `moved` simulates a mechanism; every 20 ms it asks the function `volts` for a
+# voltage.
 
 
 # %%
@@ -564,8 +564,8 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 
 # %% [markdown]
 # If the measurement is late, the feedback corrects an error that is already gone. Then a large kP
-# makes the error larger, until the speed oscillates (swings up and down).
-# So choose the preset of your motor controller, and use the suggested kP only as a starting point.
+# makes the error larger, until the speed oscillates (swings up and down). So choose the preset of
+# your motor controller, and start from the suggested kP.
 #
 # <details><summary>Want to know more? How late motor controllers are</summary>
 #
@@ -728,14 +728,18 @@ Table(
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` makes the profile itself; you only add the feedforward. Its `calculate`
-# first moves the setpoint one loop ahead, so store the velocity before you call it:
+# `ProfiledPIDController` makes the profile itself; you only add the feedforward.
+#
+# <details><summary>The code in Java</summary>
+#
+# Its `calculate` first moves the setpoint one loop ahead, so store the velocity before you call it:
 #
 # ```java
 # double v = pid.getSetpoint().velocity;
 # double feedback = pid.calculate(measured, goal);
 # setVoltage(ff.calculateWithVelocities(v, pid.getSetpoint().velocity) + feedback);
 # ```
+# </details>
 #
 # **Motion Magic** does all of it inside the motor controller, a thousand times a second, with the
 # gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum.
