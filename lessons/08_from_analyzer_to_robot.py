@@ -673,7 +673,7 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 
 
 moves = {name: rise(gains) for name, gains in SETS.items()}
-moves["reconciled + tube"] = rise(SETS["reconciled"], with_tube=True)
+moves["+ tube"] = rise(SETS["reconciled"], with_tube=True)
 some = next(iter(moves.values()))
 print(guess_move.reveal("about a third"))
 target = Motion("target", position=some.target, velocity=np.gradient(some.target, LOOP), asked=True)
@@ -722,9 +722,9 @@ Table(
 # - **Guessed:** kG and kA are too small, kS is missing.
 # - **Measured:** the worst error is about a third. But kS is nearly zero! The model has no tube, so
 #   the fit put the force of the tube into the gains.
-# - **Reconciled:** kS is right again. But the tube still pulls. So add **one more term**, the volts
-#   that balance the tube: `+ kTubeRate * position + kTubePreload`. Then the worst error is only two
-#   millimeters.
+# - **Reconciled:** kS is right again. But the tube still pulls. So add **one more term** ("+
+#   tube"), the volts that balance the tube: `+ kTubeRate * position + kTubePreload`. Then the worst
+#   error is only two millimeters.
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
@@ -780,7 +780,7 @@ on_drum, on_rotor = magic(per_drum), magic(per_rotor)
 Table(
     ("what follows the profile", "kV", "worst error [cm]"),
     (
-        ("your loop, 20 ms", ff.kV, 100 * moves["reconciled + tube"].worst_error),
+        ("your loop, 20 ms", ff.kV, 100 * moves["+ tube"].worst_error),
         ("ProfiledPIDController, 20 ms", ff.kV, 100 * with_pid.worst_error),
         ("Motion Magic, gains per turn of the drum", per_drum["kV"], on_drum.worst_error * 100),
         ("Motion Magic, gains per turn of the rotor", per_rotor["kV"], on_rotor.worst_error * 100),

@@ -61,5 +61,5 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
         figure,
         f"Bars show how far each model is from each log, in times the noise: {told}. A dashed line "
         "marks the noise, 1.",
-        Table(("model", *(f"{log} [times the noise]" for log in logs)), tuple(rows)),
+        Table(("model", *logs), tuple(rows), caption="gap [times the noise]"),
     )

@@ -253,4 +253,6 @@ def _percent(share: float) -> str:
 
 
 def _listed(view: ResidualView) -> str:
-    return ", ".join("none" if np.isnan(m) else f"{m:+.2f}".replace("-", "−") for m in view.mean)
+    return ",\N{NO-BREAK SPACE}".join(
+        "none" if np.isnan(m) else f"{m:+.2f}".replace("-", "−") for m in view.mean
+    )
