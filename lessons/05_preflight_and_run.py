@@ -33,7 +33,7 @@
 #
 # So before the test you decide how far the mechanism may go, and you check that everything is
 # ready. Pilots call this a *pre-flight check*. It takes five minutes. In this lesson you skip one
-# check at a time, on a simulated robot, and see what happens.
+# check at a time and see what happens.
 #
 # ### The four steps
 #
@@ -100,11 +100,11 @@ Table(
 #
 # (The formula ignores a small delay. The simulation includes it.)
 #
-# Then you let go of the button. You need time to react, and the motors still drive during this
-# time. Then the motors brake, if their neutral mode is *Brake* (the neutral mode says what a motor
-# does at 0 V). The wheels can only brake as hard as they grip the carpet. So braking takes at least
-# another `v² / (2·μ·g)` meters, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet,
-# less on a smooth floor).
+# Then you let go of the button. You need time to react, and the motors still drive. Then the motors
+# brake, if their neutral mode is *Brake* (the neutral mode says what a motor does at 0 V). The
+# wheels can only brake as hard as they grip the carpet. So braking takes at least another `v² /
+# (2·μ·g)` meters, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a
+# smooth floor).
 #
 # **Predict:**
 
@@ -327,7 +327,7 @@ morning("2 battery", STEP, moment=1.0)
 # First look at *2 battery* in the *step*. The step draws so much current that the battery voltage
 # falls below the dashed line. Then the robot controller turns the motors off to protect itself:
 # this is a *brownout*. The battery recovers, the motors start again, and so on. The robot hardly
-# moves. Then try the other checks.
+# moves. (A real robot switches more slowly.) Then try the other checks.
 #
 # If you skip check 3 or 4, the robot drives as always.
 #
@@ -483,7 +483,8 @@ Table(
 # tests and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable in
 # Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
 # *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables. The **space
-# bar** is the emergency stop; you have to reboot the roboRIO afterwards. ([WPILib docs: Driver
+# bar** is the emergency stop: it works even if another window is in front, and you have to reboot
+# the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Safety code in your own *commands* does not run during a test. Limits *in the motor controller*
@@ -784,7 +785,7 @@ print(f"The four tests take {seconds:.0f} s, {seconds / (8 * 60):.0%} of eight m
 print(f"The ramp needs up to {slow.final_position / FOOT:.0f} feet, at 0.5 V/s.")
 
 # %% [markdown]
-# But it takes long to find room and carpet, to charge a battery, to fetch the log and to try again.
+# But it takes long to find room, to charge a battery, to fetch the log and to try again.
 #
 # **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and
 # you still have time to use the gains.
@@ -819,7 +820,7 @@ Table(
 # %% [markdown]
 # ## 8 System check
 #
-# Read this list aloud before you press the first button. If one point is missing, it is *no-go*:
+# Read this list aloud before the first test. If one point is missing, it is *no-go*:
 #
 # - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. Tape is on
 #   the floor.

@@ -124,8 +124,8 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
 Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
 
 # %% [markdown]
-# For a Falcon 500 or a Kraken X60, 2.68 is too low. If kV is more than a few percent
-# below the theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
+# For a Falcon 500 or a Kraken X60, 2.68 is too low. If kV is more than a few percent below the
+# theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
 #
 # `sysid fit` can write the constants for you, with their errors as comments. In a terminal:
 #
@@ -456,6 +456,8 @@ Table(
 #
 # <details><summary>Want to know more? When you may leave out kA</summary>
 #
+# WPILib computes the kA term a bit more exactly, with the time constant of the mechanism.
+#
 # WPILib's docs say that you may leave out kA, and AdvantageKit's swerve template calls the drive's
 # kA "unnecessary in most cases". ([WPILib docs: Feedforward Control in
 # WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
@@ -537,8 +539,8 @@ Table(
 
 # %% [markdown]
 # Feedback with kP only acts when there is an error. So it never removes the whole error: about
-# **error ÷ (1 + kP/kV)** remains. This is called *droop*. With a larger kP, less remains. So why
-# not use a very large kP?
+# **error ÷ (1 + kP/kV)** remains. This remaining error is called *droop*. With a larger kP, less
+# remains. So why not use a very large kP?
 
 # %%
 late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms late"}

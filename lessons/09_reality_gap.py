@@ -103,7 +103,7 @@ print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 9
 # Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain
 # with four Kraken X60 and 60 kg, and it does not follow its paths.
 #
-# They recorded **three logs**, and each has one job:
+# The team recorded **three logs**, and each has one job:
 #
 # | log | what it is | its job |
 # |---|---|---|
@@ -276,9 +276,10 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # large, something is missing in the model. *Where* the residual is large shows you *what* is
 # missing.
 #
-# We convert it into a **voltage residual**: the volts that you would have to add to the simulation
-# so that it moves like the robot. Below zero, the robot moves as if it got too few volts: volts are
-# *missing*. Above zero, it moves as if it got too many. We plot the voltage residual in four ways:
+# We convert the residual into a **voltage residual**: the volts that you would have to add to the
+# simulation so that it moves like the robot. Below zero, the robot moves as if it got too few
+# volts: volts are *missing*. Above zero, it moves as if it got too many. We plot the voltage
+# residual in four ways:
 #
 # | plotted over | an effect that you see there |
 # |---|---|
@@ -682,7 +683,7 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # | verdict | what it means | what you do |
 # |---|---|---|
 # | nothing-missing | the gains alone explain the log | nothing |
-# | explained | it names effects, and other runs confirm them | look at that part of the robot |
+# | explained | the named effects explain the log and other runs | look at that part of the robot |
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
 # | unexplained | a gap remains that no known effect explains | look at the robot |
 #
@@ -705,8 +706,9 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # The first line looks for damage in the log (lesson 6). `gap.html` contains every picture of
 # section 7 and works offline. For an arm or an elevator, add `--type arm` or `--type elevator`.
 #
-# The next cell plots the voltage residual of your log of exercise 12. To use another log, replace
-# `mine[0]` by its name. (If the log has no battery voltage, that plot is missing.)
+# The next cell plots the voltage residual of your log of exercise 12. To use another log, write its
+# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, that plot is
+# missing.)
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
@@ -771,7 +773,7 @@ quick
 # </details>
 #
 # **3.** You add "cogging" and the gap of your log falls from 1.3 to 1.1. The gap of the validation
-# rises from 1.4 to 1.6. Keep it?
+# rises from 1.4 to 1.6. Do you keep this effect?
 #
 # <details><summary>Answer</summary>
 #
