@@ -202,7 +202,7 @@ print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
 # Here kV is almost right (a real robot also has less friction on blocks). But this kA only
-# describes the wheels and the motors. So test on the floor, and compute the room that you need.
+# describes the wheels and the motors. So test on the floor, and compute the room.
 
 # %% [markdown]
 # ## 3 Doing it: the runway

@@ -96,9 +96,8 @@ Table(
 # Put the numbers into `Constants.java`, in a class of their own. Write the unit of each number in a
 # comment. Above the numbers, write *when to measure again*.
 #
-# Do not copy somebody else's constants. Here is an example: a drivetrain with TalonFX motors, ratio
-# 8.46, 4 inch wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is 2.68
-# above it?
+# Do not copy somebody else's constants. Example: a drivetrain with TalonFX motors, ratio 8.46, 4
+# inch wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is 2.68 above it?
 #
 # <details><summary>For mentors: the source lesson's constants</summary>
 #
@@ -127,7 +126,7 @@ Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows
 # For a Falcon 500 or a Kraken X60, 2.68 is too low. If kV is more than a few percent below the
 # theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
 #
-# `sysid fit` can write the constants for you, with their errors as comments. In a terminal:
+# `sysid fit` can write the constants, with their errors as comments:
 #
 # ```
 # sysid fit my_log.wpilog --paste java
@@ -249,7 +248,7 @@ def moved(gains: dict[str, float], volts: Volts, *, loops: int, arm: bool = Fals
 
 
 # %% [markdown]
-# At rest, the output of an elevator's feedforward is simply its second argument.
+# At rest, the output of an elevator's feedforward is its second argument.
 
 # %%
 orders = {
@@ -936,8 +935,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # %% [markdown]
 # ## 9 Which mechanisms, and when
 #
-# A test takes time and wears the robot. For each mechanism, ask: **what would be worse with gains
-# that are 5 % off?**
+# A test takes time and wears the robot. Ask: **what would be worse with gains that are 5 % off?**
 #
 # | mechanism | characterize? | because |
 # |---|---|---|
