@@ -229,7 +229,7 @@ def _draw(axes: Axes, view: ResidualView, *, high: float) -> None:
     inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
     inside = inside[:: max(1, -(-inside.size // MOST))]
     axes.plot(
-        view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.6,
+        view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.9,
         label="samples",
     )  # fmt: skip
     middle = 0.5 * (view.edges[:-1] + view.edges[1:])
