@@ -159,8 +159,8 @@ def test_slip_makes_ka_too_large_and_leaves_kv():
     assert gains["kA"] > 1.2 * true["kA"]
 
 
-def test_slip_beside_a_hidden_effect_is_left_out_and_it_is_said():
-    robot = KRAKEN.translation.hide("drag")
+def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
+    robot = KRAKEN.translation.hide("backlash")
 
     (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
 

@@ -43,6 +43,8 @@ HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     "backlash_gap": (),
     "joint_compliance": (),
     "motor_inertia_share": (),
+    # two bodies: [V] of push that the floor passes on from the wheels to the robot
+    "grip_limit": (),
     # a sense: what the sensor says instead of ``seen``, from the motion up to sample ``now``
     "transform_velocity": ("seen", "now", "time", "position", "velocity"),
 }
@@ -88,6 +90,7 @@ class Scale:
         reach: [unit] that a test travels.
         angular: positions are angles.
         bounded: the travel has two ends.
+        type: ``simple``, ``elevator`` or ``arm``.
     """
 
     ks: float
@@ -97,6 +100,7 @@ class Scale:
     reach: float
     angular: bool
     bounded: bool
+    type: str
 
     @property
     def speed(self) -> float:
@@ -172,6 +176,16 @@ class Effect:
         return {ONSET, UNTIL} <= set(self.names)
 
     @property
+    def is_joint(self) -> bool:
+        """Whether it joins a motor to its load by free play or by something soft."""
+        return not {"backlash_gap", "joint_compliance"}.isdisjoint(self.hooks)
+
+    @property
+    def slips(self) -> bool:
+        """Whether what moves can slip on the floor."""
+        return "grip_limit" in self.hooks
+
+    @property
     def neutral(self) -> dict[str, float]:
         """Parameter values at which the effect vanishes."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
@@ -199,3 +213,12 @@ class Effect:
         if "transform_voltage" in self.hooks and not self.order:
             found.append("order is 0; say where on the path from command to motor it stands")
         return found
+
+
+def are_compatible(effects: Iterable[Effect]) -> bool:
+    """Whether one model can hold these effects: it has at most two bodies.
+
+    A joint has a motor and its load, slip has wheels and a robot; both together would be three.
+    """
+    known = tuple(effects)
+    return not (any(one.is_joint for one in known) and any(one.slips for one in known))

@@ -24,6 +24,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import ExcludedInterval
+from sim.physics.engine import load_engine
 from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import judge_damage
@@ -86,6 +87,7 @@ def reconcile(
         >>> story.findings[0].effect
         'velocity-filter'
     """
+    load_engine()  # the first time it is compiled, which is no part of the search
     deadline = time.process_time() + SEARCH * time_limit
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)

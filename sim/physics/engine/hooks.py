@@ -69,6 +69,11 @@ def motor_inertia_share(on: Numbers, p: Numbers) -> float:
     return 0.0
 
 
+def grip_limit(on: Numbers, p: Numbers) -> float:
+    """[V] of push that the floor passes on from the wheels to the robot."""
+    return math.inf
+
+
 def update_memory(
     on: Numbers, p: Numbers, memory: Array, dt: float, u: float, v: float, kv: float
 ) -> None:

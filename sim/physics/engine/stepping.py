@@ -1,7 +1,8 @@
 """The integrator: move a model along a voltage, sample by sample.
 
-One body (``one_body.py``) or a motor and its load (``two_bodies.py``), step by step,
-with what changes on the way, what the sensor sees, and what a measurement corrects.
+One body (``one_body.py``), a motor and its load (``two_bodies.py``) or a robot on wheels that slip
+(``slipping_wheels.py``), step by step, with what changes on the way, what the sensor sees, and what
+a measurement corrects.
 
 Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
 """
@@ -15,6 +16,7 @@ from sim.physics.engine.hooks import (
     Numbers,
     added_inertia,
     command_delay,
+    grip_limit,
     impact,
     motor_inertia_share,
     next_change,
@@ -23,6 +25,7 @@ from sim.physics.engine.hooks import (
 )
 from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bound_travel, step_one_body
 from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_voltage, limit_voltage
+from sim.physics.engine.slipping_wheels import step_slipping_wheels
 from sim.physics.engine.two_bodies import step_two_bodies
 
 POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
@@ -55,7 +58,9 @@ def advance_step(
         bus = bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
         if bus < w[STOP]:  # noticed now, acted on from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
-    if motor_inertia_share(on, p) > 0.0:
+    if grip_limit(on, p) < math.inf:
+        u = step_slipping_wheels(state, c, w, on, p, memory, asked, off, heavy, dt)
+    elif motor_inertia_share(on, p) > 0.0:
         u = step_two_bodies(state, c, w, on, p, memory, ways, asked, off, heavy, dt)
     else:
         u = step_one_body(state, c, w, on, p, memory, asked, off, heavy, dt, plain)
