@@ -232,15 +232,13 @@ def test_positions_are_written_in_the_unit_of_the_log(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("runs", "said"),
+    "runs",
     [
-        pytest.param((), "has no runs", id="no runs"),
-        pytest.param((Run("dynamic-forward", [], [], [], []),), "has no samples", id="empty run"),
+        pytest.param((), id="no runs"),
+        pytest.param((Run("dynamic-forward", [], [], [], []),), id="empty run"),
     ],
 )
-def test_what_rows_cannot_hold_is_not_written(
-    tmp_path: Path, runs: tuple[Run, ...], said: str, reads
-) -> None:
+def test_what_rows_cannot_hold_is_not_written(tmp_path: Path, runs: tuple[Run, ...], reads) -> None:
     with pytest.raises(BadRequest) as refused:
         sim.write(Log(runs), tmp_path / "log.csv")
     reads(refused.value)

@@ -76,27 +76,27 @@ def test_what_cannot_be_meant_is_refused_by_its_name_and_place(tmp_path, old, ne
 
 
 @pytest.mark.parametrize(
-    ("part", "said"),
+    "part",
     [
-        (FAULT.replace("overrun", "overun"), 'name "loop-overun" is unknown. Did you mean "loop-o'),
-        (FAULT + "severity = 3.5", "severity is 3.5. Give a number from 0 to 3, or the two to"),
-        (FAULT + "severity = [2, 1]", "severity is [2, 1]. Give a number from 0 to 3"),
-        (FAULT + "severity = [1, 2, 3]", "severity is [1, 2, 3]. Give a number from 0 to 3"),
-        (FAULT + "severity = [1]", "severity is [1]. Give a number from 0 to 3"),
-        (FAULT + "severity = 0", "severity is 0. Leave the fault out, or give a number above 0."),
-        (FAULT + "severity = inf", "severity is Infinity. Give a number"),
-        (FAULT + "chance = 0", "chance is 0. Give a number above 0, at most 1."),
-        (FAULT + "chance = 1.5", "chance is 1.5. Give a number above 0, at most 1."),
-        (FAULT + "size = 1.0", 'unknown key "size". '),
-        (FAULT + "at = 1.5", "at is 1.5. Give a number from 0 to 1"),  # the timeout is 1 s
-        (FAULT + "at = -1", "at is -1. Give a number from 0 to 1"),
-        (FAULT + 'test = "dynamic"', "test 'dynamic' is not run. Did you mean \"dynamic-"),
-        (FAULT + 'test = "coast-forward"', "test 'coast-forward' is not run. "),
-        (WHOLE + "at = 0.5", "sign-flip spoils a whole test, so at means nothing. Leave out at."),
-        ("[[logs.faults]]\n", "name is missing. Add, for example: name ="),
+        FAULT.replace("overrun", "overun"),
+        FAULT + "severity = 3.5",
+        FAULT + "severity = [2, 1]",
+        FAULT + "severity = [1, 2, 3]",
+        FAULT + "severity = [1]",
+        FAULT + "severity = 0",
+        FAULT + "severity = inf",
+        FAULT + "chance = 0",
+        FAULT + "chance = 1.5",
+        FAULT + "size = 1.0",
+        FAULT + "at = 1.5",  # the timeout is 1 s
+        FAULT + "at = -1",
+        FAULT + 'test = "dynamic"',
+        FAULT + 'test = "coast-forward"',
+        WHOLE + "at = 0.5",
+        "[[logs.faults]]\n",
     ],
 )
-def test_an_impossible_fault_is_refused_before_anything_is_made(tmp_path, part, said, reads):
+def test_an_impossible_fault_is_refused_before_anything_is_made(tmp_path, part, reads):
     reads(refusal(spec(tmp_path, PLAIN + part)))
 
 
