@@ -43,7 +43,7 @@ class _OpenStudent:
     job: GradingJob
     records: dict[str, Record] = field(default_factory=dict)
 
-    def graded(self) -> GradedStudent | None:
+    def results_if_complete(self) -> GradedStudent | None:
         """Their results, once there are all."""
         if len(self.records) < len(self.job.names):
             return None
@@ -108,7 +108,7 @@ def _grade(
             job, name = running.pop(future)
             one = students[job.student]
             one.records[name] = _make_record(future, job, name)
-            if (graded := one.graded()) is not None:
+            if (graded := one.results_if_complete()) is not None:
                 del students[job.student]
                 yield graded
         hand_out()
