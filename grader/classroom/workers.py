@@ -93,14 +93,14 @@ def _grade(
     students = {job.student: _OpenStudent(job) for job, _ in tasks}
     waiting, running = iter(tasks), dict[Future[GradedStudent], Task]()
 
-    def hand_out() -> None:
+    def start_tasks() -> None:
         with interrupts_blocked_for_children():
             while len(running) < AHEAD * workers and (task := next(waiting, None)):
                 job, name = task
                 part = replace(job, names=(name,), files=_select_exercise(job, name))
                 running[pool.schedule(grade_student, args=(part,), timeout=seconds)] = task
 
-    hand_out()
+    start_tasks()
     while running:
         done, _ = wait(running, timeout=LOOK, return_when=FIRST_COMPLETED)
         stop_if_asked()
@@ -111,7 +111,7 @@ def _grade(
             if (graded := one.results_if_complete()) is not None:
                 del students[job.student]
                 yield graded
-        hand_out()
+        start_tasks()
 
 
 def _make_record(future: Future[GradedStudent], job: GradingJob, name: str) -> Record:

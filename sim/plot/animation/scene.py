@@ -26,7 +26,7 @@ class Gain:
     plus: float = 0.0
 
     def at(self, knobs: Mapping[str, float]) -> float:
-        """Its value with the knobs as they stand."""
+        """The gain's value at these knob positions."""
         return self.plus + self.times * knobs[self.knob]
 
 
