@@ -204,12 +204,12 @@ def test_an_answer_is_found_however_it_was_packed(course, tmp_path):
 
 
 @pytest.mark.usefixtures("course")
-def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path, reads):
+def test_a_folder_whose_name_is_no_students_is_said_and_stops_nobody(tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, **{"x" * 100: RIGHT})
 
     assert run_command(["class", str(there)]) == 1
     text = (tmp_path / "in-graded" / "index.html").read_text("utf-8")
-    reads(text)
+    assert "the student&#39;s name has 100 characters" in text
     assert len(list((tmp_path / "in-graded" / "students").iterdir())) == 2
 
 
