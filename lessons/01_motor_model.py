@@ -419,8 +419,8 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 # >
 # > **Source says:** a good first check. More exactly, kV follows from a constant of the motor.
 # > WPILib's `DCMotor` first subtracts the small voltage drop that the free current causes, so its
-# > kV is a little lower. ([WPILib Java docs:
-# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > kV is a little lower. ([WPILib's source:
+# > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
 # > Kraken that needs a paid license. With it, the free speed is different.)
@@ -572,8 +572,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # > **Lesson says:** "kV = 2.68", "GEAR_RATIO = 8.46" and a wheel of "4 in", with TalonFX motors.
 # >
 # > **Source says:** the free speeds of the motors that a TalonFX can be (the table above, which is
-# > WPILib's own). ([WPILib Java docs:
-# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > WPILib's own). ([WPILib's source:
+# > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** which of these motors could have been in that robot?
 # </details>

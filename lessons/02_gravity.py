@@ -163,6 +163,12 @@ print(
 #
 # A **counterweight** on the other end of the rope adds inertia and takes away weight. Then kG/kA is
 # below g. The next cell simulates both.
+#
+# Why a half, and why a quarter? Say the carriage moves at v, so the stage moves at v/2. To lift
+# both, the motor needs the power m·g·v + m₁·g·v/2: that is the weight (m + m₁/2)·g, moved at v.
+# Both together have the kinetic energy m·v²/2 + m₁·(v/2)²/2: that is the mass m + m₁/4, moved at v.
+# A counterweight m₂ moves at v and goes down: weight (m − m₂)·g, inertia m + m₂. (Textbooks call
+# the last one Atwood's machine: Goldstein, *Classical Mechanics*, 3rd edition (2002), section 1.6.)
 # </details>
 
 # %%

@@ -481,9 +481,13 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # >
 # > **Source says:** a backward test right after a forward test "will more or less reset the
 # > mechanism to its original position"
-# > ([Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html)).
+# > ([Creating a Routine, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst)).
 # > SysId's maintainer has called backward tests not required for the fit of an elevator or arm
-# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)).
+# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)). But SysId's window wants
+# > all four: it looks for each of them, and lists those that are missing
+# > ([DataSelector.cpp, at one
+# > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** the last row of section 4's table is forward only. For a *symmetric* drivetrain it
 # > is fine. Now set `lean` to 0 above: do the rows agree?
@@ -577,11 +581,14 @@ Table(
 #    current in a motor to 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and you need time to let go of the button.
 #
-# (For the limit see
-# [CTRE's docs: CurrentLimitsConfigs](https://api.ctr-electronics.com/phoenix6/stable/csharp/api/CTRE.Phoenix6.Configs.CurrentLimitsConfigs.html).)
+# (For the limit see `CurrentLimitsConfigs` in
+# [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/).)
 #
 # And the step must not be too small: SysId computes the acceleration from neighboring speeds, so it
-# is noisy. The first acceleration should be at least ten times that noise.
+# is noisy. ([SysId's source:
+# FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# The first acceleration should be at least ten times that noise. For our robot 2 V is enough and
+# 0.6 V is not: there SysId finds a kA that is far too large.
 
 # %%
 rows = []

@@ -232,6 +232,11 @@ for mass in (60.0, 30.0):
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
 # first loop of the test: write `lambda log: None`. In this course you write the callback.
+#
+# (Read in `commands2/sysid/sysidroutine.py` of
+# [robotpy-commands-v2 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/). CTRE's
+# Python example uses both: [Plumbing & Running SysId, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst).)
 # </details>
 
 # %% [markdown]
@@ -369,7 +374,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # }
 # ```
 #
-# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward.)
+# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward. A stick
+# that you push forward gives a *minus*: negate it in your drive code.
+# [WPILib docs: Coordinate System, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/171e0ea60c03fb59789a30b8fdfca9a299747af9/source/docs/software/basic-programming/coordinate-system.rst))
 #
 # **Commands v3** comes with WPILib 2027, for Java. There the class `extends Mechanism`, and the
 # parts of the same routine have other names: `Config.useDataLog` takes ramp, step and timeout, and
@@ -486,7 +494,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # compile. Test mode is called *utility mode* there. The guard is `RobotModeTriggers.utility()`, or
 # `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. You set a
 # motor's duty cycle with `setThrottle` instead of `set`; `setVoltage` keeps its name.
-# ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
+# ([RobotModeTriggers](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java)
+# and, in C++,
+# [MotorController](https://github.com/wpilibsuite/allwpilib/blob/3738b6f682ce731dd8f7a6306fd708b9ed3ed22f/wpilibc/src/main/native/include/wpi/hardware/motor/MotorController.hpp),
+# each at one commit of the branch)
 #
 # **Myth check.** "A SysId test bypasses all limits." *Only partly.* During a test, your other
 # *commands* do not run, so their safety code does not work. Limits **inside the motor controller**

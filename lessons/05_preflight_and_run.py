@@ -406,7 +406,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # >
 # > **Source says:** motors are disabled below 6.3 V on a roboRIO 1; on a roboRIO 2 the threshold
 # > can be set, and is 6.75 V if you do not. Below 12 V is not yet a brownout.
-# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > ([WPILib docs: Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
 # > **applied** voltage and the **commanded** voltage.
@@ -459,9 +460,11 @@ Table(
 # <details><summary>Want to know why 12.5 V?</summary>
 #
 # The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
-# flat: WPILib's docs call 11.7 to 12.5 V on an idle robot "depleted", and advise against a battery
-# of more than 20 mΩ.
-# ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# flat. WPILib's docs give 12.7 to 13.5 V for a full battery with nothing connected, and say that a
+# battery at 12.5 V on an idle robot "should be swapped and charged". They also advise against a
+# battery of more than 20 mΩ in matches.
+# ([WPILib docs: Robot Battery Basics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
 # ### Encoder

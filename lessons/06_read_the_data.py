@@ -343,7 +343,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Source says:** in a brownout the robot controller disables its outputs until the battery
 # > recovers. So the *applied* voltage drops and recovers. The commanded voltage does not drop,
 # > because the routine does not know about the brownout. ([WPILib docs:
-# > Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** look at both brownouts above in the plot *over time*.
 # </details>

@@ -443,6 +443,8 @@ plot_curves(
 #
 # SysId's source says that least squares "performs best with the noisiest variable as the dependent
 # variable". The dependent variable is the one on the left.
+# ([FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp);
+# why noise in a column shrinks its number: Fuller, *Measurement Error Models* (1987), section 1.1)
 # </details>
 
 # %% [markdown]
@@ -857,8 +859,8 @@ plot_curves(
 # <details><summary>Want to know more? What WPILib's docs say</summary>
 #
 # They warn about this for mechanisms that are light for their motors: the filter may "eat" the
-# acceleration data, and kA tends toward zero. ([Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# acceleration data, and kA tends toward zero. ([Viewing Diagnostics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # </details>
 
 # %% [markdown]

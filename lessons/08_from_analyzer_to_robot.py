@@ -275,13 +275,12 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 #
 # In Java, `calculate(velocity, acceleration)` is deprecated. Use `calculateWithVelocities(velocity,
 # nextVelocity)`: the velocity now and the velocity in the next loop. Python's `calculate` takes two
-# velocities, too. If you pass an acceleration as a velocity, the voltage is wrong. ([WPILib Java
-# docs:
-# SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html);
+# velocities, too. If you pass an acceleration as a velocity, the voltage is wrong. ([WPILib's
+# source: SimpleMotorFeedforward.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.java);
 # some pages of WPILib's docs still show the old call.)
 #
-# kS gets the sign of the *current* velocity. From rest that velocity is zero, so there is no kS in
-# the first loop. The profile below asks for kS at once.
+# kS gets the sign of the *current* velocity (if kA is not 0). From rest that velocity is zero, so
+# there is no kS in the first loop. The profile below asks for kS at once.
 #
 # ### Gains inside the motor controller
 #
@@ -976,8 +975,12 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   > I = mass · r · kA_angular / kA_linear
 #
 #   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
-#   **tank** that is half the trackwidth, r = trackwidth/2; the same page says so. The modules of a
-#   **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
+#   **tank** that is half the trackwidth, r = trackwidth/2. The modules of a **square swerve** stand
+#   in the corners and push across the diagonal: r = trackwidth/√2. Both planners' pages give
+#   trackwidth/2 for every robot.
+#   ([PathPlanner](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
+#   [Choreo](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md),
+#   each at one commit)
 #
 # - **Choreo** computes time-optimal paths from what you tell it about your robot. Here too, a path
 #   is only as good as the drive code that follows it. ([WPILib docs:

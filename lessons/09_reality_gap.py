@@ -612,7 +612,8 @@ plot_curves(
 # Follow the curve of the gentle log to the right: from some point on it is **flat**. A limit that
 # was never reached leaves no trace, so every higher limit is equally good. The data do not contain
 # the answer, and no program can find it. We say: the parameter is *not identifiable* from these
-# data.
+# data. (About experiments that do contain it: Ljung, *System Identification*, 2nd edition (1999),
+# chapter 13.)
 #
 # The curve of the hard log has a sharp minimum at the true value. You do not need a better method;
 # you need **another test.** (On your robot you know the limit, because you set it. Choose the limit
