@@ -23,6 +23,7 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.scope import Definitions, Scope
 from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import STAND_INS
 
 MOST_STEPS = 20  # names followed, one to the next
 MOST_PIECES = 5  # strings joined one into the other
@@ -223,6 +224,23 @@ def methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
     """The methods of a name in a class, or in the classes above it if it has none."""
     places = names.lineage(home) if home.classes else [home]
     return next(filter(None, (_methods_in(place, name, names) for place in places)), [])
+
+
+def implementing_methods(method: Method, names: SymbolTable) -> list[Method]:
+    """What classes of these files do in a method that a class or interface leaves empty.
+
+    What only stands in for hardware, a simulation or the replay of a log, is not among them.
+    """
+    function, scope = method
+    if function.body or not scope.classes or scope.module.language != "java":
+        return []
+    return [
+        one
+        for home in names.implementations(scope.home)
+        if not STAND_INS.search(home.classes[-1].name)
+        for one in _methods_in(home, function.name, names)
+        if one[0].body and len(one[0].parameters) == len(function.parameters)
+    ]
 
 
 def _methods_in(home: Scope, name: str, names: SymbolTable) -> list[Method]:

@@ -38,6 +38,7 @@ MOST_STEPS = 20_000  # expressions looked at in all; a whole subsystem has some 
 DEEPEST = 60  # expressions and statements inside one another
 DECIDES = re.compile(r"(if|elif|while)\b")  # how a statement begins whose first part is a condition
 CONSTANT = re.compile(r"\(?\s*(true|false|0|1)\s*\)?", re.IGNORECASE)
+ARROW = re.compile(r"switch\b[^{]*\{\s*(case\b[^:>]*|default\s*)->")
 LEAVES = re.compile(r"\b(return|break|continue|throw|raise)\b")
 
 
@@ -211,8 +212,10 @@ class StatementInterpreter(ABC):
         before, sure = self.condition, self.sure
         frame.branches += 1
         self.sure = False
-        for number, part in enumerate(node.parts):
+        results = []
+        for number, (part, is_result) in enumerate(_branch_parts(node)):
             value = self.evaluate(part, frame)
+            results += [value] if is_result else []
             text = part.place.text
             decides = number == 0 and DECIDES.match(node.place.text)
             if decides and (value.carries is not False or CONSTANT.fullmatch(text)):
@@ -221,7 +224,7 @@ class StatementInterpreter(ABC):
         self.sure = sure
         if not LEAVES.search(node.place.text):
             self.condition = before
-        return frame.value(node)
+        return join_values(results, at=frame.value(node))
 
     def _loop(self, node: Loop, frame: Frame) -> Value:
         result = []
@@ -275,6 +278,15 @@ class StatementInterpreter(ABC):
         Branch: _branch,
         Loop: _loop,
     }
+
+
+def _branch_parts(node: Branch) -> list[tuple[Node, bool]]:
+    """The parts of a branch, and whether a part is what a ``case … ->`` of a switch comes to."""
+    if not ARROW.match(node.place.text):
+        return [(part, False) for part in node.parts]
+    decides, *blocks = node.parts
+    cases = [case.parts for block in blocks for case in block.parts if case.parts]
+    return [(decides, False), *((part, part is case[-1]) for case in cases for part in case)]
 
 
 def _of_self(node: Node) -> bool:
