@@ -21,7 +21,7 @@ from grader.robotcode.ir import (
     Text,
     iter_nodes,
 )
-from grader.robotcode.scope import Definitions, Scope
+from grader.robotcode.scope import Definitions, Scope, walk
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import STAND_INS
 
@@ -224,6 +224,26 @@ def methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
     """The methods of a name in a class, or in the classes above it if it has none."""
     places = names.lineage(home) if home.classes else [home]
     return next(filter(None, (_methods_in(place, name, names) for place in places)), [])
+
+
+def given_setting(node: Node, scope: Scope, names: SymbolTable) -> str:
+    """The constant that the program gives a setting: ``Voltage`` of ``constants.DriveOutput``.
+
+    A library's object holds it; what the program says is ``withDriveOutput(Type.Voltage)``.
+
+    Returns:
+        The constant's name; empty where there is no such call, or where two of them differ.
+    """
+    if not isinstance(node, Member) or scope.module.language != "java":
+        return ""
+    setter = f"with{node.name}"
+    found = {
+        last_name(resolve(inner.args[0], where, names)[0])
+        for module in names.modules_naming(setter)
+        for inner, where in walk(module.body, Scope(module))
+        if isinstance(inner, Call) and last_name(inner.target) == setter and len(inner.args) == 1
+    }
+    return found.pop() if len(found) == 1 else ""
 
 
 def implementing_methods(method: Method, names: SymbolTable) -> list[Method]:

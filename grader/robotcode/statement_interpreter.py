@@ -29,7 +29,7 @@ from grader.robotcode.ir import (
     Self,
 )
 from grader.robotcode.motors import motor_elements, motor_label
-from grader.robotcode.name_resolution import Method
+from grader.robotcode.name_resolution import Method, given_setting, last_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.transfer_functions import TransferFunctions
@@ -213,7 +213,7 @@ class StatementInterpreter(ABC):
         frame.branches += 1
         self.sure = False
         results = []
-        for number, (part, is_result) in enumerate(_branch_parts(node)):
+        for number, (part, is_result) in enumerate(self._branch_parts(node, frame)):
             value = self.evaluate(part, frame)
             results += [value] if is_result else []
             text = part.place.text
@@ -224,7 +224,21 @@ class StatementInterpreter(ABC):
         self.sure = sure
         if not LEAVES.search(node.place.text):
             self.condition = before
-        return join_values(results, at=frame.value(node))
+        return join_values(results, at=results[0] if len(results) == 1 else frame.value(node))
+
+    def _branch_parts(self, node: Branch, frame: Frame) -> list[tuple[Node, bool]]:
+        """The parts of a branch, and whether a part is what a ``case … ->`` of a switch comes to.
+
+        Of a switch over a setting that the program gives once, only the case of its value counts.
+        """
+        if not ARROW.match(node.place.text):
+            return [(part, False) for part in node.parts]
+        decides, *blocks = node.parts
+        cases = [case.parts for block in blocks for case in block.parts if case.parts]
+        given = given_setting(decides, frame.scope, self.names)
+        meant = [case for case in cases if given in map(last_name, case[:-1])]
+        several = meant if given and len(meant) == 1 else cases
+        return [(decides, False), *((part, part is case[-1]) for case in several for part in case)]
 
     def _loop(self, node: Loop, frame: Frame) -> Value:
         result = []
@@ -278,15 +292,6 @@ class StatementInterpreter(ABC):
         Branch: _branch,
         Loop: _loop,
     }
-
-
-def _branch_parts(node: Branch) -> list[tuple[Node, bool]]:
-    """The parts of a branch, and whether a part is what a ``case … ->`` of a switch comes to."""
-    if not ARROW.match(node.place.text):
-        return [(part, False) for part in node.parts]
-    decides, *blocks = node.parts
-    cases = [case.parts for block in blocks for case in block.parts if case.parts]
-    return [(decides, False), *((part, part is case[-1]) for case in cases for part in case)]
 
 
 def _of_self(node: Node) -> bool:

@@ -109,11 +109,15 @@ class SymbolTable:
             self._below[owner] = ()
             self._below[owner] = tuple(
                 place
-                for module in self._files.naming(owner.name)
+                for module in self.modules_naming(owner.name)
                 for place in self._classes_in(Scope(module))
                 if owner.name in place.classes[-1].bases and home in self._above(place)
             )
         return self._below[owner]
+
+    def modules_naming(self, word: str) -> list[Module]:
+        """The Java files of the program in whose text a word stands."""
+        return self._files.naming(word)
 
     def _classes_in(self, home: Scope) -> Iterator[Scope]:
         """The classes of a file, those inside others among them."""
