@@ -33,7 +33,7 @@
 # moment of inertia, wheel radius, current limit.
 #
 # If you tell a planner that your robot is easier to turn than it is, it plans turns that the wheels
-# cannot do. The robot is late in every curve. So today you measure what the planners ask for.
+# cannot do. Then the robot turns too late. So today you measure what the planners ask for.
 #
 # <details><summary>For mentors: what the planners ask for, with source</summary>
 #
@@ -222,7 +222,7 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
 # The back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius into the code.
-# Spin on carpet: on a hard floor the rubber sinks in less, and you measure another radius.
+# Spin on carpet: on a hard floor the wheel does not sink in, and you measure another radius.
 # AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs: TalonFX
 # Swerve Template, at one commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 
@@ -409,8 +409,8 @@ plot_curves(
 # This is the **slip current**. Set the stator current limit of the drive motors a little below it.
 # (The *stator* current is the current in the motor. CTRE's name is `kSlipCurrent`; its program
 # starts with 120 A.) Then a driver can push the stick as hard as they like, and the wheels keep
-# their grip. Note that the current *falls* when the wheels slip: rubber that slides holds less.
-# Take the largest value before that. ([CTRE docs: current limits, at one
+# their grip on a straight start. Note that the current *falls* when the wheels slip: rubber that
+# slides holds less. Take the largest value before that. ([CTRE docs: current limits, at one
 # commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/f062dd86318acfb997ffd5945601f65d1f2848c1/source/docs/hardware-reference/talonfx/improving-performance-with-current-limits.rst))
 #
 # ### The grip, for "Wheel COF"
@@ -476,9 +476,10 @@ Table(
 # A motor's torque is proportional to its current. So the torque at the slip current is stall torque
 # · slip current / stall current. It is the *most* that makes sense. If your current limit is lower,
 # use the torque at that limit. For the top speed, PathPlanner's page says: drive as fast as you can
-# on a charged battery and read the speed. Without room, use the formula, and compare: the page
-# expects about 85 % of the free speed. Choreo advises about 80 % for its *Motor Speed Limit*, to
-# leave something for corrections.
+# on a charged battery and read the speed. Without room, use the formula. It is an upper limit,
+# because the slow tests do not show what is lost at high speed. The page's own guess is 85 % of the
+# free speed. Choreo advises about 80 % for its *Motor Speed Limit*, to leave something for
+# corrections.
 #
 # <details><summary>For mentors: which current, which torque, with sources</summary>
 #
@@ -607,7 +608,8 @@ Table(
 # 2. **Compare the modules:** `sysid fit straight.wpilog`. Look for the sentence with the modules.
 # 3. **Spin** slowly, five turns or more, on carpet. Write down gyro and motor turns.
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
-#    robot, and nobody in it. Use a small step here, too.
+#    robot, and nobody in it. Use a small step here, too. CTRE's own, π rad/s, is 3.4 V on our
+#    robot, and its wheels slip above 2.4 V. With 2 rad/s they do not.
 # 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
 #    names in your log. Replace V by a `MotorVoltage`, P by the gyro's `Yaw`, and W by its
 #    `AngularVelocityZWorld`:
