@@ -256,7 +256,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
 # > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
 # > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
 # > has the number. Lesson 3 shows what it does to a kS that is read off a line.
@@ -662,7 +662,7 @@ Table(
 # > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
 # > barely get it moving", and gives no bound. See for yourself how much friction this rule allows.
 # > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how large may our drivetrain's kS get at 2 m/s before this rule says *stop*?
 # </details>

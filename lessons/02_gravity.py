@@ -134,7 +134,7 @@ Table(
 # > **Source says:** kV is the voltage "to hold (or "cruise") at a given constant velocity", against
 # > the motor's own back-EMF and friction that grows with speed. There is no mass in it. kA is, and
 # > kG is. ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** change `TIMES` above to 3. Which rows change?
 # </details>

@@ -152,7 +152,7 @@ plot_curves(
 # >
 # > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
 # > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** the dashed line above is constant acceleration. If *your* data look like that, ask
 # > why: a current limit and slipping wheels both hold the acceleration at one value.
@@ -274,7 +274,7 @@ Table(
 # > **Source says:** the ramp makes the voltage of the acceleration *negligible*. SysId itself does
 # > not read an intercept: it fits all runs at once, with a kA term for the ramps, too. ([WPILib
 # > docs: Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -419,7 +419,7 @@ except sim.Refusal as refusal:
 # > **Source says:** in the quasistatic test "the voltage corresponding to acceleration is
 # > negligible". The dynamic test is there "so that the behavior while accelerating can be
 # > determined". Neither test replaces the other. ([WPILib docs: Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines, and the ellipse is a
 # > band.
@@ -560,7 +560,7 @@ Table(
 # > robot's mass does not move. The library's default ramp is 1 V/s. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** in the table, row 0.5: how far does this drivetrain get in 10 s? And how many volts
 # > does it see in 10 feet?

@@ -167,7 +167,7 @@ Table(
 # > be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [CTRE docs: Plumbing & Running
-# > SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
 # > **Try it:** the next cell shows how fast the robot is after 10 feet.
 # </details>
@@ -694,7 +694,7 @@ Table(
 #    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is the applied voltage.
 #
 # CTRE asks you not to convert with other tools, because they may lose signals.
-# ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html),
+# ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
 # Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the

@@ -189,7 +189,7 @@ Table(
 # > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
 # > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
 # > ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -734,7 +734,7 @@ print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} by the textbook's formula (witho
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
 # > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
 # > velocity R²*) should be above 0.9. ([Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
 # > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to. ([SysId's
 # > source:

@@ -108,7 +108,7 @@ Table(
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
 # > that grows with speed. So a measured kV lies *above* what the motor's free speed suggests
 # > (within a percent or two: data sheets are rounded). ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
 # > it.
@@ -311,8 +311,7 @@ print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:
 # own: a *double feedforward*. And use **FOC as in the tests.** FOC is a mode of CTRE's motors that
 # needs a Phoenix Pro license. With the license, `setVoltage` and `VoltageOut` turn it on unless you
 # say otherwise. Gains that were measured with it are wrong without it.
-# ([CTRE API: VelocityVoltage](https://api.ctr-electronics.com/phoenix6/release/java/src-html/com/ctre/phoenix6/controls/VelocityVoltage.html),
-# [CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
+# (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/),
 # [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 
 # %% [markdown]
@@ -770,7 +769,7 @@ Table(
 # last row is the classic mistake: `SensorToMechanismRatio` is set, but the gains are per
 # rotation of the *rotor*. They are too small by the gear ratio. ([WPILib docs:
 # ProfiledPIDController](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/profiled-pidcontroller.html),
-# [CTRE docs: Motion Magic](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/device-specific/talonfx/motion-magic.html))
+# [CTRE docs: Motion Magic](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/e52e9b2f106db9b3322ce72ed4f57f3aa49003eb/source/docs/api-reference/device-specific/talonfx/motion-magic.rst))
 
 # %% [markdown]
 # ## 7 An arm that droops
@@ -845,7 +844,7 @@ Table(
 # >
 # > **Source says:** kA and kG grow with the mass. kV is the motor's back-EMF, seen through gears
 # > and drum; mass is not in it.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell loads our simulated elevator.
 # </details>

@@ -163,7 +163,9 @@ def test_a_fact_has_its_source_beside_it_at_one_version(fact):
 
 
 def test_links_to_source_code_are_pinned():
-    moving = re.compile(r"github\.com/\S+?/(?:blob|tree)/(?:main|master)/")
+    moving = re.compile(
+        r"github\.com/\S+?/(?:blob|tree)/(?:main|master)/|github\.wpilib\.org/\S+/(?:release|development)/"
+    )
     for folder in ("lessons", "exercises", "sim"):
         for path in (ROOT / folder).rglob("*"):
             if path.suffix in {".py", ".md", ".toml"}:
