@@ -632,6 +632,8 @@ Table(
 # ([TalonFX Swerve Template, at one commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 # YAGSL's `SwerveDriveTest` has a drive and an angle routine; the drive routine centers the modules
 # first, and each module logs itself in meters. For the gyro's angle add your own entries.
+# ([SwerveDriveTest.java, at one
+# commit](https://github.com/BroncBotz3481/YAGSL/blob/4bc6978a20dc2a036b3f562bf3c23c46f6da9361/swervelib/SwerveDriveTest.java))
 # </details>
 
 # %% [markdown]
