@@ -394,7 +394,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #
 # ### Battery
 #
-# A charged battery shows 12 V or more at rest. Below 12 V is not yet a brownout: a roboRIO 1
+# A charged battery shows 12.7 V or more at rest. Even 12 V is not yet a brownout: a roboRIO 1
 # disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. What does an
 # empty battery do to kA? The next cell runs the tests with two batteries and two steps. It fits
 # once with the voltage that was **applied** to the motors, and once with the voltage that was
@@ -459,10 +459,12 @@ Table(
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
-# flat. WPILib's docs give 12.7 to 13.5 V for a full battery with nothing connected, and say that a
-# battery at 12.5 V on an idle robot "should be swapped and charged". They also advise against a
-# battery of more than 20 mΩ in matches.
+# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half flat
+# or worse: [a table of voltages, at one
+# commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
+# says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
+# battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
+# swapped and charged". They also advise against a battery of more than 20 mΩ in matches.
 # ([WPILib docs: Robot Battery Basics, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
