@@ -1,12 +1,11 @@
 package frc.robot.subsystems.drive;
 
 import edu.wpi.first.math.geometry.Rotation2d;
-import org.littletonrobotics.junction.Logger;
 
 /** One module, whatever its hardware is. */
 public class Module {
   private final ModuleIO io;
-  private final ModuleIOInputsAutoLogged inputs = new ModuleIOInputsAutoLogged();
+  private final ModuleIO.ModuleIOInputs inputs = new ModuleIO.ModuleIOInputs();
   private final int index;
 
   public Module(ModuleIO io, int index) {
@@ -16,7 +15,6 @@ public class Module {
 
   public void periodic() {
     io.updateInputs(inputs);
-    Logger.processInputs("Drive/Module" + index, inputs);
   }
 
   /** The wheel points to zero while the drive motor gets what the routine asks for. */

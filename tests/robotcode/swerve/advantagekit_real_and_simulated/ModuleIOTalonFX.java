@@ -1,7 +1,6 @@
 package frc.robot.subsystems.drive;
 
 import com.ctre.phoenix6.controls.PositionVoltage;
-import com.ctre.phoenix6.controls.TorqueCurrentFOC;
 import com.ctre.phoenix6.controls.VoltageOut;
 import com.ctre.phoenix6.hardware.TalonFX;
 import com.ctre.phoenix6.swerve.SwerveModuleConstants;
@@ -14,7 +13,6 @@ public abstract class ModuleIOTalonFX implements ModuleIO {
   protected final TalonFX turnTalon;
   private final VoltageOut voltageRequest = new VoltageOut(0);
   private final PositionVoltage positionVoltageRequest = new PositionVoltage(0.0);
-  private final TorqueCurrentFOC torqueCurrentRequest = new TorqueCurrentFOC(0);
 
   protected ModuleIOTalonFX(SwerveModuleConstants<?, ?, ?> constants) {
     this.constants = constants;

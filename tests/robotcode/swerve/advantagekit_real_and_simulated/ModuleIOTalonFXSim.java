@@ -10,6 +10,6 @@ public class ModuleIOTalonFXSim extends ModuleIOTalonFX {
 
   @Override
   public void setDriveOpenLoop(double output) {
-    driveTalon.getSimState().setRawRotorPosition(output);
+    driveTalon.setPosition(output);
   }
 }

@@ -1,17 +1,14 @@
 package frc.robot.subsystems.drive;
 
-import edu.wpi.first.math.geometry.Rotation2d;
-import edu.wpi.first.wpilibj.simulation.DCMotorSim;
-
 /** A module that is only simulated. */
 public class ModuleIOSim implements ModuleIO {
-  private final DCMotorSim driveSim = new DCMotorSim(null, null);
   private double driveAppliedVolts = 0.0;
+  private double driveVelocity = 0.0;
 
   @Override
   public void updateInputs(ModuleIOInputs inputs) {
-    driveSim.setInputVoltage(driveAppliedVolts);
-    driveSim.update(0.02);
+    driveVelocity += 0.1 * (driveAppliedVolts - driveVelocity);
+    inputs.driveVelocityRadPerSec = driveVelocity;
   }
 
   @Override

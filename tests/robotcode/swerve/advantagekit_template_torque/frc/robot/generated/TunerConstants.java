@@ -8,8 +8,8 @@ public class TunerConstants {
   private static final ClosedLoopOutputType kSteerClosedLoopOutput = ClosedLoopOutputType.Voltage;
   private static final ClosedLoopOutputType kDriveClosedLoopOutput = ClosedLoopOutputType.TorqueCurrentFOC;
 
-  private static final SwerveModuleConstantsFactory ConstantCreator =
-      new SwerveModuleConstantsFactory()
+  private static final SwerveModuleConstantsFactory<?, ?, ?> ConstantCreator =
+      new SwerveModuleConstantsFactory<Object, Object, Object>()
           .withSteerMotorClosedLoopOutput(kSteerClosedLoopOutput)
           .withDriveMotorClosedLoopOutput(kDriveClosedLoopOutput);
 }

@@ -1,11 +1,9 @@
 package frc.robot.subsystems.drive;
 
 import edu.wpi.first.math.geometry.Rotation2d;
-import org.littletonrobotics.junction.AutoLog;
 
 /** What a module's hardware can do; a replay uses it as it is and does nothing. */
 public interface ModuleIO {
-  @AutoLog
   public static class ModuleIOInputs {
     public double drivePositionRad = 0.0;
     public double driveVelocityRadPerSec = 0.0;
