@@ -1,12 +1,18 @@
 """The formulas that a learner writes in lesson 10: empty, right, wrong, or broken."""
 
 import math
+import re
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from sim.bench.swerve import SWERVE
 from sim.teaching import swerve_gaps
 from sim.teaching.swerve_gaps import check_formulas
+
+
+LESSON = Path(__file__).resolve().parents[1] / "lessons" / "10_swerve.py"
 
 
 def written(
@@ -54,3 +60,17 @@ def test_the_grip_of_the_bench_follows_from_its_slip_current():
     found = swerve_gaps.compute_grip(torque, SWERVE.ratio, SWERVE.wheel_radius, SWERVE.mass)
 
     assert found == pytest.approx(SWERVE.grip, rel=1e-9)
+
+
+def test_the_solution_that_the_lesson_shows_is_right():
+    text = re.sub(r"^# ?", "", LESSON.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    shown = text.partition("<summary>Solution</summary>")[2]
+    code = re.search(r"```python\n(.*?)```", shown, re.DOTALL)[1]
+    names = {"np": np}
+    exec(code, names)  # noqa: S102 - the lesson's own lines
+
+    mine = check_formulas(
+        radius=names["my_radius"], inertia=names["my_inertia"], grip=names["my_grip"]
+    )
+
+    assert mine.report.count("right.") == 3
