@@ -11,7 +11,6 @@ from sim.bench.swerve import SWERVE
 from sim.teaching import swerve_gaps
 from sim.teaching.swerve_gaps import check_formulas
 
-
 LESSON = Path(__file__).resolve().parents[1] / "lessons" / "10_swerve.py"
 
 
