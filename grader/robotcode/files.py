@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from grader.robotcode.ir import Module
-from grader.robotcode.source import LARGEST, language_of, text_of
+from grader.robotcode.source import LARGEST, detect_language, read_source
 from sim.core.errors import UnreadableFile
 
 MOST_FILES = 200  # neighbours looked at; a robot program has about fifty
@@ -16,7 +16,7 @@ Found = tuple[Module, tuple[str, ...]]  # a file, and the names still to be look
 
 
 class Files:
-    """A file and those it may name.
+    """A source file and those it may import.
 
     Args:
         path: the file in hand.
@@ -53,7 +53,7 @@ class Files:
                 self._found[key] = self._find_python(parts, level, seen_from)
         return self._found[key]
 
-    def naming(self, word: str) -> list[Module]:
+    def find_by_word(self, word: str) -> list[Module]:
         """The Java files of the program whose text has a word, in the order of their paths."""
         paths = sorted(path for several in self._java_files().values() for path in several)
         found = (self._module(path) for path in paths if _has_word(path, word))
@@ -149,8 +149,8 @@ def _walk(top: Path, suffix: str) -> list[Path]:
 
 
 def _parsed(path: Path) -> Module:
-    language = language_of(path)
-    text = text_of(path)
+    language = detect_language(path)
+    text = read_source(path)
     if language == "java":
         from grader.robotcode import java  # noqa: PLC0415 - no tree-sitter for Python
 

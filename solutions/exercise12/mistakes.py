@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value
+from grader.mistake import Mistake, set_answer
 
 ANSWERS = "answers.toml"
 LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)
@@ -33,11 +33,11 @@ def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
 
 
 MISTAKES = (
-    Mistake("no effect named", ANSWERS, put_value("effects", "[]"), "first-effect", "nothing yet"),
+    Mistake("no effect named", ANSWERS, set_answer("effects", "[]"), "first-effect", "nothing yet"),
     Mistake(
         "kA fixes it",
         ANSWERS,
-        put_value("effects", '["kA"]'),
+        set_answer("effects", '["kA"]'),
         "first-effect",
         "hides the missing effect",
     ),
@@ -54,7 +54,7 @@ MISTAKES = (
     Mistake(
         "a word of one's own",
         ANSWERS,
-        put_value("effects", '["air resistance"]'),
+        set_answer("effects", '["air resistance"]'),
         "first-effect",
         "sysid effects lists the names",
     ),
@@ -121,14 +121,14 @@ MISTAKES = (
     Mistake(
         "no gaps written down",
         ANSWERS,
-        put_value("gap_after", '""'),
+        set_answer("gap_after", '""'),
         "held-out",
         "gap_after: nothing",
     ),
     Mistake(
         "a gap below what noise allows",
         ANSWERS,
-        put_value("gap_after", "0.2"),
+        set_answer("gap_after", "0.2"),
         "held-out",
         "not the gap of your model",
     ),

@@ -46,7 +46,7 @@ def parse(text: str, path: Path) -> ir.Module:
         return ir.Module(path, "java", source, (), problems=(find_unmatched(text) or lost,))
     lowering = IrBuilder(source, EXPRESSIONS | DECLARATIONS)
     body = lowering.lower(root)
-    headers = [(child.type, lowering.said(child)) for child in root.children]
+    headers = [(child.type, lowering.source_text(child)) for child in root.children]
     package = next((said for kind, said in headers if kind == "package_declaration"), "")
     return ir.Module(
         path,
@@ -101,7 +101,9 @@ def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[ParseProblem,
         elif tree.is_error and bracket is not None and _around(tree, bracket):
             continue  # what the parser made of it
         elif tree.is_error:
-            found.append(ParseProblem(_misread(lowering.said(tree)), tree.start_point[0] + 1))
+            found.append(
+                ParseProblem(_misread(lowering.source_text(tree)), tree.start_point[0] + 1)
+            )
         elif tree.has_error:
             waiting.extend(reversed(tree.children))
     return tuple(dict.fromkeys(found))
