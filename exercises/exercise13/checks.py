@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import AnswerKey, judge_number
+from grader.answer import AnswerKey, number_check
 from grader.check import check
 from grader.choice_answer import check_choice
 from grader.student_files import Made, write_student_files
@@ -127,22 +127,9 @@ def read(path: Path, *, student: str) -> Answers:
     return Answers({**given, **named}, AnswerKey(variant.asked, scene), variant)
 
 
-@check(points=1)
-def ks(answers: Answers) -> str | None:
-    """The kS of going straight, the voltage that friction takes."""
-    return judge_number("kS", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def kv(answers: Answers) -> str | None:
-    """The kV of going straight, in V·s/m."""
-    return judge_number("kV", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def ka(answers: Answers) -> str | None:
-    """The kA of going straight, in V·s²/m."""
-    return judge_number("kA", answers.given, answers.key, points=1)
+ks = number_check("kS", "The kS of going straight, the voltage that friction takes.", points=1)
+kv = number_check("kV", "The kV of going straight, in V·s/m.", points=1)
+ka = number_check("kA", "The kA of going straight, in V·s²/m.", points=1)
 
 
 @check(points=2)
@@ -158,16 +145,12 @@ def worn(answers: Answers) -> None:
     check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
 
 
-@check(points=2)
-def worn_radius(answers: Answers) -> str | None:
-    """The radius of the worn wheel, from the slow spin."""
-    return judge_number("worn_radius", answers.given, answers.key, points=2)
-
-
-@check(points=1)
-def lever(answers: Answers) -> str | None:
-    """The lever: how far the push of a wheel passes from the middle."""
-    return judge_number("lever", answers.given, answers.key, points=1)
+worn_radius = number_check(
+    "worn_radius", "The radius of the worn wheel, from the slow spin.", points=2
+)
+lever = number_check(
+    "lever", "The lever: how far the push of a wheel passes from the middle.", points=1
+)
 
 
 @check(points=1)
@@ -189,31 +172,12 @@ def rate_unit(answers: Answers) -> None:
     check_choice(answers.given.get("rate_unit"), RATES[1], RATES, why=why, also=also)
 
 
-@check(points=2)
-def ka_turning(answers: Answers) -> str | None:
-    """The kA of turning on the spot, in V·s²/rad."""
-    return judge_number("kA_turning", answers.given, answers.key, points=2)
-
-
-@check(points=2)
-def inertia(answers: Answers) -> str | None:
-    """The moment of inertia."""
-    return judge_number("inertia", answers.given, answers.key, points=2)
-
-
-@check(points=1)
-def slip_current(answers: Answers) -> str | None:
-    """The current of one motor at which the wheels begin to slip."""
-    return judge_number("slip_current", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def top_speed(answers: Answers) -> str | None:
-    """PathPlanner's true max drive speed, at 12 V."""
-    return judge_number("top_speed", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def max_torque(answers: Answers) -> str | None:
-    """Choreo's motor max torque: what one motor gives at the slip current."""
-    return judge_number("max_torque", answers.given, answers.key, points=1)
+ka_turning = number_check("kA_turning", "The kA of turning on the spot, in V·s²/rad.", points=2)
+inertia = number_check("inertia", "The moment of inertia.", points=2)
+slip_current = number_check(
+    "slip_current", "The current of one motor at which the wheels begin to slip.", points=1
+)
+top_speed = number_check("top_speed", "PathPlanner's true max drive speed, at 12 V.", points=1)
+max_torque = number_check(
+    "max_torque", "Choreo's motor max torque: what one motor gives at the slip current.", points=1
+)

@@ -85,7 +85,7 @@ class CallbackInterpreter(StatementInterpreter):
         said = f"`{node.place.text}` calls code that is not in this file or in the files next to it"
         self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
 
-    def call(self, node: Call, frame: Frame) -> Value:
+    def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
         owner = node.target.owner if isinstance(node.target, Member) else None
         receiver = None if owner is None else self.evaluate(owner, frame)

@@ -86,7 +86,7 @@ class StatementInterpreter(ABC):
         self._depth = 0
 
     @abstractmethod
-    def call(self, node: Call, frame: Frame) -> Value:
+    def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call."""
 
     @abstractmethod
@@ -118,7 +118,7 @@ class StatementInterpreter(ABC):
         self._depth += 1
         try:
             if isinstance(node, Call):
-                return self.call(node, frame)
+                return self.evaluate_call(node, frame)
             return self._KINDS.get(type(node), StatementInterpreter._parts)(self, node, frame)
         finally:
             self._depth -= 1
