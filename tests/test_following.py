@@ -73,7 +73,6 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
         ("elevator", {"kG": 5.5}),
         ("elevator", {"kG": 9.0}),
         ("elevator", {"kG": 2.2}),
-        ("elevator", {"kG": 2.2}),
         ("elevator", {"kV": 4.5 / 6.28}),
         ("elevator", {"kV": 0.0, "kS": 0.0}),
         ("elevator", {"kV": -4.5}),
