@@ -24,11 +24,11 @@ def another_module(text: str) -> str:
 MISTAKES = (
     Mistake("nothing for kV", ANSWERS, put_value("kV", '""'), "kv", "nothing yet"),
     Mistake(
-        "velocity in rotations of a wheel's radian",
+        "velocity per minute",
         ANSWERS,
-        scale_numbers(2 * math.pi, "kV", "kA"),
+        scale_numbers(1 / 60, "kV", "kA"),
         "kv",
-        "2π = 6.28",
+        "one minute has 60 seconds",
         "M-UNITS",
     ),
     Mistake(
@@ -45,7 +45,6 @@ MISTAKES = (
         exchange_numbers("kS", "kV"),
         "kv",
         "did you swap them?",
-        "M-ARGORDER",
     ),
     Mistake("another module", ANSWERS, another_module, "worn", "turns more often over the same"),
     Mistake(

@@ -70,7 +70,6 @@ MISTAKES = (
         exchange_numbers("kS", "kV"),
         "kv",
         "did you swap them?",
-        "M-ARGORDER",
     ),
     Mistake(
         "kS where the line through the slow ramp crosses zero",
