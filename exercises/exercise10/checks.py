@@ -18,7 +18,7 @@ from .drawn import draw
 from .handed import check_choices, check_one_place, check_order, feedforward_of, place_of
 from .key import FEED_FORWARD, FULL, PLACES, SLOT0, Variant, near
 from .outcome import outcome
-from .said import judged
+from .said import judged, units_of
 from .slips import constant_slip, feedback_slip, handed_slip
 
 FILES = ("ExampleMechanism.java", "example_mechanism.py")
@@ -212,6 +212,13 @@ def units(code: Code) -> None:
     for one in found:
         verdict = _unit_told(one, code)
         shown = f'"{one.comment[:50]}" next to {one.name}' if one.comment else f"{one.name} alone"
+        if verdict is False and any(units_of(one.comment)):
+            raise WrongAnswer(
+                f"{shown}, line {one.line}",
+                hint=f"That is a unit of something else than {one.name}. Each gain times what it "
+                "is multiplied by gives volts.",
+                misconception="M-UNITS",
+            )
         if verdict is False:
             raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",
