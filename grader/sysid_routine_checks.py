@@ -336,7 +336,7 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         raise WrongAnswer(
             f"line {one.line}: {one.message}",
             hint=f"With this line {stops}, and the robot does not start. "
-            f"Correct {'the name' if one.meant else 'that'}.{more}",
+            f"Correct {'the name' if one.meant else 'it'}.{more}",
             earned=earned,
         )
 

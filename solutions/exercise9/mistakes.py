@@ -4,7 +4,14 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, change_number, exchange_numbers, replace_text, scale_numbers
+from grader.mistake import (
+    Mistake,
+    change_number,
+    exchange_numbers,
+    put_value,
+    replace_text,
+    scale_numbers,
+)
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
@@ -63,6 +70,13 @@ MISTAKES = (
         "kv",
         "Is your velocity in rpm",
         "M-UNITS",
+    ),
+    Mistake(
+        "a calculation",
+        ANSWERS,
+        put_value("kS", '"0.1 + 0.05"'),
+        "ks",
+        "which is a calculation",
     ),
     Mistake(
         "kS and kV swapped",
