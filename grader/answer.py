@@ -24,7 +24,7 @@ FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three sampl
 
 @dataclass(frozen=True)
 class Band:
-    """How near is near enough: a share of the expected value, or a size, whichever is wider.
+    """The tolerance of an answer: a share of the expected value, or a size, whichever is wider.
 
     Args:
         full, partial: share of the expected value, for full and for half credit.
@@ -67,7 +67,7 @@ class AskedNumber:
     unit: str
     band: Band
 
-    def right(self, value: float) -> bool:
+    def is_right(self, value: float) -> bool:
         """Whether a value earns full marks."""
         return abs(value - self.expected) <= self.band.widths(self.expected)[0]
 
@@ -80,7 +80,7 @@ class AskedNumber:
 
 @dataclass(frozen=True)
 class AnswerKey:
-    """The numbers asked for together, and the scene they belong to."""
+    """The numbers asked for together, and the mechanism and tests they belong to."""
 
     asked: Mapping[str, AskedNumber]
     scene: Scene = field(default_factory=Scene)
@@ -180,7 +180,7 @@ def judge_number(
     value = read_answer_number(raw, asked)
     shown = f"{value:.4g} {asked.unit}"
     converted = isinstance(raw, str) and bool((read_number(raw) or (0, ""))[1])
-    if asked.right(value):
+    if asked.is_right(value):
         return f"{raw} is {shown}" if converted and f"{value:.4g}" not in str(raw) else None
     full, partial = asked.band.widths(asked.expected)
     away = abs(value - asked.expected)
@@ -206,7 +206,7 @@ def judge_number(
 def diagnose_number(
     name: str, given: Mapping[str, object], key: AnswerKey
 ) -> tuple[WrongNumber, ...]:
-    """The slips that would explain a wrong number; those another wrong number shares come alone."""
+    """The mistakes that would explain a wrong number; those that another number shares alone."""
     found = _find_wrong_numbers(name, given, key)
     for other in key.asked:
         if other != name and other in given:
@@ -221,15 +221,15 @@ def _find_wrong_numbers(
 ) -> tuple[WrongNumber, ...]:
     value = _read_value(name, given, key)
     asked = key.asked[name]
-    if value is None or asked.right(value):
+    if value is None or asked.is_right(value):
         return ()
     numbers = {other: one.expected for other, one in key.asked.items()}
     found = explain_wrong_number(
-        name, value, right=asked.right, key=numbers, scene=key.scene, unit=asked.unit
+        name, value, right=asked.is_right, key=numbers, scene=key.scene, unit=asked.unit
     )
     for other, one in key.asked.items():
         theirs = _read_value(other, given, key)
-        if other != name and theirs is not None and one.right(value) and asked.right(theirs):
+        if other != name and theirs is not None and one.is_right(value) and asked.is_right(theirs):
             says = f"it would be right for {other}, and your {other} for {name}: did you swap them?"
             found += (WrongNumber("swapped", says),)
     return found

@@ -1,4 +1,4 @@
-"""What an answer would do on the robot: in words at once, as a picture when somebody wants it.
+"""What an answer would do on the robot, in words and as a picture.
 
 An exercise's ``checks.py`` may offer it, for answers that are not all right:
 
@@ -48,7 +48,7 @@ class Consequence:
 
 
 def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
-    """What becomes of profiles that mechanisms follow by a learner's feedforward alone.
+    """How mechanisms follow a motion profile with a learner's feedforward alone.
 
     Args:
         followed: at least one.

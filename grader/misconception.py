@@ -64,7 +64,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "The straight line through a slow ramp meets v = 0 above kS: the ramp accelerates the "
         "mechanism all the time, and that takes kA·a in addition.",
         lesson="03_test_design",
-        section="Reading the ramp: the intercept drifts",
+        section="Reading the ramp: is the intercept kS?",
     ),
     "M-KG-EDGE": Misconception(
         "The voltage at which a mechanism just does not fall is not kG: friction helps to hold "

@@ -70,11 +70,11 @@ def scale_numbers(factor: float, *names: str) -> Callable[[str], str]:
 
 
 def exchange_numbers(one: str, other: str) -> Callable[[str], str]:
-    """Make a wrong text by letting two numbers change places."""
+    """Make a wrong text by exchanging two numbers."""
     return change_numbers(lambda right: {one: right[other], other: right[one]})
 
 
-def put_value(name: str, value: str) -> Callable[[str], str]:
+def set_answer(name: str, value: str) -> Callable[[str], str]:
     """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
 
     def make(text: str) -> str:

@@ -37,7 +37,7 @@ Advice = Callable[[float], tuple[str, str]]
 
 
 def give_no_advice(_value: float) -> tuple[str, str]:
-    """For a number that goes wrong in no way worth a name."""
+    """No advice: for a number without a typical mistake."""
     return "", ""
 
 
@@ -65,7 +65,7 @@ class ConfigSetting:
     def compare(
         self, facts: RoutineFacts, got: ConfigQuantity, *, advice: Advice = give_no_advice
     ) -> str | None:
-        """Compare with what the code says.
+        """Compare the setting with the code.
 
         Args:
             facts: the code.
@@ -375,5 +375,5 @@ def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
 
 
 def explain_doubt(what: str, text: str) -> str:
-    """A question instead of a guess."""
+    """A message that asks the learner about code that could not be interpreted."""
     return f"the grader cannot see {what} by reading{f' {text}' if text else ''}"

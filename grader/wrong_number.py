@@ -31,7 +31,7 @@ class WrongNumber:
 
 @dataclass(frozen=True)
 class Lookalike:
-    """What a wrong recipe gives on the learner's own log."""
+    """The number that a wrong method gives on the learner's own log."""
 
     value: float
     slip: WrongNumber

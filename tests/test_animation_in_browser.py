@@ -6,13 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from lab import (
-    BROWSERS,
-    FLAGS,
     LESSONS,
     OFTEN,
     PATIENCE,
     SCREEN,
-    installed_browser,
     run_all,
     serving,
 )
@@ -64,21 +61,6 @@ DRAG = """async ({figure, seconds}) => {
     }
     return (figure.animation.pictures - before) / ((performance.now() - began) / 1000);
 }"""
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """A Chromium without a window."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
-    )
-    found = installed_browser()
-    if found is None:
-        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
-        yield chromium
-        chromium.close()
 
 
 def race(motion=MOTIONS["program"], **more):

@@ -13,7 +13,7 @@ import pytest
 from grader.exercise import Exercise
 from grader.robotcode import read
 from grader.robotcode.binding_facts import Guard
-from grader.robotcode.bindings import bindings_of
+from grader.robotcode.bindings import read_bindings
 from grader.robotcode.facts import Certainty
 from grader.robotcode.vocabulary import CONFIG_DEFAULTS
 
@@ -326,7 +326,7 @@ def test_its_commands_are_bound_and_guarded_like_those_of_v2(tmp_path):
     path = tmp_path / "RobotContainer.java"
     path.write_text(BINDINGS, "utf-8")
 
-    facts = bindings_of(path)
+    facts = read_bindings(path)
     found = graded(EXERCISE5, BINDINGS, tmp_path, name="RobotContainer.java")
 
     assert all(one.guards == (Guard.TEST_MODE,) for one in facts.bindings)

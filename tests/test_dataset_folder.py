@@ -25,7 +25,7 @@ def refused(capsys, *arguments):
     return shown.err
 
 
-def test_what_is_finished_is_kept(tmp_path, capsys):
+def test_what_is_finished_is_kept(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
     folder = make(path)
     before = {one: one.stat().st_ino for one in folder.rglob("*")}
@@ -34,7 +34,7 @@ def test_what_is_finished_is_kept(tmp_path, capsys):
     make(path)
 
     assert {one: one.stat().st_ino for one in folder.rglob("*")} == before
-    assert "8 logs, 8 of them made earlier" in capsys.readouterr().out
+    reads(capsys.readouterr().out)
 
 
 def test_a_file_that_went_missing_is_made_again(tmp_path):
@@ -47,7 +47,7 @@ def test_a_file_that_went_missing_is_made_again(tmp_path):
     assert files(make(path)) == before
 
 
-def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
+def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     path = spec(tmp_path)
     (tmp_path / "data").mkdir()
     (tmp_path / "data" / "log-02.wpilog").write_bytes(b"a robot's own log")
@@ -55,7 +55,7 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
 
     said = refused(capsys, path, "-o", tmp_path / "data")
 
-    assert "log-02.wpilog: there already, and not of this spec and secret. Name another" in said
+    reads(said)
     assert files(tmp_path / "data") == {"log-02.wpilog": b"a robot's own log", "notes.txt": b"mine"}
     assert not (tmp_path / "data.key.json").exists()
     made = files(make(path, "data", "--overwrite"))
@@ -70,41 +70,41 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
         pytest.param(PLAIN.replace("3.0", "3.1"), id="step"),
     ],
 )
-def test_files_of_another_spec_are_foreign(tmp_path, capsys, other):
+def test_files_of_another_spec_are_foreign(tmp_path, capsys, other, reads):
     before = files(make(spec(tmp_path)))
 
     said = refused(capsys, spec(tmp_path, other), "-o", tmp_path / "data")
 
-    assert "ame another folder with -o" in said
+    reads(said)
     assert files(tmp_path / "data") == before
 
 
-def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path):
+def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
     shelf = DatasetFolder(tmp_path / "data", mine=())
     shelf.write_files({"log-01.csv": b"ours"})
     (tmp_path / "data" / "log-02.csv").write_bytes(b"somebody else's")
 
-    with pytest.raises(BadRequest, match="log-02.csv: has come there meanwhile. Let the other"):
+    with pytest.raises(BadRequest) as refused:
         shelf.write_files({"log-02.csv": b"ours"})
+    reads(refused.value)
 
     assert files(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 
 
-def test_a_changed_file_is_foreign_too(tmp_path, capsys):
+def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
     path = spec(tmp_path)
     (make(path) / "log-01.wpilog").write_bytes(b"changed by a student")
 
-    assert "log-01.wpilog: there already" in refused(capsys, path, "-o", tmp_path / "data")
+    reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys):
+def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys, reads):
     folder = make(spec(tmp_path, DAMAGED))
     fewer = spec(tmp_path, DAMAGED.replace('"ann", ', ""))
 
     said = refused(capsys, fewer, "-o", folder)
 
-    assert "ann/log-01.wpilog, ann/log-01.csv, " in said
-    assert "and 5 more: of this dataset once, and no longer in the spec." in said
+    reads(said)
     assert {log["student"] for log in key(folder)["logs"]} == {"ann", "Bo"}
     make(fewer, "data", "--overwrite")
     assert {log["student"] for log in key(folder)["logs"]} == {"Bo"}
@@ -157,16 +157,14 @@ def test_the_truth_never_lies_among_the_data(tmp_path, monkeypatch, capsys, argu
     assert not (tmp_path / "data").exists()
 
 
-def test_the_secret_never_lies_among_the_data(tmp_path, capsys):
+def test_the_secret_never_lies_among_the_data(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED.replace("class.secret", "data/class.secret"), secret="")
 
-    assert "class.secret: the secret lies in the folder" in refused(
-        capsys, path, "-o", tmp_path / "data"
-    )
+    reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_a_folder_is_needed(tmp_path, capsys):
-    assert "Missing option '-o': a folder for the logs." in refused(capsys, spec(tmp_path))
+def test_a_folder_is_needed(tmp_path, capsys, reads):
+    reads(refused(capsys, spec(tmp_path)))
 
 
 def check(path, folder, capsys):
@@ -201,14 +199,14 @@ def test_every_change_to_the_data_is_noticed(tmp_path, capsys):
     )
 
 
-def test_another_spec_is_noticed(tmp_path, capsys):
+def test_another_spec_is_noticed(tmp_path, capsys, reads):
     folder = make(spec(tmp_path, DAMAGED))
     more = DAMAGED.replace('["ann"', '["zoe", "ann"').replace("1.5]", "1.6]")
 
     code, lines = check(spec(tmp_path, more), folder, capsys)
 
     assert code == 1
-    assert "not made yet: zoe/log-01.wpilog" in lines
+    reads(lines)
     assert sum(line.startswith("of another spec: ann/") for line in lines) == 4  # two logs twice
 
 
@@ -221,26 +219,24 @@ def test_another_spec_is_noticed(tmp_path, capsys):
         pytest.param(lambda logs: logs[0].update(student="Bo"), id="another student"),
     ],
 )
-def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change):
+def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change, reads):
     path = spec(tmp_path, DAMAGED)
     folder = make(path)
     content = key(folder)
     change(content["logs"])
     (tmp_path / "data.key.json").write_text(json.dumps(content), encoding="utf-8")
 
-    assert "data.key.json: the seal of the key is broken" in refused(
-        capsys, path, "-o", folder, "--check"
-    )
-    assert "the seal of the key is broken" in refused(capsys, path, "-o", folder)
+    reads(refused(capsys, path, "-o", folder, "--check"))
+    reads(refused(capsys, path, "-o", folder))
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", "{}", '{"logs": [], "seal": 7}'])
-def test_a_key_that_is_none_is_refused(tmp_path, capsys, content):
+def test_a_key_that_is_none_is_refused(tmp_path, capsys, content, reads):
     path = spec(tmp_path)
     folder = make(path)
     (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
 
-    assert "the seal of the key is broken" in refused(capsys, path, "-o", folder, "--check")
+    reads(refused(capsys, path, "-o", folder, "--check"))
 
 
 def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
@@ -252,22 +248,22 @@ def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
     assert check(path, folder, capsys)[0] == 0
 
 
-def test_another_secret_does_not_open_the_seal(tmp_path, capsys):
+def test_another_secret_does_not_open_the_seal(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
     folder = make(path)
     (tmp_path / "class.secret").write_text(SECRET + "!", encoding="utf-8")
 
-    assert "made with another secret" in refused(capsys, path, "-o", folder, "--check")
+    reads(refused(capsys, path, "-o", folder, "--check"))
     (tmp_path / "class.secret").unlink()
-    assert "made with another secret" in refused(capsys, path, "-o", folder)
+    reads(refused(capsys, path, "-o", folder))
     assert not (tmp_path / "class.secret").exists()  # none is made in place of the lost one
-    assert "there is no such file with a secret" in refused(capsys, path, "-o", folder, "--check")
+    reads(refused(capsys, path, "-o", folder, "--check"))
 
 
-def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys):
+def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys, reads):
     said = refused(capsys, spec(tmp_path), "-o", tmp_path / "data", "--check")
 
-    assert "data.key.json: there is no key. Make the dataset to its end" in said
+    reads(said)
 
 
 def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):

@@ -33,7 +33,7 @@ def test_fifty_students_get_budgets_of_every_kind_whose_sum_is_told_apart_from_e
             slips = (speed + push, speed + push - friction, friction + speed - (push or 1))
 
             assert 0.8 <= abs(asked.expected) < 12  # [V] a battery's
-            assert not any(asked.right(volts) for volts in slips)
+            assert not any(asked.is_right(volts) for volts in slips)
 
 
 def test_a_student_gets_the_same_numbers_every_time_and_nobody_elses():

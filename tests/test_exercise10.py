@@ -11,7 +11,7 @@ from gain_styles import BODY, PYTHON_BODY, PYTHON_STYLES, STYLES
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.robotcode.gain_constants import gain_of, gains_of
+from grader.robotcode.gain_constants import gain_from_name, read_gains
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")
@@ -366,7 +366,7 @@ def test_a_configuration_is_read_as_teams_write_it(tmp_path, language, body, wan
         else f"class C:\n    kS = 1\n    kV = 2\n    kA = 3\n\ndef configure(cfg):\n    {body}\n"
     )
     (tmp_path / name).write_text(text, "utf-8")
-    found = gains_of(tmp_path / name).feedforwards
+    found = read_gains(tmp_path / name).feedforwards
 
     assert [{k: a.value for k, a in one.arguments.items()} for one in found] == (
         [wanted] if wanted else []
@@ -435,7 +435,7 @@ def test_a_constant_that_is_made_of_itself_ends(tmp_path):
         f"class A {{ {rows} Object f = new ArmFeedforward(a, b, c, a + b); }}\n", "utf-8"
     )
 
-    assert gains_of(path).feedforwards[0].arguments["kS"].value is None
+    assert read_gains(path).feedforwards[0].arguments["kS"].value is None
 
 
 def test_constants_may_stand_in_a_file_of_their_own(tmp_path, turret):
@@ -599,7 +599,7 @@ def test_a_loop_with_duty_cycle_is_told_about_its_output(checked):
     ],
 )
 def test_a_name_stands_for_a_gain_or_for_none(name, gain):
-    assert gain_of(name) == gain
+    assert gain_from_name(name) == gain
 
 
 @pytest.mark.parametrize("place", ["", *BOTH])
@@ -612,7 +612,7 @@ def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name, place):
         for broken in (text[: found.start()] + text[found.end() :], text[: found.start()]):
             path.write_text(broken, "utf-8")
 
-            assert gains_of(path).language == ("java" if name == JAVA else "python")
+            assert read_gains(path).language == ("java" if name == JAVA else "python")
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])

@@ -219,7 +219,7 @@ SOLUTIONS = {
 @pytest.fixture
 def only_read(monkeypatch):
     """Runs nothing: a process for each of a hundred files would take long."""
-    monkeypatch.setattr(bench, "installed", lambda: False)
+    monkeypatch.setattr(bench, "is_robotpy_installed", lambda: False)
 
 
 @given(

@@ -122,7 +122,7 @@ def test_whoever_grades_can_leave_running_out(tmp_path, monkeypatch):
 
 
 def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench, "installed", lambda: False)
+    monkeypatch.setattr(bench, "is_robotpy_installed", lambda: False)
     checks = graded(tmp_path, RIGHT)
 
     assert {one.status for one in checks.values()} == {"passed"}
@@ -133,7 +133,7 @@ def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
 
 
 def test_a_vendors_file_is_graded_by_reading_and_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench, "installed", lambda: True)
+    monkeypatch.setattr(bench, "is_robotpy_installed", lambda: True)
     unable = RunFacts(RunOutcome.CANNOT, "it imports phoenix6, which is not here")
     monkeypatch.setattr(bench, "run", lambda *_: unable)
     checks = graded(tmp_path, RIGHT)

@@ -8,7 +8,7 @@ from binding_styles import ARM, FOUR, PLAIN, PYTHON_STYLES, STYLES, SUBSYSTEM, f
 
 from grader.exercise import Exercise
 from grader.robotcode.binding_facts import Hold
-from grader.robotcode.bindings import bindings_of
+from grader.robotcode.bindings import read_bindings
 
 ROOT = Path(__file__).resolve().parents[1]
 EXERCISE = Exercise("exercise5", ROOT / "exercises" / "exercise5")
@@ -21,7 +21,7 @@ def test_four_bindings_in_java_are_read_in_many_styles(style, tmp_path):
     text, guard = STYLES[style]
     path = tmp_path / JAVA
     path.write_text(text, "utf-8")
-    facts = bindings_of(path)
+    facts = read_bindings(path)
 
     assert [(t.kind, t.direction) for one in facts.bindings for t in one.tests] == FOUR
     assert {one.hold for one in facts.bindings} == {Hold.WHILE}
@@ -36,7 +36,7 @@ def test_four_bindings_in_python_are_read_in_many_styles(style, tmp_path):
     body, guard = PYTHON_STYLES[style]
     path = tmp_path / PYTHON
     path.write_text(python(body), "utf-8")
-    facts = bindings_of(path)
+    facts = read_bindings(path)
 
     assert [(t.kind, t.direction) for one in facts.bindings for t in one.tests] == FOUR
     assert len({one.trigger for one in facts.bindings} - {""}) == 4
@@ -251,7 +251,7 @@ def test_no_damage_to_a_file_brings_the_reader_down(tmp_path, name):
     for found in words[1::7]:
         for broken in (text[: found.start()] + text[found.end() :], text[: found.start()]):
             path.write_text(broken + "\n", "utf-8")
-            facts = bindings_of(path)
+            facts = read_bindings(path)
 
             assert facts.language == ("java" if name == JAVA else "python")
 
@@ -271,7 +271,7 @@ def test_code_that_leads_nowhere_ends(tmp_path, text):
     path = tmp_path / JAVA
     path.write_text(text, "utf-8")
 
-    assert bindings_of(path).language == "java"
+    assert read_bindings(path).language == "java"
 
 
 INVERTED = [

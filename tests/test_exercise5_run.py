@@ -31,7 +31,7 @@ def graded(tmp_path, text, **options):
 def test_each_button_runs_its_test_in_test_mode_while_it_is_held(tmp_path):
     path = tmp_path / "robotcontainer.py"
     path.write_text(RIGHT, "utf-8")
-    ran = bench.press(path, "RobotContainer")
+    ran = bench.press_buttons(path, "RobotContainer")
 
     assert ran.outcome is RunOutcome.RAN, ran.said
     assert ran.presses == tuple(  # A, B, X and Y are 1 to 4
@@ -121,14 +121,14 @@ def test_a_chord_starts_nothing_by_one_button_and_is_left_to_reading(tmp_path):
 
 @needs_robot
 def test_what_is_wrong_by_reading_or_only_to_be_read_is_not_run(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench, "press", lambda *_: pytest.fail("it was run"))
+    monkeypatch.setattr(bench, "press_buttons", lambda *_: pytest.fail("it was run"))
 
     assert graded(tmp_path, changed(".whileTrue(", ".onTrue("))["held"].status == "failed"
     assert graded(tmp_path, RIGHT, run=False)["held"].status == "passed"
 
 
 def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench, "installed", lambda: False)
+    monkeypatch.setattr(bench, "is_robotpy_installed", lambda: False)
     checks = graded(tmp_path, RIGHT)
 
     assert {one.status for one in checks.values()} == {"passed"}

@@ -60,7 +60,7 @@ def test_fifty_students_get_five_logs_each_that_the_authored_function_fits():
         for log in logs_of(f"student {number}"):
             found = fit(**log.data)
             for name, asked in log.key.asked.items():
-                assert asked.right(found[name]), f"{number}, {log.recipe.kind}: {name}"
+                assert asked.is_right(found[name]), f"{number}, {log.recipe.kind}: {name}"
 
 
 def test_the_tests_of_a_log_stand_one_after_another_with_pauses_between():
@@ -158,7 +158,7 @@ def test_fifty_students_get_mechanisms_that_can_be_fitted():
     assert {variant.mechanism.name for variant in variants} == set(OWN.module.KINDS)
     for variant in variants:
         for name, asked in variant.asked.items():
-            assert asked.right(variant.fit.gains[name])
+            assert asked.is_right(variant.fit.gains[name])
 
 
 def test_a_student_gets_the_same_mechanism_every_time_and_nobody_elses():
@@ -224,7 +224,7 @@ def test_explaining_the_voltage_is_recognized(copy):
         lookalike = OWN.module.read(
             OWN.folder / "answers.toml", student=student
         ).key.scene.lookalikes["kA"][0]
-        if variant.asked["kA"].right(lookalike.value):
+        if variant.asked["kA"].is_right(lookalike.value):
             continue
         text = f"kA = {lookalike.value}"
         (copy.folder / "answers.toml").write_text(text, "utf-8")

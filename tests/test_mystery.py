@@ -11,7 +11,7 @@ from grader.mystery import (
     HIGHEST,
     MysteryState,
     draw_mystery,
-    find_folder,
+    find_mystery_folder,
     grade_mystery,
     load_state,
 )
@@ -95,7 +95,7 @@ def test_two_effects_in_the_wrong_order_keep_the_points_for_the_names():
 
 
 def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
-    folder = find_folder(course, "ann")
+    folder = find_mystery_folder(course, "ann")
     assert run_command(["mystery", "--student", "ann"]) == 0
     task = capsys.readouterr().out
     state = load_state(folder)
@@ -117,7 +117,7 @@ def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
 
 
 def test_giving_up_shows_the_answer_and_the_next_one_is_easier(course, capsys):
-    folder = find_folder(course, "me")
+    folder = find_mystery_folder(course, "me")
     run_command(["mystery"])
     (folder / "mystery.toml").write_text("number = 7\nlevel = 3\nseed = 5\n", "utf-8")
     mystery = draw_mystery(course, load_state(folder))

@@ -166,12 +166,12 @@ def test_misses_are_squared_and_summed():
 @pytest.mark.parametrize(
     ("label", "headed", "squared"),
     [
-        ("y [V]", "miss [V]", "2.00 V²."),
-        ("y [m/s]", "miss [m/s]", "2.00 (m/s)²."),
-        ("y", "miss", "2.00."),
+        ("y [V]", "error [V]", "2.00 V²."),
+        ("y [m/s]", "error [m/s]", "2.00 (m/s)²."),
+        ("y", "error", "2.00."),
     ],
 )
-def test_misses_have_the_unit_of_what_is_missed(label, headed, squared):
+def test_the_errors_of_a_line_have_its_unit(label, headed, squared):
     picture = plot_misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel=label)
     assert picture.table.header[-1] == headed
     assert picture.alt.endswith(squared)

@@ -61,6 +61,18 @@ def test_a_picture_is_drawn_says_what_it_shows_and_is_the_same_again(name):
     assert [image["alt"] for image in tags.all("img")] == [picture.alt]
 
 
+def test_a_test_has_the_same_color_and_mark_in_every_map():
+    def look(part):
+        left = plot_information_map(
+            part, about(part), names=NAMES, truth=TRUTH, reach=REACH
+        ).figure.axes[0]
+        return {line.get_label(): (line.get_color(), line.get_marker()) for line in left.lines}
+
+    every, alone = look(rows()), look(some("reverse"))
+    assert len(set(every.values())) == 4
+    assert alone == {test: every[test] for test in alone}
+
+
 @pytest.mark.parametrize(
     ("volts", "said"),
     [(1.76, "lower edge"), (2.265, "upper edge"), (2.01, "middle"), (2.1, "inside"),
@@ -92,7 +104,7 @@ def test_an_offset_is_told_as_the_guess_it_is(offset, angle, level):
 def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
     picture = PICTURES["ellipses"]()
     assert "kG [V] changes by −1.00 where kS [V] changes by 1" in picture.alt
-    assert picture.table.rows[0] == ("up", "anything", "anything")
+    assert picture.table.rows[0] == ("up", "unknown", "unknown")
 
 
 def test_the_errors_of_a_whole_log_are_those_of_the_rows():

@@ -6,13 +6,12 @@ import tomllib
 import numpy as np
 import pytest
 from open_page import ask, ask_json, drive_log, served, slipped_log, write_log
-from test_open_in_browser import DESKTOP, PHONE, browser, opened, wait_until
+from test_open_in_browser import DESKTOP, PHONE, opened, wait_until
 
 from sim.cli.open.view import PageView, SpanText
 from sim.inspect.contaminate import contaminate
 
 pytestmark = pytest.mark.browser
-__all__ = ["browser"]
 
 FAULTS = SpanText(
     before='{log} = "', span="WHAT, {test}, {begin} to {end}, WHAT-TO-DO", between=" + ", after='"'

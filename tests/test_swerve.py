@@ -159,8 +159,8 @@ def test_slip_makes_ka_too_large_and_leaves_kv():
     assert gains["kA"] > 1.2 * true["kA"]
 
 
-def test_slip_beside_a_hidden_effect_is_left_out_and_it_is_said():
-    robot = KRAKEN.translation.hide("drag")
+def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
+    robot = KRAKEN.translation.hide("backlash")
 
     (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
 
@@ -182,7 +182,7 @@ def test_below_the_slip_nothing_changes_by_a_digit():
 
 def own_share(drive):
     """[kg·m²] the formula's own answer: rotors and wheels are in both kA."""
-    rotors, lever = drive.wheel_mass, drive.lever
+    rotors, lever = drive.wheel_mass, drive.lever_arm
     return drive.mass * (drive.inertia + rotors * lever**2) / (drive.mass + rotors)
 
 
@@ -200,11 +200,11 @@ def test_two_tests_tell_the_moment_of_inertia(mass, inertia, trackwidth, wheel, 
     )
     step = Routine(ramp=0.5, step=0.9 * slip_voltage(drive.translation))
 
-    found = moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever)
+    found = moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever_arm)
 
     assert found.value == pytest.approx(own_share(drive), rel=0.01)
     assert found.error < 0.02 * found.value
-    assert found.lever_seen == pytest.approx(drive.lever, rel=0.005)
+    assert found.lever_seen == pytest.approx(drive.lever_arm, rel=0.005)
     assert found.doubts == ()
     if 0.03 < drive.wheel_mass / mass < 0.10:
         least, most = found.without_rotors
@@ -216,7 +216,7 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
     light = replace(KRAKEN, wheel_inertia=0.0)
     turning, straight = both(light)
 
-    right = moment_of_inertia(turning, straight, mass=60.0, lever=light.lever)
+    right = moment_of_inertia(turning, straight, mass=60.0, lever=light.lever_arm)
     wrong = moment_of_inertia(turning, straight, mass=60.0, lever=0.3)
 
     assert (right.value, right.doubts) == (pytest.approx(5.0, rel=0.01), ())
@@ -238,7 +238,7 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
 def test_a_wrong_lever_is_named(times, says):
     turning, straight = both(KRAKEN)
 
-    found = moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever * times)
+    found = moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever_arm * times)
 
     assert [doubt.code for doubt in found.doubts] == ["lever"]
     assert says in found.doubts[0].message
@@ -247,7 +247,7 @@ def test_a_wrong_lever_is_named(times, says):
 def test_without_a_lever_the_speeds_tell_it():
     found = moment_of_inertia(*both(KRAKEN), mass=60.0)
 
-    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever, rel=1e-3)
+    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)
     assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
 
 
@@ -331,7 +331,7 @@ TURNED = ("--voltage", VOLTS.format(1), *GYRO)
 def test_the_command_prints_the_moment_of_inertia(logs, capsys):
     code, said, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
-        "--mass", 60, "--lever", KRAKEN.lever,
+        "--mass", 60, "--lever", KRAKEN.lever_arm,
     )  # fmt: skip
 
     assert code == 0
@@ -384,7 +384,7 @@ def test_ctres_own_log_of_going_straight_in_rotations_of_a_motor_will_do(tmp_pat
 
     code, said, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
-        "--lever", KRAKEN.lever,
+        "--lever", KRAKEN.lever_arm,
     )  # fmt: skip
     refused, _, why = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60
@@ -418,7 +418,7 @@ def test_advantagekits_log_of_going_straight_is_read_module_by_module(tmp_path, 
     code, said, _ = run(capsys, "fit", path)
     _, turned, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
-        "--lever", KRAKEN.lever,
+        "--lever", KRAKEN.lever_arm,
     )  # fmt: skip
 
     assert code == 0
@@ -477,7 +477,7 @@ def test_a_slow_spin_tells_the_radius_of_the_wheels(radius, turns, seed):
     spin = record_spin(drive, turns=turns, rng=rng(seed))
     mean = np.mean(list(spin.motor_turns.values()))
 
-    assert spin.turned * drive.lever * drive.ratio / (2 * math.pi * mean) == pytest.approx(
+    assert spin.turned * drive.lever_arm * drive.ratio / (2 * math.pi * mean) == pytest.approx(
         radius, rel=2e-3
     )
 

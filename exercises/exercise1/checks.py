@@ -114,7 +114,7 @@ def backward(answers: Answers) -> None:
 def _voltage(name: str, answers: Answers) -> None:
     asked = answers.variant.asked(name)
     value = read_answer_number(answers.given.get(name), asked)
-    if asked.right(value):
+    if asked.is_right(value):
         return
     found = suspects(value, answers.variant, name)
     codes = {slip.misconception for slips in found for slip in slips}

@@ -61,7 +61,7 @@ def made(variant: Variant) -> dict[str, Made]:
         routine = Routine(ramp=RAMP, step=variant.step, timeout=TIMEOUT)
         rng = np.random.default_rng([variant.seed, 2])
         log = simulate(variant.drive.rotation, routine, rng=rng)
-        write_rotation(log, path, volts_per_rate=variant.volts_per_rate)
+        write_rotation(log, path, volts_per_rate=variant.volts_per_angular_speed)
 
     def push(path: Path) -> None:
         import numpy as np  # noqa: PLC0415 - the same
@@ -262,4 +262,4 @@ def _cause(name: str, answers: Answers) -> str:
     if not abs(value - follows) <= ALIKE * abs(follows):
         return ""
     pairs = zip(sources, theirs, strict=True)
-    return next((one for one, given in pairs if not variant.asked[one].right(given)), "")
+    return next((one for one, given in pairs if not variant.asked[one].is_right(given)), "")

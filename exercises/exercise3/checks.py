@@ -74,7 +74,7 @@ def read(path: Path, *, student: str) -> Answers:
         theirs = turned(read_answer_number(given.get("arm_offset"), variant.offset))
     except WrongAnswer:
         theirs = math.inf
-    key = key_of(variant, offset=theirs if variant.offset.right(theirs) else offset)
+    key = key_of(variant, offset=theirs if variant.offset.is_right(theirs) else offset)
     return Answers({**given, **named}, key, variant)
 
 

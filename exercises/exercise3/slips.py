@@ -136,7 +136,7 @@ def offset_slips(value: float, variant: Variant) -> Iterator[tuple[str, str]]:
         (-90.0 - value, "tan is sine over cosine. Did the two change places?", ""),
     )
     for undone, says, code in slips:
-        if variant.offset.right(turned(undone)):
+        if variant.offset.is_right(turned(undone)):
             yield says, code
     if abs(value) == abs(nearest.reading):
         yield (

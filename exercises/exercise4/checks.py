@@ -86,7 +86,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:  # noqa: ARG001
     if facts.language == "python":
         bench.refuse_tampering(path)
     code = Code(facts)
-    if run and facts.language == "python" and bench.installed() and not _mistaken(code):
+    if run and facts.language == "python" and bench.is_robotpy_installed() and not _mistaken(code):
         return Code(facts, bench.run(path, facts.class_name))
     return code
 
@@ -107,7 +107,7 @@ def routine(code: Code) -> str | None:
             f"no SysIdRoutine in {code.facts.class_name or 'this file'}",
             hint="Make one where the motors are made, and keep it in a field.",
         )
-    if code.facts.language == "java" or not bench.installed():
+    if code.facts.language == "java" or not bench.is_robotpy_installed():
         return READ_ONLY[code.facts.language]
     return noted(code.ran, findings.format_figures)
 

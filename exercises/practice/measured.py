@@ -151,4 +151,4 @@ def noted(name: str, given: Mapping[str, object], measured: Measured) -> float:
         value = read_answer_number(given.get(name.lower()), asked)
     except WrongAnswer:
         return asked.expected
-    return value if asked.right(value) else asked.expected
+    return value if asked.is_right(value) else asked.expected

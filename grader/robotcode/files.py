@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from grader.robotcode.ir import Module
-from grader.robotcode.source import language_of, text_of
+from grader.robotcode.source import detect_language, read_source
 from sim.core.errors import UnreadableFile
 
 MOST_FILES = 200  # neighbours looked at; a robot program has about fifty
@@ -16,7 +16,7 @@ Found = tuple[Module, tuple[str, ...]]  # a file, and the names still to be look
 
 
 class Files:
-    """A file and those it may name.
+    """A source file and those it may import.
 
     Args:
         path: the file in hand.
@@ -135,8 +135,8 @@ def _walk(top: Path, suffix: str) -> list[Path]:
 
 
 def _parsed(path: Path) -> Module:
-    language = language_of(path)
-    text = text_of(path)
+    language = detect_language(path)
+    text = read_source(path)
     if language == "java":
         from grader.robotcode import java  # noqa: PLC0415 - no tree-sitter for Python
 

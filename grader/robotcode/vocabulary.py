@@ -201,7 +201,7 @@ FOLLOWERS = frozenset(
 
 
 def request_output(type_: str) -> Output | None:
-    """What a control request tells a motor; None if it tells nothing: a follower, a brake."""
+    """The output that a control request commands; None for a follower or a brake."""
     if type_ in NEUTRAL | FOLLOWERS:
         return None
     return next((out for form, out in _REQUESTS if form.fullmatch(type_)), Output.UNKNOWN)
@@ -301,7 +301,7 @@ PYTHON_WORDS = frozenset(
 )
 
 
-def other_season(name: str) -> str:
+def find_season_of(name: str) -> str:
     """The season to which a RobotPy name belongs that was renamed: ``2027`` of ``set_voltage``.
 
     Args:

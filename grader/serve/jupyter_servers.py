@@ -90,7 +90,7 @@ class JupyterServers:
         return there if there and there.is_alive() else None
 
     def close(self) -> None:
-        """End them all, and those that still start as soon as they have."""
+        """End all servers, and those that are still starting once they have started."""
         self._closed = True
         for server in tuple(self._servers.values()):
             server.process.terminate()

@@ -29,7 +29,7 @@ HELD = 2  # [samples] for which a position repeats, from where single frames sho
 
 @dataclass(frozen=True)
 class LaunchEvent:
-    """A speed that fell, or waited, while it should have risen.
+    """An interval in which the speed fell or stood still while it should have risen.
 
     Args:
         kind: ``fall`` or ``wait``.

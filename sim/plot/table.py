@@ -91,7 +91,7 @@ def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
 
 
 def to_text(cell: Cell) -> str:
-    """A cell as text: a number with three significant digits, and a true minus sign."""
+    """A cell as text; a number gets three significant digits and a true minus sign."""
     if isinstance(cell, str):
         return cell
     if isinstance(cell, int):

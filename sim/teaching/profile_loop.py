@@ -30,7 +30,7 @@ MASSLESS = 1e-9  # [V·s²/unit] below this kA WPILib takes the next velocity al
 
 @dataclass(frozen=True)
 class Setpoint:
-    """What a profile asks for at one moment.
+    """Target position and velocity at one moment.
 
     Args:
         position: [m or rad].

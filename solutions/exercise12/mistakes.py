@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value
+from grader.mistake import Mistake, set_answer
 
 ANSWERS = "answers.toml"
 LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)
@@ -40,15 +40,15 @@ def gaps_swapped(text: str) -> str:
     )
     if before is None or after is None:
         raise ValueError("the solution has no gaps")
-    return put_value("gap_before", after[1])(put_value("gap_after", before[1])(text))
+    return set_answer("gap_before", after[1])(set_answer("gap_after", before[1])(text))
 
 
 MISTAKES = (
-    Mistake("no effect named", ANSWERS, put_value("effects", "[]"), "first-effect", "nothing yet"),
+    Mistake("no effect named", ANSWERS, set_answer("effects", "[]"), "first-effect", "nothing yet"),
     Mistake(
         "kA fixes it",
         ANSWERS,
-        put_value("effects", '["kA"]'),
+        set_answer("effects", '["kA"]'),
         "first-effect",
         "hides the missing effect",
     ),
@@ -65,7 +65,7 @@ MISTAKES = (
     Mistake(
         "a word of one's own",
         ANSWERS,
-        put_value("effects", '["air resistance"]'),
+        set_answer("effects", '["air resistance"]'),
         "first-effect",
         "sysid effects lists the names",
     ),
@@ -132,7 +132,7 @@ MISTAKES = (
     Mistake(
         "no gaps written down",
         ANSWERS,
-        put_value("gap_after", '""'),
+        set_answer("gap_after", '""'),
         "held-out",
         "gap_after: nothing",
     ),
@@ -146,7 +146,7 @@ MISTAKES = (
     Mistake(
         "a gap below what noise allows",
         ANSWERS,
-        put_value("gap_after", "0.2"),
+        set_answer("gap_after", "0.2"),
         "held-out",
         "not the gap of your model",
     ),

@@ -6,7 +6,7 @@ They change the first log, which has one fault in a part of one test.
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value
+from grader.mistake import Mistake, set_answer
 
 ANSWERS = "answers.toml"
 FIRST = re.compile(
@@ -32,7 +32,7 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
             raise ValueError("the first line of the solution is not what it was")
         parts = found.groupdict()
         parts |= {name: change(parts[name]) for name, change in changes.items()}
-        return put_value("log01", f'"{line.format(**parts)}"')(text)
+        return set_answer("log01", f'"{line.format(**parts)}"')(text)
 
     return make
 
@@ -48,12 +48,12 @@ MISTAKES = (
     Mistake(
         "all sound, as R² is fine",
         ANSWERS,
-        put_value("log01", '"clean"'),
+        set_answer("log01", '"clean"'),
         "log01",
         "Something is wrong here. The R² may",
         "M-R2",
     ),
-    Mistake("nothing", ANSWERS, put_value("log01", '""'), "log01", "nothing yet"),
+    Mistake("nothing", ANSWERS, set_answer("log01", '""'), "log01", "nothing yet"),
     Mistake(
         "what it is taken for",
         ANSWERS,
@@ -96,7 +96,7 @@ MISTAKES = (
     Mistake(
         "a word that is none",
         ANSWERS,
-        put_value("log01", '"sensor broke, rerun"'),
+        set_answer("log01", '"sensor broke, rerun"'),
         "log01",
         "Choose one of: clean, encoder-slip",
     ),

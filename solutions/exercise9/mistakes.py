@@ -8,9 +8,9 @@ from grader.mistake import (
     Mistake,
     change_number,
     exchange_numbers,
-    put_value,
     replace_text,
     scale_numbers,
+    set_answer,
 )
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
@@ -74,7 +74,7 @@ MISTAKES = (
     Mistake(
         "a calculation",
         ANSWERS,
-        put_value("kS", '"0.1 + 0.05"'),
+        set_answer("kS", '"0.1 + 0.05"'),
         "ks",
         "which is a calculation",
     ),

@@ -48,7 +48,7 @@ def parse(text: str, path: Path) -> ir.Module:
         return ir.Module(path, "java", source, (), problems=(find_unmatched(text) or lost,))
     lowering = IrBuilder(source, EXPRESSIONS | DECLARATIONS)
     body = lowering.lower(root)
-    headers = [(child.type, lowering.said(child)) for child in root.children]
+    headers = [(child.type, lowering.source_text(child)) for child in root.children]
     package = next((said for kind, said in headers if kind == "package_declaration"), "")
     return ir.Module(
         path,
@@ -105,7 +105,7 @@ def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[ParseProblem,
         elif tree.is_error:
             row = tree.start_point[0]
             comma = _DECIMAL_COMMA.search(text.split("\n")[row])
-            said = _POINT.format(comma[0]) if comma else _misread(lowering.said(tree))
+            said = _POINT.format(comma[0]) if comma else _misread(lowering.source_text(tree))
             found.append(ParseProblem(said, row + 1))
         elif tree.has_error:
             waiting.extend(reversed(tree.children))

@@ -17,7 +17,7 @@ LISTED = 3  # [files] that a refusal names
 
 @dataclass(frozen=True)
 class FolderSurvey:
-    """What is there already of a plan.
+    """Which files of a planned dataset are in its folder already.
 
     Args:
         kept: the entries of logs that are finished.
@@ -33,7 +33,7 @@ class FolderSurvey:
 
 
 def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> FolderSurvey:
-    """Look at what is there.
+    """Compare a folder with the files of a planned dataset.
 
     Args:
         folder: of the dataset; need not exist.

@@ -136,7 +136,7 @@ def _loss(
         shape[first:last] *= np.hanning(last - first + 2)[1:-1]
     size = float(shape @ shape)
     loss = -float(shape @ anomaly.residual) / size if size > 0.0 else 0.0
-    return (anomaly.explained_share(-loss * shape), loss, first, last)
+    return (anomaly.share_explained_by(-loss * shape), loss, first, last)
 
 
 FAULT = Fault(

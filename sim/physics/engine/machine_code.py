@@ -39,7 +39,7 @@ class ObjectCode:
 
     @classmethod
     def from_bytes(cls, written: bytes) -> "ObjectCode | None":
-        """What was written; None where a byte of it is damaged."""
+        """Read what ``to_bytes`` wrote; None if it is damaged."""
         head, _, content = written.partition(b"\n")
         try:
             says = json.loads(head)
@@ -54,7 +54,7 @@ def _seal(content: bytes) -> str:
 
 
 def identify_machine() -> str:
-    """All that decides whether machine code can be used here."""
+    """Versions of llvmlite, system and processor, for which machine code is valid."""
     triple, processor = llvm.get_process_triple(), llvm.get_host_cpu_name()
     features = llvm.get_host_cpu_features().flatten()
     return f"{llvmlite.__version__}\n{triple}\n{processor}\n{features}"

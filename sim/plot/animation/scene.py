@@ -162,7 +162,7 @@ def follow_target(time: Array, target: Array, gains: Mapping[str, float]) -> Arr
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What happens in one animation.
+    """One scene of an animation: its times, motions and target.
 
     Args:
         time: (n,) [s], rising.
@@ -237,7 +237,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Score:
-    """How far one motion's velocity is from the target: the root mean square, always in sight.
+    """A displayed score: the RMS difference of a motion's velocity from the target.
 
     Args:
         motion: its name.
@@ -252,7 +252,7 @@ class Score:
 
 @dataclass(frozen=True)
 class Rule:
-    """What a plan has to keep; the page says at every move of a knob whether it does.
+    """A condition on a test plan, checked whenever a knob moves.
 
     Args:
         label: what is measured, with its unit.
@@ -273,5 +273,5 @@ class Rule:
 
 
 def find_value(value: float | Gain, knobs: Mapping[str, float]) -> float:
-    """A number, or what a knob makes of it."""
+    """The value of a number or of a gain, at the knobs' positions."""
     return value.at(knobs) if isinstance(value, Gain) else float(value)

@@ -92,7 +92,7 @@ class Side:
 
 
 def sign_of_test(test: str) -> int:
-    """The sign that a test's name promises."""
+    """The sign of the motion that a test's name states: 1 forward, -1 reverse."""
     return 1 if test.endswith("forward") else -1
 
 
