@@ -7,8 +7,9 @@ never the distance, and never the key.
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any, Protocol
 
-from grader.check import WrongAnswer, shorten
+from grader.check import Check, WrongAnswer, check, shorten
 from grader.quantity import NotAUnitError, read_number, read_unit
 from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 
@@ -201,6 +202,41 @@ def judge_number(
         misconception=codes.pop() if len(codes) == 1 else "",
         earned=earned,
     )
+
+
+class NumberAnswers(Protocol):
+    """Answers with numbers, and what they are compared with."""
+
+    @property
+    def given(self) -> Mapping[str, object]:
+        """Name -> the answer as it stands in the file."""
+
+    @property
+    def key(self) -> AnswerKey:
+        """The numbers asked for."""
+
+
+def number_check(
+    name: str,
+    description: str,
+    *,
+    points: float,
+    after: Check[Any] | tuple[Check[Any], ...] = (),
+) -> Check[Any]:
+    """Make a check of one number.
+
+    Args:
+        name: of the number; in lower case it is the check's.
+        description: the line that the learner reads.
+        points: for full marks.
+        after: the check, or checks, that have to pass first.
+    """
+
+    def judge(answers: NumberAnswers) -> str | None:
+        return judge_number(name, answers.given, answers.key, points=points)
+
+    judge.__name__, judge.__doc__ = name.lower(), description
+    return check(points=points, after=after)(judge)
 
 
 def diagnose_number(

@@ -174,6 +174,23 @@ def check_motor_driven(motor: str, calls: Sequence[DriveCall]) -> None:
         raise WrongAnswer(quote_code(call), hint=hint, misconception=misconception)
 
 
+def find_test_commands(facts: RoutineFacts) -> tuple[DriveCall, ...]:
+    """The commands of the drive callback, without those that only hold another axis still.
+
+    While a swerve drive goes straight, a closed loop holds its steering. It never sees the voltage
+    of the test, and its motor is a module's, not one of the subsystem's own.
+    """
+    others = {call.motor for call in facts.drive if call.output is not Output.CLOSED_LOOP}
+    holding = {
+        call.motor
+        for call in facts.drive
+        if call.output is Output.CLOSED_LOOP
+        and call.uses_parameter is False
+        and call.motor not in {*facts.motors, *others}
+    }
+    return tuple(call for call in facts.drive if not others or call.motor not in holding)
+
+
 def check_only_test_drives(facts: RoutineFacts) -> None:
     """Whether nothing but the test moves its motors.
 
@@ -370,8 +387,8 @@ READ = {  # what is said of code that nobody compiled
 
 
 def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
-    """The code in question and its line."""
-    return f"{what.text} in line {what.line}"
+    """The code in question and its line, if it stands in the file in hand."""
+    return f"{what.text} in {f'line {what.line}' if what.line else 'another file'}"
 
 
 def explain_doubt(what: str, text: str) -> str:

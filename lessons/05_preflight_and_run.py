@@ -167,7 +167,7 @@ Table(
 # > be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [CTRE docs: Plumbing & Running
-# > SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
 # > **Try it:** the next cell shows how fast the robot is after 10 feet.
 # </details>
@@ -395,7 +395,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #
 # ### Battery
 #
-# A charged battery shows 12 V or more at rest. Below 12 V is not yet a brownout: a roboRIO 1
+# A charged battery shows 12.7 V or more at rest. Even 12 V is not yet a brownout: a roboRIO 1
 # disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. What does an
 # empty battery do to kA? The next cell runs the tests with two batteries and two steps. It computes
 # kA once from the voltage that was **applied** to the motors, and once from the voltage that the
@@ -407,7 +407,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # >
 # > **Source says:** motors are disabled below 6.3 V on a roboRIO 1; on a roboRIO 2 the threshold
 # > can be set, and is 6.75 V if you do not. Below 12 V is not yet a brownout.
-# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > ([WPILib docs: Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
 # > **applied** voltage and the **commanded** voltage.
@@ -459,10 +460,14 @@ Table(
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
-# flat: WPILib's docs call 11.7 to 12.5 V on an idle robot "depleted", and advise against a battery
-# of more than 20 mΩ.
-# ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half flat
+# or worse: [a table of voltages, at one
+# commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
+# says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
+# battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
+# swapped and charged". They also advise against a battery of more than 20 mΩ in matches.
+# ([WPILib docs: Robot Battery Basics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
 # ### Encoder
@@ -695,7 +700,7 @@ Table(
 #    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is the applied voltage.
 #
 # CTRE asks you not to convert with other tools, because they may lose signals.
-# ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html),
+# ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
 # Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the

@@ -126,7 +126,7 @@ plot_voltage_velocity(sound)
 # > **Source says:** SysId 2026 has no plot of voltage over velocity. It draws velocity over time,
 # > acceleration over velocity, and the time steps. And it has *two* R², which mean different things
 # > (section 5). ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** look where our line meets velocity 0. That is near kS, but not exactly at kS (lesson
 # > 7 explains why).
@@ -163,7 +163,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # >
 # > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
 # > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** in section 3, choose *current limit*. A **constant** acceleration is what that looks
 # > like. It is a warning, not a good sign.
@@ -350,7 +350,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Source says:** in a brownout the robot controller disables its outputs until the battery
 # > recovers. So the *applied* voltage drops and recovers. The commanded voltage does not drop,
 # > because the routine does not know about the brownout. ([WPILib docs:
-# > Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** look at both brownouts above in the plot *over time*.
 # </details>
@@ -455,7 +456,7 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # > tests only, *Window Size* is the median filter, *Test Duration* works on dynamic tests only.
 # > None of them sets the end of a ramp. The threshold removes samples at a stop, **if** the encoder
 # > is quiet at standstill. ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
@@ -570,7 +571,7 @@ Table(
 #
 # The official docs say: "A value north of .9 indicates a good fit" ("north of" means "above").
 # ([WPILib docs: Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 #
 # **Predict:**
 

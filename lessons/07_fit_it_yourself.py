@@ -191,7 +191,7 @@ Table(
 # > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
 # > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
 # > ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -446,6 +446,8 @@ plot_curves(
 #
 # SysId's source says that least squares "performs best with the noisiest variable as the dependent
 # variable". The dependent variable is the one on the left.
+# ([FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp);
+# why noise in a column shrinks its number: Fuller, *Measurement Error Models* (1987), section 1.1)
 # </details>
 
 # %% [markdown]
@@ -738,7 +740,7 @@ print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} with squares, as in the te
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
 # > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
 # > velocity R²*) should be above 0.9. ([Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
 # > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to. ([SysId's
 # > source:
@@ -867,8 +869,8 @@ plot_curves(
 # <details><summary>Want to know more? What WPILib's docs say</summary>
 #
 # They warn about this for mechanisms that are light for their motors: the filter may "eat" the
-# acceleration data, and kA tends toward zero. ([Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# acceleration data, and kA tends toward zero. ([Viewing Diagnostics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # </details>
 
 # %% [markdown]

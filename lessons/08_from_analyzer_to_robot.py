@@ -107,7 +107,7 @@ Table(
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
 # > that grows with speed. So a measured kV lies *above* what the motor's free speed suggests
 # > (within a percent or two: data sheets are rounded). ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
 # > it.
@@ -277,10 +277,11 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 # <details><summary>Want to know more? The old call, and the first loop</summary>
 #
 # In Java, `calculate(velocity, acceleration)` is deprecated (it will be removed); some pages of
-# WPILib's docs still show it. WPILib gives kS the sign of the *current* velocity. At the start this
-# velocity is zero, so there is no kS in the first loop. (The simulation below adds kS at once.)
-# ([WPILib Java docs:
-# SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html))
+# WPILib's docs still show it. WPILib gives kS the sign of the *current* velocity (if kA is not 0).
+# At the start this velocity is zero, so there is no kS in the first loop. (The simulation below
+# adds kS at once.)
+# ([WPILib's source:
+# SimpleMotorFeedforward.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.java))
 # </details>
 #
 # ### Gains inside the motor controller
@@ -316,8 +317,8 @@ print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:
 # Use **FOC as in the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With
 # the license, `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were
 # measured with FOC are wrong without it.
-# ([CTRE API: VelocityVoltage](https://api.ctr-electronics.com/phoenix6/release/java/src-html/com/ctre/phoenix6/controls/VelocityVoltage.html),
-# [CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
+# (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/),
 # [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 # </details>
 
@@ -799,7 +800,7 @@ Table(
 # [WPILib docs:
 # ProfiledPIDController](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/profiled-pidcontroller.html),
 # [CTRE docs: Motion
-# Magic](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/device-specific/talonfx/motion-magic.html)
+# Magic](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/e52e9b2f106db9b3322ce72ed4f57f3aa49003eb/source/docs/api-reference/device-specific/talonfx/motion-magic.rst)
 # </details>
 
 # %% [markdown]
@@ -874,7 +875,7 @@ Table(
 # >
 # > **Source says:** kA and kG grow with the mass. kV is the motor's back-EMF, seen through gears
 # > and drum; mass is not in it.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell loads our simulated elevator.
 # </details>
@@ -1003,8 +1004,12 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   > I = mass · r · kA_angular / kA_linear
 #
 #   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
-#   **tank** that is half the trackwidth, r = trackwidth/2; the same page says so. The modules of a
-#   **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
+#   **tank** that is half the trackwidth, r = trackwidth/2. The modules of a **square swerve** stand
+#   in the corners and push across the diagonal: r = trackwidth/√2. Both planners' pages give
+#   trackwidth/2 for every robot.
+#   ([PathPlanner](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
+#   [Choreo](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md),
+#   each at one commit)
 #
 # - **Choreo** computes time-optimal paths from what you tell it about your robot. Here too, a path
 #   is only as good as the drive code that follows it. ([WPILib docs:

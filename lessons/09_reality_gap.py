@@ -614,6 +614,8 @@ plot_curves(
 # Follow the curve of the gentle log to the right: above about 2 V it is **flat**. The gentle test
 # never reached the limit, so every higher limit is equally good. The data do not contain the
 # answer, and no program can find it. We say: the parameter is *not identifiable* from these data.
+# (About experiments that do contain it: Ljung, *System Identification*, 2nd edition (1999), chapter
+# 13.)
 #
 # The curve of the 6 V step has a clear minimum at the true limit, 3 V. You do not need a better
 # method; you need **another test.** (On your robot you know the limit, because you set it. Choose

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import AnswerKey, judge_number, read_answer_number
+from grader.answer import AnswerKey, judge_number, number_check, read_answer_number
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import Made, write_student_files
@@ -133,22 +133,9 @@ def read(path: Path, *, student: str) -> Answers:
     return Answers({**given, **named}, AnswerKey(variant.asked, scene), variant)
 
 
-@check(points=1)
-def ks(answers: Answers) -> str | None:
-    """The kS of going straight, the voltage that friction takes."""
-    return judge_number("kS", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def kv(answers: Answers) -> str | None:
-    """The kV of going straight, in V·s/m."""
-    return judge_number("kV", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def ka(answers: Answers) -> str | None:
-    """The kA of going straight, in V·s²/m."""
-    return judge_number("kA", answers.given, answers.key, points=1)
+ks = number_check("kS", "The kS of going straight, the voltage that friction takes.", points=1)
+kv = number_check("kV", "The kV of going straight, in V·s/m.", points=1)
+ka = number_check("kA", "The kA of going straight, in V·s²/m.", points=1)
 
 
 @check(points=2)
@@ -164,16 +151,12 @@ def worn(answers: Answers) -> None:
     check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
 
 
-@check(points=2)
-def worn_radius(answers: Answers) -> str | None:
-    """The radius of the worn wheel, from the slow spin."""
-    return judge_number("worn_radius", answers.given, answers.key, points=2)
-
-
-@check(points=1)
-def lever(answers: Answers) -> str | None:
-    """The lever: how far the push of a wheel passes from the middle."""
-    return judge_number("lever", answers.given, answers.key, points=1)
+worn_radius = number_check(
+    "worn_radius", "The radius of the worn wheel, from the slow spin.", points=2
+)
+lever = number_check(
+    "lever", "The lever: how far the push of a wheel passes from the middle.", points=1
+)
 
 
 @check(points=1)
@@ -195,10 +178,7 @@ def rate_unit(answers: Answers) -> None:
     check_choice(answers.given.get("rate_unit"), RATES[1], RATES, why=why, also=also)
 
 
-@check(points=2)
-def ka_turning(answers: Answers) -> str | None:
-    """The kA of turning on the spot, in V·s²/rad."""
-    return judge_number("kA_turning", answers.given, answers.key, points=2)
+ka_turning = number_check("kA_turning", "The kA of turning on the spot, in V·s²/rad.", points=2)
 
 
 @check(points=2)
@@ -207,10 +187,9 @@ def inertia(answers: Answers) -> str | None:
     return _computed("inertia", answers, points=2)
 
 
-@check(points=1)
-def slip_current(answers: Answers) -> str | None:
-    """The current of one motor at which the wheels begin to slip."""
-    return judge_number("slip_current", answers.given, answers.key, points=1)
+slip_current = number_check(
+    "slip_current", "The current of one motor at which the wheels begin to slip.", points=1
+)
 
 
 @check(points=1)

@@ -34,6 +34,7 @@ from grader.sysid_routine_checks import (
     check_spelling,
     check_units,
     explain_doubt,
+    find_test_commands,
     give_no_advice,
 )
 from sim.core.errors import UnreadableFile
@@ -195,8 +196,9 @@ def _undivided(ran: RunFacts) -> bool:
 
 
 def _drive(facts: RoutineFacts) -> str | None:
-    motors = list(dict.fromkeys([*facts.motors, *(call.motor for call in facts.drive)]))
-    _followed(facts, whole={call.motor for call in facts.drive} >= {*motors} > set())
+    commands = find_test_commands(facts)
+    motors = list(dict.fromkeys([*facts.motors, *(call.motor for call in commands)]))
+    _followed(facts, whole={call.motor for call in commands} >= {*motors} > set())
     if not facts.drive:
         raise WrongAnswer(
             "the drive callback moves no motor" if facts.drive_found else "no drive callback",
@@ -205,7 +207,7 @@ def _drive(facts: RoutineFacts) -> str | None:
     wrong: list[WrongAnswer] = []
     for motor in motors:
         try:
-            check_motor_driven(motor, facts.drive)
+            check_motor_driven(motor, commands)
         except WrongAnswer as why:
             wrong.append(why)
     if wrong:
@@ -407,5 +409,5 @@ def _open_loop(facts: RoutineFacts) -> None:
     if not facts.drive:
         raise NotReachedError("checked after the drive callback moves a motor")
     _spelled(facts, lines=_unclear(facts))
-    for call in facts.drive:
+    for call in find_test_commands(facts):
         check_open_loop(call)

@@ -12,24 +12,24 @@ LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILI
 def named(change: Callable[[str], str], lines: str = "") -> Callable[[str], str]:
     """Change the list of names, and add lines with parameters."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = re.search(r"^effects = \[(.*?)\]", text, re.MULTILINE)
         if found is None:
             raise ValueError("the solution names no effects")
         return text.replace(found[0], f"effects = [{change(found[1])}]") + lines
 
-    return make
+    return edit_text
 
 
 def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
     """Change the first parameter."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         if not LINE.search(text):
             raise ValueError("the solution has no parameters")
         return LINE.sub(lambda one: change(one["name"], float(one["value"])), text, count=1)
 
-    return make
+    return edit_text
 
 
 def gaps_swapped(text: str) -> str:

@@ -16,13 +16,13 @@ FACTORY = (
 def without(pattern: str) -> Callable[[str], str]:
     """Make a wrong text by leaving out every line that a pattern finds."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         left = re.sub(rf"^.*(?:{pattern}).*\n", "", text, flags=re.MULTILINE)
         if left == text:
             raise ValueError(f"the solution no longer contains {pattern!r}")
         return left
 
-    return make
+    return edit_text
 
 
 MISTAKES = (

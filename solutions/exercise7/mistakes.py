@@ -26,7 +26,7 @@ OTHER_WAY = {"forward": "reverse", "reverse": "forward"}
 def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
     """Make another line of the first, out of its parts: some of them changed."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = FIRST.search(text)
         if found is None:
             raise ValueError("the first line of the solution is not what it was")
@@ -34,7 +34,7 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
         parts |= {name: change(parts[name]) for name, change in changes.items()}
         return set_answer("log01", f'"{line.format(**parts)}"')(text)
 
-    return make
+    return edit_text
 
 
 def milli(seconds: str) -> str:

@@ -21,10 +21,10 @@ def fitting(code: str) -> Callable[[str], str]:
     """Make a wrong text by putting other lines in the place of the function's answer."""
     lines = "".join(f"    {line}\n" for line in code.strip().splitlines())
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         return re.sub(r" +# --- answer:.*?# --- end\n", lambda _: lines, text, flags=re.DOTALL)
 
-    return make
+    return edit_text
 
 
 LINE_THROUGH_THE_RAMPS = """

@@ -58,7 +58,7 @@ def asked(course: Path) -> tuple[Exercise, ...]:
     return tuple(one for one in list_exercises(course) if one.name[-1].isdigit())
 
 
-def make(students: int, *, course: Path, out: Path, processes: int) -> Mapping[str, int]:
+def make_class(students: int, *, course: Path, out: Path, processes: int) -> Mapping[str, int]:
     """Make a class.
 
     Args:
