@@ -646,7 +646,7 @@ def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind, 
     answers = load("solve.py").solve(OWN.folder, tmp_path)
 
     for mistake in load("mistakes.py").MISTAKES:
-        text = mistake.make(answers[mistake.file])
+        text = mistake.edit_text(answers[mistake.file])
         found = checked(text, student=student, name=mistake.file)[mistake.check]
 
         assert (mistake.name, found.status) == (mistake.name, "failed")
