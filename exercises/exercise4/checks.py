@@ -242,9 +242,7 @@ def _sent_by_log(facts: RoutineFacts) -> int:
         (
             one.line
             for one in facts.unread
-            if "setVoltage(" in one.message
-            and one.line >= facts.log_line
-            and not facts.log_line < facts.drive_line <= one.line
+            if any(f"{motor}.setVoltage(" in one.message for motor in facts.motors)
         ),
         0,
     )
