@@ -59,15 +59,15 @@ def hand_in(course: Path, place: Path, student: str) -> tuple:
     return find_submissions(place, list_exercises(course))
 
 
-def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys):
+def test_in_a_package_one_is_whom_it_was_issued_to(course, capsys, reads):
     issue(course, "Zoë")
 
     assert run_command(["start", "--no-lab"]) == 0
     assert "made for Zoë" in capsys.readouterr().out
     assert load_progress(course)[0].student == "Zoë"
     assert run_command(["exercise1"]) == 2
-    assert "only your instructor can grade" in capsys.readouterr().err
-    assert "only your instructor can grade" in str(submit(1, size=3))
+    reads(capsys.readouterr().err)
+    reads(str(submit(1, size=3)))
 
 
 def test_practice_under_another_name_does_not_change_whose_package_it_is(course, capsys):
@@ -86,27 +86,28 @@ def test_a_package_of_ones_own_is_graded(course, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("owner", "secret", "said"),
+    ("owner", "secret"),
     [
-        ("ben", SECRET, "issued to ben, and ann handed it in"),
-        ("ann", SECRET + b"!", "with another secret, or its class.toml was changed"),
+        ("ben", SECRET),
+        ("ann", SECRET + b"!"),
     ],
 )
-def test_another_students_or_class_package_is_told(course, tmp_path, owner, secret, said):
+def test_another_students_or_class_package_is_told(course, tmp_path, owner, secret, reads):
     issue(course, owner, secret=secret)
     (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=SECRET)
 
-    assert said in one.problem
+    reads(one.problem)
 
 
-def test_a_class_without_its_secret_is_refused(course, tmp_path):
+def test_a_class_without_its_secret_is_refused(course, tmp_path, reads):
     issue(course, "ann")
 
-    with pytest.raises(BadRequest, match="East issued with a secret"):
+    with pytest.raises(BadRequest) as refused:
         check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
+    reads(refused.value)
 
 
-def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_path, capsys):
+def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_path, capsys, reads):
     assert run_command(["start", "--no-lab"]) == 0
     (course / ".course").mkdir(exist_ok=True)
     (course / ".course" / "progress.toml").write_text('student = "me"\n', encoding="utf-8")
@@ -114,7 +115,7 @@ def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_pat
 
     assert (one.problem, one.student, one.numbers_owner) == ("", "ann", "me")
     assert run_command(["class", str(tmp_path / "in")]) == 0
-    assert "worked without a name, and are graded on those numbers: ann" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
 
 
 def test_a_folder_of_data_tells_it_too(course, tmp_path):
@@ -128,12 +129,12 @@ def test_a_folder_of_data_tells_it_too(course, tmp_path):
     assert one.numbers_owner == "me"
 
 
-def test_a_course_started_as_somebody_else_is_told(course, tmp_path):
+def test_a_course_started_as_somebody_else_is_told(course, tmp_path, reads):
     (course / ".course").mkdir()
     (course / ".course" / "progress.toml").write_text('student = "ben"\n', encoding="utf-8")
     (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
 
-    assert "started as ben, and ann handed it in" in one.problem
+    reads(one.problem)
 
 
 @pytest.mark.parametrize("issued", [True, False])

@@ -286,20 +286,21 @@ def test_sysids_own_entries_in_a_csv_need_no_guess(tmp_path, layout):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    "text",
     [
-        ("Timestamp,Name,Value\n", "a header without rows"),
-        ("Timestamp,Name,Value\nsoon,a,1\n", "the time is 'soon'"),
-        ("Timestamp,Name,Value\n1.0,a\n", "the row has 2 cells"),
-        ("Timestamp,a,b\n1.0,2.0,\n", "no entry names tests"),
+        "Timestamp,Name,Value\n",
+        "Timestamp,Name,Value\nsoon,a,1\n",
+        "Timestamp,Name,Value\n1.0,a\n",
+        "Timestamp,a,b\n1.0,2.0,\n",
     ],
 )
-def test_an_export_that_cannot_be_read_says_where(tmp_path, text, said):
+def test_an_export_that_cannot_be_read_says_where(tmp_path, text, reads):
     path = tmp_path / "log.csv"
     path.write_text(text, encoding="utf-8")
 
-    with pytest.raises(Refusal, match=said):
+    with pytest.raises(Refusal) as refused:
         sim.read(path)
+    reads(refused.value)
 
 
 def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
@@ -320,11 +321,11 @@ def test_the_command_lists_entries_and_what_they_seem_to_be(tmp_path, capsys):
     assert capsys.readouterr().out.startswith("5 entries:\nstate ")
 
 
-def test_a_log_without_entries_says_so(tmp_path, capsys):
+def test_a_log_without_entries_says_so(tmp_path, capsys, reads):
     sim.write(recorded(), tmp_path / "a.csv")
 
     assert run_command(sysid, name="sysid", arguments=["entries", str(tmp_path / "a.csv")]) == 2
-    assert "its columns are signals" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
 
 
 @pytest.mark.parametrize(
@@ -346,7 +347,7 @@ def test_tests_are_known_in_any_spelling(tmp_path, spelling):
     assert [run.test for run in read.runs] == ["quasistatic-forward"]
 
 
-def test_a_sentence_that_speaks_of_a_test_names_none(tmp_path):
+def test_a_sentence_that_speaks_of_a_test_names_none(tmp_path, reads):
     logger = Logger()
     logger.start("messages", "string")
     logger.put("messages", 10, "starting quasistatic forward in the pit")
@@ -354,8 +355,9 @@ def test_a_sentence_that_speaks_of_a_test_names_none(tmp_path):
         logger.start(name, "double")
         logger.put(name, 20, 1.0)
 
-    with pytest.raises(MissingSignal, match="no entry names tests"):
+    with pytest.raises(MissingSignal) as refused:
         sim.read(logger.save(tmp_path / "a.wpilog"))
+    reads(refused.value)
 
 
 def test_whole_numbers_and_units_in_brackets(tmp_path):
@@ -408,13 +410,13 @@ def one_after_another(path, *, states):
 
 
 @pytest.mark.parametrize(
-    ("states", "listed"),
+    "states",
     [
-        (("Roof-State", "Mouth-State"), "1 'Roof', 2 'Mouth'"),
-        (("Mode", "Mode"), "1 'Phoenix6/TalonFX-0', 2 'Phoenix6/TalonFX-1'"),
+        ("Roof-State", "Mouth-State"),
+        ("Mode", "Mode"),
     ],
 )
-def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, states, listed):
+def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, states, reads):
     path = one_after_another(tmp_path / "a.wpilog", states=states)
 
     def ran(*more):
@@ -423,7 +425,7 @@ def test_several_mechanisms_are_a_numbered_list_to_pick_from(tmp_path, capsys, s
 
     code, said = ran()
     assert code == 2
-    assert listed in said.err
+    reads(said.err)
     assert "--pick 1 to --pick 2" in said.err
     for number, mechanism in enumerate(("shooter", "intake"), start=1):
         code, said = ran("--pick", str(number))
@@ -492,9 +494,9 @@ def test_a_velocity_that_is_wrong_or_missing(tmp_path, capsys, spoiled, asked, r
 
 
 @pytest.mark.parametrize("scale", ["0", "nan", "inf"])
-def test_a_scale_that_is_none_is_refused(tmp_path, capsys, scale):
+def test_a_scale_that_is_none_is_refused(tmp_path, capsys, scale, reads):
     sim.write(recorded(), tmp_path / "a.csv")
     arguments = ["fit", str(tmp_path / "a.csv"), "--velocity-scale", scale]
 
     assert run_command(sysid, name="sysid", arguments=arguments) == 2
-    assert "not a finite number other than zero" in capsys.readouterr().err
+    reads(capsys.readouterr().err)

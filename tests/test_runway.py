@@ -84,14 +84,16 @@ def test_a_tired_battery_browns_out_in_a_step_and_not_in_a_ramp():
 
 
 @pytest.mark.parametrize("wrong", [{"wall": 0.0}, {"wall": 9.0, "tape": -1.0}], ids=str)
-def test_a_length_that_is_none_is_refused(wrong):
-    with pytest.raises(BadRequest, match="Choose a number above zero"):
+def test_a_length_that_is_none_is_refused(wrong, reads):
+    with pytest.raises(BadRequest) as refused:
         Floor(**wrong)
+    reads(refused.value)
 
 
-def test_a_reverse_test_is_refused():
-    with pytest.raises(BadRequest, match="Choose one of: quasistatic-forward, dynamic-forward"):
+def test_a_reverse_test_is_refused(reads):
+    with pytest.raises(BadRequest) as refused:
         gone("dynamic-reverse", wall=9.0)
+    reads(refused.value)
 
 
 def test_the_picture_says_what_it_shows():
@@ -119,13 +121,12 @@ def test_the_brownout_line_is_named_with_its_volts_and_not_covered():
     assert words.xy[1] == 0.0
 
 
-def test_the_picture_of_an_accident_says_so():
+def test_the_picture_of_an_accident_says_so(reads):
     went = gone(RAMP, wall=12.0)
     picture = plot_runway(went)
 
-    assert "There is no tape" in picture.alt
-    assert f"hits the wall after {went.hit_wall:.2f} s" in picture.alt
-    assert dict(picture.table.rows)["room left [m]"] == "none: it hit the wall"
+    reads(picture.alt)
+    reads(dict(picture.table.rows)["room left [m]"])
 
 
 def test_a_brownout_lights_its_lamp():
