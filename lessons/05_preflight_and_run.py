@@ -281,7 +281,7 @@ print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.
 # | 2 battery | the robot drove all day: 11.6 V at rest, and an old battery (resistance 35 mΩ) |
 # | 3 encoder | the encoder is inverted: when the robot drives forward, the position falls |
 # | 4 log | nobody knows where the robot saves the log |
-# | 5 guard | nothing locks the tests: in the pit, 1.5 m from a wall, somebody presses a button |
+# | 5 guard | nothing locks the tests: in the pit, 1 m from a wall, somebody presses a button |
 #
 # **Predict:**
 
@@ -307,7 +307,7 @@ def morning(skipped: str, test: str, moment: float) -> Picture:
     if skipped == "1 room":
         floor = Floor(wall=WALL)
     if skipped == "5 guard":
-        floor = Floor(wall=1.5, watched=1.0)
+        floor = Floor(wall=1.0, watched=1.0)  # Disable takes a second
     robot = TIRED if skipped == "2 battery" else ROBOT
     return plot_runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
 
@@ -382,7 +382,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # - **3 encoder.** On the floor, *everything looks normal*. Nobody notices the mistake until every
 #   gain is negative.
 # - **4 log.** The tests were perfect, and you have no log.
-# - **5 guard.** A later log is good. But the robot hits the wall, and it may hurt somebody.
+# - **5 guard.** A later log is good. But in the step the robot hits the wall, and it may hurt
+#   somebody.
 
 # %% [markdown]
 # ## 4 Five checks, and the reasons for them

@@ -243,7 +243,7 @@ gallery = {
     "stale samples": spoiled("stale-samples"),
     "unit error": spoiled("unit-error"),
     "mislabelled test": spoiled("mislabelled-test"),
-    "voltage dropout": spoiled("voltage-dropout"),
+    "voltage dropout": spoiled("voltage-dropout", test=RAMP, at=2.0),
     "stuck sensor": spoiled("stuck-sensor", test=RAMP, at=3.0),
 }
 

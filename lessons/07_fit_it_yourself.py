@@ -928,6 +928,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
         ylabel="kP [V·s/m]",
         levels={"kP = 0.62": 0.62},
         marked=(q, suggested(q)),
+        mark="your q",
     )
 
 

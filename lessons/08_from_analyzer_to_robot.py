@@ -511,6 +511,7 @@ def droop(kp: float) -> Picture:
         xlabel="kP [V per rot/s]",
         ylabel="rpm below the target",
         marked=(kp, left_over(kp)),
+        mark="your kP",
     )
 
 

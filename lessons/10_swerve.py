@@ -407,6 +407,7 @@ plot_curves(
     xlabel="time [s]",
     ylabel="current and speed",
     marked=(float(push.time[first - 1]), slip_current / 10),
+    mark="just before the wheels slip",
 )
 
 # %% [markdown]
