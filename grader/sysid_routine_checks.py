@@ -29,6 +29,10 @@ SAME_LENGTH = {"feet": "foot", "turn": "rotation", "revolution": "rotation"}
 # What makes a share of the battery of a voltage.
 BATTERY = re.compile(r"/ ?1[0-3](\.\d*)?\b|\.(div|divide)\(|attery", re.IGNORECASE)
 
+DECIMAL_COMMA = re.compile(r"\(\s*\d+\s*,\s*\d+\s*\)")  # Volts.of(0,5)
+BATTERY_VOLTAGE = re.compile(r"(supply|battery|bus)_?voltage", re.IGNORECASE)
+PRODUCT = re.compile(r"\*|times\(|multiply|dutycycle|duty_cycle|applied", re.IGNORECASE)
+
 Advice = Callable[[float], tuple[str, str]]
 
 
@@ -91,6 +95,8 @@ class ConfigSetting:
             )
         if got.known is Certainty.UNKNOWN:
             hint = "Write it as a number, or as a named constant in this folder."
+            if DECIMAL_COMMA.search(got.text):
+                hint = "In code a decimal number has a point, not a comma: 0.5."
             raise WrongAnswer(explain_doubt(f"the {self.name}", got.text), hint=hint)
         value = self.default if got.value is None else got.value
         right = math.isclose(value, self.value, rel_tol=1e-9)
@@ -117,10 +123,15 @@ class ConfigSetting:
         plain = got.dimension == "number" and facts.language == "python"
         if got.dimension == self.dimension or plain:
             return
+        hint = f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}."
+        others = [one for one in (facts.ramp, facts.step, facts.timeout) if one is not got]
+        swapped = self.dimension in {one.dimension for one in others}
+        if swapped:
+            hint += " Config takes the ramp first, then the step, then the timeout."
         raise WrongAnswer(
             f"{quote_code(got)}, which is not in {self.unit}",
-            hint=f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}.",
-            misconception="M-UNITS",
+            hint=hint,
+            misconception="M-ARGORDER" if swapped else "M-UNITS",
         )
 
 
@@ -231,8 +242,7 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
     if voltage and voltage.source is Source.COMMANDED:
         raise WrongAnswer(
             f"{quote_code(voltage)}: the commanded voltage",
-            hint="Log the voltage that the motor got: getMotorVoltage(), getAppliedOutput() times "
-            "the bus voltage, or in Python getVoltage().",
+            hint=APPLIED,
             misconception="M-CMDVOLT",
             earned=earned - points * _SHARE["voltage"],
         )
@@ -246,6 +256,12 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
         hint = "A fit needs all three of every motor: voltage, position and velocity."
         raise WrongAnswer(f"no {' and no '.join(lacking)}{of}", hint=hint, earned=earned)
     if voltage and voltage.source is Source.UNKNOWN:
+        if BATTERY_VOLTAGE.search(voltage.text) and not PRODUCT.search(voltage.text):
+            raise WrongAnswer(
+                f"{quote_code(voltage)}: the voltage of the battery",
+                hint=f"The motor gets only a part of it. {APPLIED}",
+                earned=earned - points * _SHARE["voltage"],
+            )
         raise WrongAnswer(
             explain_doubt(f"where the voltage{of} comes from", quote_code(voltage)),
             hint="Ask the motor itself for it, in the log callback.",
@@ -258,6 +274,10 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
         )
 
 
+APPLIED = (
+    "Log the voltage that the motor got: getMotorVoltage(), getAppliedOutput() times the bus "
+    "voltage, or in Python getVoltage()."
+)
 _SHARE = {"voltage": 1 / 2, "position": 1 / 6, "velocity": 1 / 6}
 
 
@@ -333,7 +353,7 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         raise WrongAnswer(
             f"line {one.line}: {one.message}",
             hint=f"With this line {stops}, and the robot does not start. "
-            f"{'Correct the name' if one.meant else 'Fix the name, its import or its type'}.{more}",
+            f"Correct {'the name' if one.meant else 'it'}.{more}",
             earned=earned,
         )
 

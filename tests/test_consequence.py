@@ -183,7 +183,7 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
 
     assert run_command(["9", "--picture", "what.svg"]) == 1
     out, err = capsys.readouterr()
-    assert "then  Your numbers as feedforward, without feedback. Asked for" in out
+    assert "then  This is what your numbers do as feedforward, without feedback. Asked for" in out
     assert "See it: grade exercise9 --picture what.svg" in out
     assert max(map(len, out.splitlines())) <= 80
     assert "what your answer would do: what.svg" in err

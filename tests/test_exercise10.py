@@ -230,7 +230,7 @@ def test_another_rotation_than_the_mechanisms_is_named(checked, kind, factor, re
     check = found["kv"] if found["kv"].status == "failed" else found["conversion"]
 
     assert check.status == "failed"
-    assert check.misconception == "M-UNITS"
+    assert check.misconception == ("M-GEARING" if factor in {"rotor", "geared"} else "M-UNITS")
     reads(f"{check.seen} {check.hint}")
 
 
@@ -458,7 +458,7 @@ def test_constants_may_stand_in_a_file_of_their_own(tmp_path, turret):
             0,
             "M-UNITS",
         ),
-        ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, "M-ARGORDER"),
+        ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, ""),
         ("{kV} / (2 * Math.PI)", "-{kV}", "kv", 0, ""),
         (
             "{kV} / (2 * Math.PI)",
@@ -646,7 +646,7 @@ def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind, 
     answers = load("solve.py").solve(OWN.folder, tmp_path)
 
     for mistake in load("mistakes.py").MISTAKES:
-        text = mistake.make(answers[mistake.file])
+        text = mistake.edit_text(answers[mistake.file])
         found = checked(text, student=student, name=mistake.file)[mistake.check]
 
         assert (mistake.name, found.status) == (mistake.name, "failed")

@@ -1,5 +1,6 @@
 """Exercise 2: a measured kV, the one on paper, and what to look at when they differ."""
 
+import math
 import re
 import runpy
 import tomllib
@@ -297,11 +298,14 @@ def test_every_slip_on_paper_is_named_for_everybody(copy):
     """Over rpm, over the ratio, twice the wheel, radians for rotations."""
     for student in CLASS[:20]:
         variant = OWN.module.draw(student)
-        slips = [1 / 60, 60.0, 1 / variant.parts.ratio, 6.2832]
-        for times in slips + [0.5, 2.0] * bool(variant.parts.diameter):
-            found = graded(copy, student=student, kV_theory=variant.parts.theoretical_kv * times)
+        parts = variant.parts
+        units = [1 / 60, 60.0, 6.2832]
+        gearing = [1 / parts.ratio, *([0.5, 2.0, math.pi] if parts.diameter else [])]
+        for times in units + gearing:
+            found = graded(copy, student=student, kV_theory=parts.theoretical_kv * times)
 
-            assert found["kv-theory"].misconception == "M-UNITS", (student, times)
+            code = "M-UNITS" if times in units else "M-GEARING"
+            assert found["kv-theory"].misconception == code, (student, times)
 
 
 def test_a_theory_in_another_unit_is_converted(copy):

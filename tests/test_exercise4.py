@@ -34,7 +34,7 @@ def real(tmp_path, monkeypatch):
     ("content", "said"),
     [
         (b"", "the file is empty. Write your answer into it. To get the file back as it was: "),
-        (b"  \n", "git checkout -- exercises/exercise4/ExampleSubsystem.java"),
+        (b"  \n", "NEW-FOLDER --no-lab, and take exercises/exercise4/ExampleSubsystem.java from"),
         (b"// big\n" * 1_500_000, "10 MB is too large for an answer"),
         (bytes(range(256)) * 20, "this is not text"),
         (b"\x89PNG\r\n\x1a\n\0\0", "this is not text"),
@@ -50,6 +50,14 @@ def test_a_file_that_is_no_code_is_refused_with_advice(real, capsys, content, sa
     assert out == ""
     assert said in err
     assert err.count("\n") == 1
+
+
+def test_an_empty_file_of_a_repository_is_got_back_with_git(real, capsys):
+    (real / ".git").mkdir()
+    (real / "exercises" / "exercise4" / JAVA).write_bytes(b"")
+
+    assert run_command(["exercise4", f"exercises/exercise4/{JAVA}"]) == 2
+    assert f"git checkout -- exercises/exercise4/{JAVA}" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

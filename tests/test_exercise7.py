@@ -200,7 +200,7 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
         ("the belt is loose", 'in which "belt" is not known'),
         ("rerun", "with no faults in it"),
         ("brownout sign-flip", "with 2 faults in it"),
-        ("brownout 1.2", "with 1 number(s)"),
+        ("brownout 1.2", "with one time in it"),
         ("brownout rerun trim", "with 2 actions"),
         ("clean + brownout", "and a fault"),
         (" + ", "0 faults"),

@@ -136,7 +136,8 @@ def arm_offset(answers: Answers) -> str | None:
     hint = "; ".join(part for part in (hint, close) if part)
     raise WrongAnswer(
         shown,
-        hint=hint or f"outside the accepted {full:g}°. Use two rows whose sine or cosine is 0.",
+        hint=hint
+        or f"outside the accepted {full:g}°. Use the rows with a reading of 0° and of ±90°",
         misconception=code,
         earned=2 * HALF if close else 0.0,
     )

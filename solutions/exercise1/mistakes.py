@@ -161,14 +161,13 @@ MISTAKES = (
         swapped("braking", "accelerating"),
         "accelerating",
         "Did you swap two answers?",
-        "M-ARGORDER",
     ),
     Mistake(
         "a number from nowhere",
         ANSWERS,
         volts("forward", lambda s, v, _a, _: 1.08 * (s + v)),
         "forward",
-        "just outside the accepted ±2 %",
+        "outside the accepted ±2 %",
     ),
     Mistake(
         "nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward", "nothing"
@@ -192,7 +191,7 @@ MISTAKES = (
         ANSWERS,
         other_term,
         "largest",
-        "compare volts: compute all three terms at",
+        "in volts, and compare their sizes",
     ),
     Mistake(
         "a word that is no term",

@@ -229,7 +229,7 @@ MISTAKES = (
         in_slot0("TURN / GEARS"),
         "conversion",
         "per rotation of the motor's rotor",
-        "M-UNITS",
+        "M-GEARING",
     ),
     Mistake(
         "Slot0Configs with gains per radian",
@@ -267,6 +267,14 @@ MISTAKES = (
         "order",
         "kA is where FeedForwardConfig expects kV",
         "M-ARGORDER",
+    ),
+    Mistake(
+        "kV in volts",
+        JAVA,
+        changed(r"(?<=// V)·s/.*$", ""),
+        "units",
+        "a unit of something else than kV",
+        "M-UNITS",
     ),
     Mistake("no units", JAVA, changed(r" // V.*$", ""), "units", "no unit of kS"),
     Mistake("no units, Python", PYTHON, changed(r"  # V·s/.*$", ""), "units", "no unit of kV"),

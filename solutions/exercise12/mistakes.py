@@ -32,6 +32,17 @@ def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
     return edit_text
 
 
+def gaps_swapped(text: str) -> str:
+    """Each gap in the place of the other."""
+    before, after = (
+        re.search(rf"^{name} = ([\d.]+)", text, re.MULTILINE)
+        for name in ("gap_before", "gap_after")
+    )
+    if before is None or after is None:
+        raise ValueError("the solution has no gaps")
+    return set_answer("gap_before", after[1])(set_answer("gap_after", before[1])(text))
+
+
 MISTAKES = (
     Mistake("no effect named", ANSWERS, set_answer("effects", "[]"), "first-effect", "nothing yet"),
     Mistake(
@@ -87,7 +98,7 @@ MISTAKES = (
         ANSWERS,
         named(lambda _: '"delay"', "delay.lag = 0.04\n"),
         "all-effects",
-        "not all of these are right. An",
+        "not all of these are right. Two effects",
     ),
     Mistake(
         "an effect of nothing",
@@ -124,6 +135,13 @@ MISTAKES = (
         set_answer("gap_after", '""'),
         "held-out",
         "gap_after: nothing",
+    ),
+    Mistake(
+        "the two gaps swapped",
+        ANSWERS,
+        gaps_swapped,
+        "held-out",
+        "this is the other gap",
     ),
     Mistake(
         "a gap below what noise allows",

@@ -80,6 +80,13 @@ MISTAKES = (
         "SysIdRoutine is the class, and it has no motors: write m_routine.quasistatic(...)",
     ),
     Mistake(
+        "the guard or the button",
+        JAVA,
+        replace_text((".and(testing)", ".or(testing)")),
+        "guard",
+        "Both must be true",
+    ),
+    Mistake(
         "two tests on one button",
         JAVA,
         replace_text(("m_driverController.b()", "m_driverController.a()")),

@@ -59,6 +59,14 @@ MISTAKES = (
         "It hits the end at",
     ),
     Mistake(
+        "a mark in degrees",
+        ANSWERS,
+        scale_numbers(360.0, "turret_release"),
+        "turret",
+        "Is your number in degrees?",
+        "M-UNITS",
+    ),
+    Mistake(
         "a step that burns rubber",
         ANSWERS,
         set_answer("drivetrain_step", "11"),

@@ -37,6 +37,11 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
     return edit_text
 
 
+def milli(seconds: str) -> str:
+    """A time in milliseconds."""
+    return f"{1000 * float(seconds):.0f}"
+
+
 WHOLE = "{fault}, {kind}-{way}, {begin} to {end}, {action}"
 
 MISTAKES = (
@@ -58,6 +63,13 @@ MISTAKES = (
     ),
     Mistake(
         "the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01", "the place"
+    ),
+    Mistake(
+        "milliseconds",
+        ANSWERS,
+        first(WHOLE, begin=milli, end=milli),
+        "log01",
+        "Are your times in milliseconds?",
     ),
     Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),
     Mistake(

@@ -4,7 +4,14 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, change_number, exchange_numbers, replace_text, scale_numbers
+from grader.mistake import (
+    Mistake,
+    change_number,
+    exchange_numbers,
+    replace_text,
+    scale_numbers,
+    set_answer,
+)
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
@@ -65,12 +72,18 @@ MISTAKES = (
         "M-UNITS",
     ),
     Mistake(
+        "a calculation",
+        ANSWERS,
+        set_answer("kS", '"0.1 + 0.05"'),
+        "ks",
+        "which is a calculation",
+    ),
+    Mistake(
         "kS and kV swapped",
         ANSWERS,
         exchange_numbers("kS", "kV"),
         "kv",
         "did you swap them?",
-        "M-ARGORDER",
     ),
     Mistake(
         "kS where the line through the slow ramp crosses zero",
