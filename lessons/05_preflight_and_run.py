@@ -457,9 +457,9 @@ Table(
 
 # %% [markdown]
 # Without a brownout, both columns are right, even with the tired battery: this robot calls
-# `setVoltage`, and its motor controllers compensate for the lower battery voltage. (`set`, see
-# lesson 4, does not compensate.) With a brownout, both columns are wrong, and the commanded one is
-# far worse. So charge the battery, begin with a small step, and log the applied voltage.
+# `setVoltage`, and its motor controllers compensate for the lower battery voltage. `set` does not
+# (lesson 4). With a brownout, both columns are wrong, and the commanded one is far worse. So charge
+# the battery, begin with a small step, and log the applied voltage.
 #
 # Require **12.5 V or more at rest**. On a battery tester, require 20 mΩ or less.
 #

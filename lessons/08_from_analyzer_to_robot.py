@@ -293,7 +293,7 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 # |---|---|---|
 # | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
 # | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
-# | YAGSL (a swerve library), drive motors | m/s of the wheel | `replaceSwerveModuleFeedforward` |
+# | YAGSL 2026 (a swerve library) | m/s of a wheel | `replaceSwerveModuleFeedforward` |
 #
 # `sysid fit` writes each of them and converts the units. If your log is in meters, add the radius:
 #
@@ -317,10 +317,15 @@ print(f"kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
 #
 # Use **FOC as in the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With
 # the license, `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were
-# measured with FOC are wrong without it.
-# (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release
-# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/),
-# [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# measured with FOC are wrong without it. (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6,
+# release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
+# FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# </details>
+#
+# <details><summary>If your swerve drive uses a newer YAGSL</summary>
+#
+# YAGSL's newer pages say that `replaceSwerveModuleFeedforward` is gone. There, kS, kV and kA are
+# the numbers `s`, `v` and `a` in the file `pidfproperties.json`.
 # </details>
 
 # %% [markdown]

@@ -189,9 +189,9 @@ Table(
 # second at the same voltage: a smaller kV.
 #
 # The three other modules agree almost to the last digit. That is no accident: all motors get the
-# same voltage, and the floor couples the wheels. A module that rubs slows down *all* of them, and
-# its own fit looks like the others. To find a module that rubs, lift the robot and turn each wheel
-# by hand, or compare the currents.
+# same voltage, and the floor forces all wheels to the same speed. A module that rubs slows down
+# *all* of them, and its own fit looks like the others. To find a module that rubs, lift the robot
+# and turn each wheel by hand, or compare the currents.
 #
 # So **compare the modules first, then pool**. The mean of three good wheels and a worn one is right
 # for none of them. `sysid fit` compares them for you and prints the kV and kA of each.
@@ -560,7 +560,7 @@ print(mine.report)
 # ```
 # </details>
 #
-# Here are their tests, and your formulas. Two of their numbers are wrong in their code. Which?
+# Here are their tests. Two of the numbers in their code are wrong. Which?
 
 # %%
 theirs = SwerveDrive(
@@ -675,7 +675,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # The size of its wheel: a worn wheel turns more often. (Then its gear ratio, if somebody built in
-# another module.) A module that rubs would *not* look different: the floor couples the wheels.
+# another module.) A module that rubs would *not* look different: the floor forces all wheels to the
+# same speed.
 # </details>
 #
 # **2.** A rotation log gives kV = 1.02 and no unit that makes sense. What did you load as voltage?
