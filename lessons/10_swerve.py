@@ -32,8 +32,9 @@
 # time. PathPlanner and Choreo plan such paths for you. But they know only what you tell them: mass,
 # moment of inertia, wheel radius, current limit.
 #
-# If you tell a planner that your robot is easier to turn than it is, it plans turns that the wheels
-# cannot do. Then the robot turns too late. So today you measure what the planners ask for.
+# If you tell a planner that your robot is easier to turn than it really is, the planner plans turns
+# that the wheels cannot do. Then the robot turns too late. So today you measure what the planners
+# ask for.
 #
 # <details><summary>For mentors: what the planners ask for, with source</summary>
 #
@@ -111,8 +112,8 @@ print(f"A square robot: {robot.trackwidth} m wide, {robot.mass:.0f} kg.")
 # The motors are the same in translation and rotation. Only the **load** differs:
 #
 # - straight, the wheels push the **mass**;
-# - on the spot, they push against the **moment of inertia**. It says how hard it is to make the
-#   robot turn. Mass far from the middle counts more.
+# - on the spot, they push against the **moment of inertia**. It says how hard it is to turn the
+#   robot. Mass far from the middle counts more.
 
 # %%
 short = sim.Routine(step=1.5, timeout=2.0, kinds=("dynamic",))
@@ -188,9 +189,9 @@ Table(
 # second at the same voltage: a smaller kV.
 #
 # The three other modules agree almost to the last digit. That is no accident: all motors get the
-# same voltage, and the floor couples the wheels. A module that rubs slows down *all* of them, and
-# its own fit looks like the others. To find a module that rubs, lift the robot and turn each wheel
-# by hand, or compare the currents.
+# same voltage, and the floor forces all wheels to the same speed. A module that rubs slows down
+# *all* of them, and its own fit looks like the others. To find a module that rubs, lift the robot
+# and turn each wheel by hand, or compare the currents.
 #
 # So **compare the modules first, then pool**. The mean of three good wheels and a worn one is right
 # for none of them. `sysid fit` compares them for you and prints the kV and kA of each.
@@ -221,22 +222,23 @@ print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.
 Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
-# The back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius into the code.
-# Spin on carpet: on a hard floor the wheel does not sink in, and you measure another radius.
-# AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs: TalonFX
-# Swerve Template, at one commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
+# The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
+# into the code. Spin on carpet: on a hard floor the wheel does not sink in, and you measure another
+# radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs:
+# TalonFX Swerve Template, at one
+# commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 
 # %% [markdown]
 # ## 5 Turning on the spot: the moment of inertia
 #
-# Now the wheels stand across the diagonals, and the robot turns on the spot. Two tests, the same
-# motors:
+# Now each wheel points across the line from the middle to it, and the robot turns on the spot. Two
+# tests, the same motors:
 #
 # - straight, kA is a constant of the motors times the **mass**;
 # - turning, kA is the same constant times **moment of inertia / lever**.
 #
-# The **lever** is how far the push of a wheel passes from the middle. Divide one kA by the other,
-# and the constant is gone:
+# A wheel pushes along a line. The **lever** is the distance of this line from the middle of the
+# robot. Divide one kA by the other, and the constant is gone:
 #
 # > I = mass · lever · kA_turning / kA_straight
 #
@@ -255,13 +257,15 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 #
 # ### Which lever?
 #
-# [PathPlanner's page](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md)
-# and [Choreo's page](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md)
-# (each at one commit) give the formula with *half the trackwidth*. That is right for a tank: its
-# wheels push straight forward, T/2 away from the middle. The modules of a square swerve push across
-# the diagonal, so each force F turns the robot with F · T/√2.
+# [PathPlanner's
+# page](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md)
+# and [Choreo's
+# page](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md)
+# (each at one commit) give the formula with *half the trackwidth*. That is right for a tank drive:
+# its wheels push straight forward, T/2 away from the middle. The modules of a square swerve push
+# across the diagonal, so each force F turns the robot with F · T/√2.
 #
-# Our robot really has 5.0 kg·m². **Predict:**
+# Our robot has 5.0 kg·m². **Predict:**
 
 # %%
 guess_lever = Prediction(
@@ -289,12 +293,12 @@ Table(
 )
 
 # %% [markdown]
-# With the wrong lever the answer is too small by a factor of √2, whatever the robot.
+# With the wrong lever the answer is too small by a factor of √2, for every square swerve.
 #
 # ### The log shows the lever
 #
-# You can check the lever without a tape measure. A wheel runs at lever · ω, with ω the rate of the
-# robot in rad/s. So the ratio of the two kV is the lever:
+# You can check the lever without a tape measure. A wheel runs at lever · ω, where ω is the robot's
+# rate in rad/s. So the ratio of the two kV is the lever:
 
 # %%
 quotient = turning.gains["kV"] / straight.gains["kV"]
@@ -307,9 +311,9 @@ for doubt in found["half the trackwidth, T/2"].doubts:
 #
 # ### Why 5.2 and not 5.0?
 #
-# Wheels, gears and rotors also have to spin up. They are part of both kA, but not to the same
-# degree. Usually they count like 3 to 10 % of the mass. Then the result is a few percent too large.
-# Do not trust the third digit.
+# Wheels, gears and rotors also have to spin up. They are part of both kA, but not equally. Usually
+# they count like 3 to 10 % of the mass. Then the result is a few percent too large. Do not trust
+# the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
 #
@@ -371,7 +375,7 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The same in numbers, a fiftieth of a second after the step:
+# The same in numbers, 20 ms after the step:
 
 # %%
 Table(
@@ -381,8 +385,8 @@ Table(
 
 # %% [markdown]
 # A fit of such a log finds a far too large kA: after the first jump the wheels get faster only
-# slowly, until the robot catches up. Choose a step below the slip, here about 1.8 V. A heavier
-# robot, or weaker motors, allow a larger step.
+# slowly, until the robot catches up. Choose a step that does not make the wheels slip, here about
+# 1.8 V. A heavier robot, or weaker motors, allow a larger step.
 #
 # ### Measure it
 #
@@ -399,18 +403,19 @@ slip_current = float(push.current[first - 1])
 print(f"Just before the wheels turn, one motor takes {slip_current:.0f} A.")
 plot_curves(
     push.time,
-    {"current of a motor [10 A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
+    {"current of a motor ÷ 10 [A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
     xlabel="time [s]",
     ylabel="current and speed",
     marked=(float(push.time[first - 1]), slip_current / 10),
+    mark="just before the wheels slip",
 )
 
 # %% [markdown]
 # This is the **slip current**. Set the stator current limit of the drive motors a little below it.
 # (The *stator* current is the current in the motor. CTRE's name is `kSlipCurrent`; its program
 # starts with 120 A.) Then a driver can push the stick as hard as they like, and the wheels keep
-# their grip on a straight start. Note that the current *falls* when the wheels slip: rubber that
-# slides holds less. Take the largest value before that. ([CTRE docs: current limits, at one
+# their grip on a straight start. The current *falls* when the wheels slip: rubber that slides holds
+# less. Take the largest value before that. ([CTRE docs: current limits, at one
 # commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/f062dd86318acfb997ffd5945601f65d1f2848c1/source/docs/hardware-reference/talonfx/improving-performance-with-current-limits.rst))
 #
 # ### The grip, for "Wheel COF"
@@ -555,7 +560,7 @@ print(mine.report)
 # ```
 # </details>
 #
-# Here are their tests, and your formulas. Two of their numbers are wrong in their code. Which?
+# Here are their tests. Two of the numbers in their code are wrong. Which?
 
 # %%
 theirs = SwerveDrive(
@@ -619,8 +624,7 @@ Table(
 #    ```
 #
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
-#    (CTRE logs the straight drive in motor rotations. That is enough: the lever shows how far one
-#    rotation goes.)
+#    (CTRE logs the straight drive in motor rotations. `sysid fit` converts them with the lever.)
 #
 # 6. **Push** at a wall, once.
 #
@@ -649,7 +653,7 @@ Table(
 #
 # ## 10 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -671,7 +675,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # The size of its wheel: a worn wheel turns more often. (Then its gear ratio, if somebody built in
-# another module.) A module that rubs would *not* look different: the floor couples the wheels.
+# another module.) A module that rubs would *not* look different: the floor forces all wheels to the
+# same speed.
 # </details>
 #
 # **2.** A rotation log gives kV = 1.02 and no unit that makes sense. What did you load as voltage?
