@@ -128,7 +128,7 @@ def judge_effects(
             likelihood=math.log(max(_removal_cost(before, now), 1.0)),
             gap=log_gap_ratio(with_.velocity, bare.velocity),
             size=log_size(name, last.values),
-            rival=rival_share(name, added, {one.effect: one.score for one in before.tried}),
+            rival=rival_share(name, added, rival_scores(before, last.structure.effects, name)),
             strays=log_strays(noises),
             structure=float(left.has_structure),
             once=float(EFFECTS[name].has_onset),
@@ -140,6 +140,20 @@ def judge_effects(
         for name, rivals, one in found
         for whole in [_compare(one, [other for _, _, other in found if other is not one])]
     )
+
+
+def rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
+    """Candidate -> its score in the round of an effect, without other effects of the last model.
+
+    Those explain something else: they are in the model beside it.
+
+    Args:
+        before: the round.
+        kept: the effects of the last model.
+        name: the effect.
+    """
+    others = {*kept} - {name}
+    return {one.effect: one.score for one in before.tried if one.effect not in others}
 
 
 def _compare(one: Evidence, others: Sequence[Evidence]) -> Evidence:
