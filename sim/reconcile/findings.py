@@ -94,7 +94,8 @@ def make_findings(
         effects = [
             one for one in effects if one.size == "major" or _narrows(rounds[one.effect], done[-1])
         ]
-    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect]))
+    alone = {one.effect: one.gap for one in done[0].tried}
+    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect], alone))
     return tuple(sorted((*faults, *effects), key=_sort_key)), judged
 
 
@@ -172,9 +173,18 @@ def _removal_cost(before: SelectionRound, now: SelectionRound) -> float:
     return now.removal_cost
 
 
-def _expected_share_closed(one: JudgedEffect) -> float:
-    """[1] of the gap that an effect is expected to close: the largest is the most important."""
-    return one.probability * (1.0 - math.exp(one.evidence.gap))
+def _expected_share_closed(one: JudgedEffect, alone: Mapping[str, float]) -> float:
+    """[1] of the gap that an effect is expected to close: the largest is the most important.
+
+    What it closes as the first effect and as the last one differs, so the geometric mean of both
+    counts, as in the Shapley value of two effects.
+
+    Args:
+        one: the effect.
+        alone: effect -> [1] of the base model's gap that it leaves alone; 1 if it was not tried.
+    """
+    first = log_gap_ratio(alone.get(one.effect, 1.0), 1.0)
+    return one.probability * (1.0 - math.exp(0.5 * (first + one.evidence.gap)))
 
 
 def _classify_size(
