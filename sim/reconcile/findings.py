@@ -181,10 +181,12 @@ def _expected_share_closed(one: JudgedEffect, alone: Mapping[str, float]) -> flo
 
     Args:
         one: the effect.
-        alone: effect -> [1] of the base model's gap that it leaves alone; 1 if it was not tried.
+        alone: effect -> [1] of the base model's gap that it leaves alone. For one that was not
+            tried alone, what it closes as the last one counts.
     """
-    first = log_gap_ratio(alone.get(one.effect, 1.0), 1.0)
-    return one.probability * (1.0 - math.exp(0.5 * (first + one.evidence.gap)))
+    last = one.evidence.gap
+    first = log_gap_ratio(alone[one.effect], 1.0) if one.effect in alone else last
+    return one.probability * (1.0 - math.exp(0.5 * (first + last)))
 
 
 def _classify_size(
