@@ -17,9 +17,12 @@ from sim.physics.effects import EFFECTS
 from sim.physics.effects.drag import EFFECT as DRAG
 from sim.physics.engine import (
     EXACT,
+    NO_CORRECTION,
     NO_WIRES,
+    RunBatch,
     State,
     effect_arrays,
+    filter_runs,
     find_finest_step,
     model_constants,
     simulate_run,
@@ -237,6 +240,27 @@ def test_the_faster_an_effect_acts_the_finer_the_step():
     quick = PLAIN + Part("stribeck", {"extra": 2.0, "slow": 0.01})
 
     assert 5e-5 <= find_finest_step(quick) < 0.5 * find_finest_step(PLAIN)
+
+
+def test_a_search_is_fine_where_friction_fades_while_the_speed_changes_fast():
+    # The speed passes zero so fast that friction at low speed is gone within two long steps.
+    model = Model("simple", {"kS": 0.23, "kV": 2.66, "kA": 0.16})
+    model += Part("stribeck", {"extra": 0.21, "slow": 0.1})
+    volts, still = np.where(TIME < 0.5, 2.5, -2.5), np.zeros(1)
+    batch = RunBatch(
+        edges=np.array([0.0, TIME.size]), time=TIME, voltage=volts,
+        voltage_slide=np.zeros(TIME.size), measured=np.full((TIME.size, 2), np.nan),
+        position=still, velocity=still, low=still - math.inf, high=still + math.inf,
+        clocks=still, sessions=still,
+    )  # fmt: skip
+
+    found = filter_runs(
+        model, batch, kalman_gain=NO_CORRECTION, position_offset=still, backlash_phase=still,
+        friction_offset=still,
+    )  # fmt: skip
+    exact = simulate_run(model, time=TIME, voltage=volts, state=State(), step=2e-5)
+
+    assert np.abs(found[:, 0] - exact.position).max() < 1e-5  # [m] noise of a good encoder
 
 
 def new_effect(**change):

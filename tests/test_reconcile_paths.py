@@ -266,6 +266,7 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     [
         (5.0, [weighed("velocity-filter", 900.0, gap=1.0)], "velocity-filter"),
         (0.5, [weighed("velocity-filter", 900.0, gap=1.0)], "backlash"),
+        (1.001, [weighed("velocity-filter", 900.0, gap=1.0)], "backlash"),
         (5.0, [weighed("velocity-filter", 900.0, gap=1.0, why=WIDENS)], "backlash"),
         (5.0, [], "backlash"),
     ],

@@ -3,12 +3,14 @@
 import json
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.physics.effects import EFFECTS
+from sim.reconcile.findings import rival_scores
 from sim.reconcile.probability import (
     FEATURES,
     FILE,
@@ -18,6 +20,7 @@ from sim.reconcile.probability import (
     probability_of,
     rival_share,
 )
+from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import SIZES
 
 PLAIN = Evidence(
@@ -98,3 +101,16 @@ def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
 )
 def test_gaps_that_are_no_numbers_say_nothing(with_, without, ratio):
     assert log_gap_ratio(with_, without) == pytest.approx(ratio)
+
+
+def test_no_other_effect_of_the_last_model_is_a_rival():
+    before = SimpleNamespace(
+        tried=[
+            TriedCandidate(name, score, 0.9, admitted=True, why="")
+            for name, score in (("heating", 90.0), ("battery-sag", 80.0), ("drag", 30.0))
+        ]
+    )
+
+    found = rival_scores(before, ("heating", "battery-sag"), "battery-sag")
+
+    assert found == {"battery-sag": 80.0, "drag": 30.0}

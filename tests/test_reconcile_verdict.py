@@ -183,6 +183,30 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
 
 
 @pytest.mark.parametrize(
+    ("alone", "first"),
+    [
+        ({"drag": 0.9, "spring": 0.2}, "spring"),
+        ({"drag": 0.2, "spring": 0.9}, "drag"),
+        ({"drag": 0.2}, "drag"),  # the spring was not tried alone, and half closes as the last one
+        ({"drag": 0.9}, "spring"),
+    ],
+)
+def test_the_most_important_effect_closes_most_of_the_gap_as_the_first_and_as_the_last(
+    problem, alone, first
+):
+    values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
+    base, *steps = added(problem, ("drag", 0.8, 1.0), ("spring", 0.5, 1.0), values=values)
+    tried = tuple(
+        TriedCandidate(name, SURELY, share, admitted=True, why="") for name, share in alone.items()
+    )
+
+    found = find_effects(problem, [replace(base, tried=tried), *steps], left=ResidualSummary())
+
+    assert found[0].effect == first
+    assert {one.effect for one in found} == {"drag", "spring"}
+
+
+@pytest.mark.parametrize(
     ("shown", "held_out", "size"),
     [
         (1.9, False, "major"),

@@ -1,5 +1,6 @@
 """The runs of a log, prepared for fitting: fresh samples, start, travel and clock."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -147,10 +148,11 @@ def _find_stops(seen: RunMeasurements) -> tuple[float, float]:
 
     Arms and elevators begin on a stop, and stay there whatever gravity does until the voltage
     lifts them. Where it is friction that holds instead, a stop at that place changes nothing. One
-    that first sank a little, more than its position is rough, found its stop there.
+    that first sank a little, more than its position is rough, found its stop there. One that comes
+    back later and goes beyond that place shows that there is no stop.
     """
-    x = seen.measured[:, 0]
-    x = x[~np.isnan(x)]
+    told = ~np.isnan(seen.measured[:, 0])
+    x, time = seen.measured[told, 0], seen.time[told]
     if seen.velocity != 0.0 or not x.size:
         return -np.inf, np.inf
     near = SAME_PLACE * float(np.ptp(x))
@@ -158,14 +160,32 @@ def _find_stops(seen: RunMeasurements) -> tuple[float, float]:
     high = x.max() < seen.position + near
     if low == high:
         return -np.inf, np.inf
-    rough = SANK * _position_roughness(x)
-    lowest, highest = float(x.min()), float(x.max())
+    rough = SANK * _position_roughness(x, time)
     if low:
-        return (lowest if lowest < seen.position - rough else seen.position), np.inf
-    return -np.inf, (highest if highest > seen.position + rough else seen.position)
+        return _lowest_stop(x, seen.position, near=near, rough=rough), np.inf
+    return -np.inf, -_lowest_stop(-x, -seen.position, near=near, rough=rough)
 
 
-def _position_roughness(x: Array) -> float:
+def _lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:
+    """[unit] The stop below a run's start; minus infinity if the run later goes below it.
+
+    Args:
+        x: (n,) [unit] positions.
+        begin: [unit] where it began.
+        near: [unit] how far it goes before it has left that place.
+        rough: [unit] what is less is noise.
+    """
+    left = int(np.argmax(x > begin + near))
+    sank = min(float(x[: left + 1].min()), begin)
+    if x[left:].min() < sank - rough:
+        return -np.inf
+    return sank if sank < begin - rough else begin
+
+
+def _position_roughness(x: Array, time: Array) -> float:
     """[unit] of positions, from how far each is off the line between its neighbours."""
-    bends = np.diff(x, 2)
-    return float(np.median(np.abs(bends))) * ROBUST / 6.0**0.5 if bends.size else 0.0
+    if x.size < 3:  # noqa: PLR2004 - one between two
+        return 0.0
+    between = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])
+    off = x[1:-1] - x[:-2] - between * (x[2:] - x[:-2])
+    return float(np.median(np.abs(off))) * ROBUST / math.sqrt(1.5)

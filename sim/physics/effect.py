@@ -135,6 +135,9 @@ class Effect:
         fastest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
         shortest_length: [unit] way along which it stays much the same, from parameters, for what
             depends on places: its steps are long where the motion is slow. None if it has none.
+        narrowest_speed: [unit/s] span of speed within which it stays much the same, from
+            parameters: a search takes short steps where the speed changes fast. None if it has
+            none.
         order: where it stands along the path from command to motor, for a path.
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         simpler: the effect with fewer parameters that does about the same; empty if there is none.
@@ -157,6 +160,7 @@ class Effect:
     stored_energy: Callable[..., float] | None = None
     fastest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
     shortest_length: Callable[[Mapping[str, float]], float] | None = None
+    narrowest_speed: Callable[[Mapping[str, float]], float] | None = None
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     simpler: str = ""

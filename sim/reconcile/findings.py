@@ -94,7 +94,8 @@ def make_findings(
         effects = [
             one for one in effects if one.size == "major" or _narrows(rounds[one.effect], done[-1])
         ]
-    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect]))
+    alone = {one.effect: one.gap for one in done[0].tried}
+    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect], alone))
     return tuple(sorted((*faults, *effects), key=_sort_key)), judged
 
 
@@ -128,7 +129,7 @@ def judge_effects(
             likelihood=math.log(max(_removal_cost(before, now), 1.0)),
             gap=log_gap_ratio(with_.velocity, bare.velocity),
             size=log_size(name, last.values),
-            rival=rival_share(name, added, {one.effect: one.score for one in before.tried}),
+            rival=rival_share(name, added, rival_scores(before, last.structure.effects, name)),
             strays=log_strays(noises),
             structure=float(left.has_structure),
             once=float(EFFECTS[name].has_onset),
@@ -140,6 +141,20 @@ def judge_effects(
         for name, rivals, one in found
         for whole in [_compare(one, [other for _, _, other in found if other is not one])]
     )
+
+
+def rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
+    """Candidate -> its score in the round of an effect, without other effects of the last model.
+
+    Those explain something else: they are in the model beside it.
+
+    Args:
+        before: the round.
+        kept: the effects of the last model.
+        name: the effect.
+    """
+    others = {*kept} - {name}
+    return {one.effect: one.score for one in before.tried if one.effect not in others}
 
 
 def _compare(one: Evidence, others: Sequence[Evidence]) -> Evidence:
@@ -158,9 +173,20 @@ def _removal_cost(before: SelectionRound, now: SelectionRound) -> float:
     return now.removal_cost
 
 
-def _expected_share_closed(one: JudgedEffect) -> float:
-    """[1] of the gap that an effect is expected to close: the largest is the most important."""
-    return one.probability * (1.0 - math.exp(one.evidence.gap))
+def _expected_share_closed(one: JudgedEffect, alone: Mapping[str, float]) -> float:
+    """[1] of the gap that an effect is expected to close: the largest is the most important.
+
+    What it closes as the first effect and as the last one differs, so the geometric mean of both
+    counts, as in the Shapley value of two effects.
+
+    Args:
+        one: the effect.
+        alone: effect -> [1] of the base model's gap that it leaves alone. For one that was not
+            tried alone, what it closes as the last one counts.
+    """
+    last = one.evidence.gap
+    first = log_gap_ratio(alone[one.effect], 1.0) if one.effect in alone else last
+    return one.probability * (1.0 - math.exp(0.5 * (first + last)))
 
 
 def _classify_size(

@@ -32,6 +32,7 @@ from sim.reconcile.thresholds import (
     MAJOR,
     MOST,
     MOST_QUIET,
+    NARROWER,
     NEAR,
     PART,
     PATHS,
@@ -78,13 +79,13 @@ def take_nearest(done: list[SelectionRound]) -> list[SelectionRound]:
     """The rounds, with the last effect replaced by the one that left the smallest gap.
 
     What any robot has a little of goes first, since the next round finds the rest. Where there is
-    no time for a next round, what closes most of the gap matters more.
+    no time for a next round, what closes clearly more of the gap matters more.
     """
     if len(done) == 1 or done[-1].candidates:
         return done
     admitted = [one for one in done[-2].candidates if one.report.admitted]
     nearest = min(admitted, key=lambda one: one.gap.velocity, default=None)
-    if nearest is None or not nearest.gap.velocity < done[-1].gap.velocity:
+    if nearest is None or not nearest.gap.velocity < NARROWER * done[-1].gap.velocity:
         return done
     return [*done[:-1], _next_round(done[-2], nearest)]
 

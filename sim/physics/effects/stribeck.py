@@ -31,6 +31,11 @@ def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> flo
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
 
+def narrowest_speed(values: Mapping[str, float]) -> float:
+    """[unit/s] over which it fades."""
+    return values["slow"]
+
+
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: the best of a few speeds over which it may fade."""
     for part in (0.06, 0.02, 0.2):
@@ -67,5 +72,6 @@ EFFECT = Effect(
     start_values=find_start_values,
     hooks={"coulomb_friction": coulomb_friction},
     fastest_time=fastest_time,
+    narrowest_speed=narrowest_speed,
     is_ordinary=is_ordinary,
 )

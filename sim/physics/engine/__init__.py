@@ -183,7 +183,7 @@ def simulate_run(
     simple = not wires.any() and model.type != "arm" and all(map(is_pure_delay, model.parts))
     longest = EXACT if simple else step_limits(model)
     if step:
-        longest = np.array([step, math.inf, step])
+        longest = np.array([step, math.inf, step, math.inf])
     kernel = _plain_engine() if plain else _compiled_engine()
     kernel.move(
         np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage),

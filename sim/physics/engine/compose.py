@@ -63,7 +63,7 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "sessions": "(count,)",
     "began": "(count,)",
     "ways": f"({WAYS},)",
-    "steps": "(3,)",
+    "steps": "(4,)",
     "measured": "(rows, 2)",
     "trust": "(rows, 4)",
     "out": "(n, 8)",

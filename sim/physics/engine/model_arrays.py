@@ -28,7 +28,7 @@ COARSEST = 0.0025  # [s] step where something other than the base model acts: th
 SEARCHED = 0.005  # [s] the same while a search looks for an effect
 LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
 SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
-EXACT: Array = np.array([math.inf, math.inf, 0.0])  # steps of a model with an exact solution
+EXACT: Array = np.array([math.inf, math.inf, 0.0, math.inf])  # of a model with an exact solution
 PLACES = parameter_slices(EFFECTS)
 NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
@@ -96,16 +96,23 @@ def find_finest_step(model: Model) -> float:
 
 
 def step_limits(model: Model) -> Array:
-    """(3,) the longest step: [s], [unit] of way, and [s] that even a fast one lasts."""
+    """(4,) the longest step: [s], [unit] of way, [s] that even a fast one lasts, and [unit/s]."""
     longest = min(COARSEST, SHARE_OF_PACE * _fastest(model, places=False))
-    return np.array([max(longest, LEAST_STEP), SHARE_OF_PACE * _shortest(model), LEAST_STEP])
+    way = SHARE_OF_PACE * _shortest(model)
+    return np.array([max(longest, LEAST_STEP), way, LEAST_STEP, math.inf])
 
 
 def search_step_limits(model: Model) -> Array:
-    """(3,) the same while a search looks for an effect."""
+    """(4,) the same while a search looks for an effect.
+
+    Its steps are longer, but for where the speed changes fast beside what depends on speed: there
+    even a small error is more than the noise of a good encoder, and an effect with a faster pace
+    of its own, and so with shorter steps, would seem to explain it.
+    """
     share = 2.0 * SHARE_OF_PACE
     longest = min(SEARCHED, share * _fastest(model, places=False))
-    return np.array([max(longest, LEAST_SEARCHED), share * _shortest(model), LEAST_SEARCHED])
+    way, faster = share * _shortest(model), share * _narrowest(model)
+    return np.array([max(longest, LEAST_SEARCHED), way, LEAST_SEARCHED, faster])
 
 
 def _fastest(model: Model, *, places: bool = True) -> float:
@@ -123,6 +130,16 @@ def _shortest(model: Model) -> float:
     spans = [math.inf]
     for part in model.parts:
         span = EFFECTS[part.effect].shortest_length
+        if span is not None:
+            spans.append(span(part.parameters))
+    return min(spans)
+
+
+def _narrowest(model: Model) -> float:
+    """[unit/s] the narrowest span of speed within which something stays much the same."""
+    spans = [math.inf]
+    for part in model.parts:
+        span = EFFECTS[part.effect].narrowest_speed
         if span is not None:
             spans.append(span(part.parameters))
     return min(spans)

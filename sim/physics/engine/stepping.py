@@ -35,7 +35,7 @@ it; the position that was expected and the velocity that the sensor would see ar
 
 NONE = 1e-9  # [s] a step that is none
 SLIDING = 4.0  # steps of a sample in which the voltage slides: its mean leaves a sixteenth of error
-LONGEST, ALONG, LEAST = range(3)  # places in ``steps``: [s], [unit] of way, [s]
+LONGEST, ALONG, LEAST, FASTER = range(4)  # places in ``steps``: [s], [unit] of way, [s], [unit/s]
 
 
 def advance_step(
@@ -105,13 +105,20 @@ def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: floa
 
 
 def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
-    """Number of steps of a time span [s]: more where it moves fast and positions matter."""
+    """Number of steps of a time span [s].
+
+    More where it moves fast and positions matter, or where its speed changes fast and speeds do.
+    """
     longest = steps[LONGEST]
     if steps[ALONG] < math.inf:
         most = max(abs(v), abs(volts) / c[KV])
         fast = min(abs(v) + span * abs(volts) / c[KA], most)
         if fast * longest > steps[ALONG]:
             longest = max(steps[ALONG] / fast, steps[LEAST])
+    if steps[FASTER] < math.inf:
+        rate = abs(volts - c[KV] * v) / c[KA]
+        if rate * longest > steps[FASTER]:
+            longest = max(steps[FASTER] / rate, steps[LEAST])
     return float(max(math.ceil(span / longest - 1e-9), 1))
 
 
@@ -133,9 +140,9 @@ def step_run(
     by what the effects delay it; before the first has come, what rests is held where it rests, by a
     stop or a brake. ``measured`` (n, 2) are positions and velocities that correct the motion as it
     goes, nan where there is none, by the gains ``trust`` (n, 4); without rows it goes its way. A
-    step lasts as long as ``steps`` lets it: [s], [unit] of way, and [s] that even that does not
-    shorten. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
-    at first.
+    step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that even that does not
+    shorten, and [unit/s] by which the speed changes. ``ways`` is room for the tables of
+    ``two_body_modes.py``: of one model only, and empty at first.
     """
     lag = command_delay(on, p)
     n = time.size
