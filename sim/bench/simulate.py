@@ -31,6 +31,7 @@ __all__ = ["move_gains_only", "read_sensor", "simulate"]
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
 FEWEST = 10  # [samples] a shorter test has nothing to say
+BETWEEN = 8  # steps of a loop for a sensor that reads between loops: a line from loop to loop is late
 MARGIN = 0.04  # [share of the travel] before a stop at which someone ends the test
 
 
@@ -77,10 +78,12 @@ def simulate(
         began = runs[0].time[0] if runs else start + time[0]
         state.clock = float(start + time[0] - began)  # what the log's own times say
         begun, state = _at_rest(state, _begin(mechanism, test, last))
+        parts = _steps_per_loop(mechanism)
+        time, voltage = _divide_loops(time, voltage, parts)
         track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
         track, left_out = _slip(mechanism, time, voltage, wires=wires, track=track)
         gripped = gripped or left_out
-        end = _end(track, mechanism, test=test)
+        end = (_end(track.every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size:
             if state.memory.any():  # nothing that someone ended goes on to warm a motor
@@ -88,8 +91,9 @@ def simulate(
                 track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
             else:
                 track = track.truncate(end)
-        run = _record_run(mechanism, test, time, track, rng=rng, electrical=electrical)
-        runs.append(replace(run, time=start + time))
+        loops = time[::parts]
+        run = _record_run(mechanism, test, time, track, loops=loops, rng=rng, electrical=electrical)
+        runs.append(replace(run, time=start + loops))
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
@@ -122,14 +126,31 @@ def _slip(
 
 def _record_run(
     mechanism: Mechanism, test: str, time: Array, track: Track,
-    *, rng: np.random.Generator, electrical: bool,
+    *, loops: Array, rng: np.random.Generator, electrical: bool,
 ) -> Run:  # fmt: skip
-    """The run as the robot program logs it."""
+    """The run as the robot program logs it, at the times ``loops``."""
     seen = read_sensor(
-        mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
-    )
-    extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
-    return Run(test, time, track.applied, *seen, **extra)
+        mechanism.sensor, position=track.position, velocity=track.seen, time=time, read_at=loops,
+        rng=rng,
+    )  # fmt: skip
+    logged = track.every((time.size - 1) // (loops.size - 1))
+    extra = {"current": logged.current, "bus_voltage": logged.bus} if electrical else {}
+    return Run(test, loops, logged.applied, *seen, **extra)
+
+
+def _steps_per_loop(mechanism: Mechanism) -> int:
+    """How many steps of a loop are simulated for what the sensor reads."""
+    return BETWEEN if mechanism.sensor.latency or mechanism.sensor.frame else 1
+
+
+def _divide_loops(time: Array, voltage: Array, parts: int) -> tuple[Array, Array]:
+    """Times of equal parts of each loop, and the voltages that are held through them."""
+    if parts == 1:
+        return time, voltage
+    share = np.arange(parts) / parts
+    inner = (time[:-1, None] + share * np.diff(time)[:, None]).ravel()
+    held = np.repeat(voltage[:-1], parts)
+    return np.append(inner, time[-1]), np.append(held, voltage[-1])
 
 
 def _check_period(period: float) -> None:

@@ -181,8 +181,11 @@ def _measure_run(
     """The measurements of a run; ``noise`` is that of a velocity which trembles at rest."""
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
+    doubtful = _find_repeated_frames(run, fast=fast)
     for column in (0, 1):
         measured[~_find_fresh_readings(measured[:, column], fast=fast), column] = np.nan
+    if not np.isnan(measured).any():
+        measured[doubtful] = np.nan
     moving = np.abs(run.velocity) > MOVING * top
     least = MOVING * top
     if noise is not None:
@@ -246,6 +249,16 @@ def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[n
     ends = np.append(np.flatnonzero(new)[1:], values.size)[np.cumsum(new) - 1]
     whole = (index - last) % max(frame, 1) == 0
     return np.asarray(new | (whole & (ends - index > 0.5 * frame)))
+
+
+def _find_repeated_frames(run: Run, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) readings of a frame that was read twice at speed: one of the two is a period older.
+
+    Where a loop and a device's frames are in step, a little jitter makes the loop read a frame twice
+    and miss the next one. Which of the two has the age of all others, nobody can tell.
+    """
+    same = (np.diff(run.position) == 0.0) & (np.diff(run.velocity) == 0.0) & fast[1:] & fast[:-1]
+    return np.asarray(np.append(same, False) | np.insert(same, 0, False))  # noqa: FBT003 - NumPy's
 
 
 def _find_departure(run: Run, moving: NDArray[np.bool_]) -> int:

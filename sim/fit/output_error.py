@@ -41,6 +41,7 @@ from sim.fit.open_loop_fallback import (
     replay_open_loop,
 )
 from sim.fit.result import Fit
+from sim.fit.run_lags import fit_run_lags
 from sim.fit.search import (
     TRACKING,
     drop_outliers,
@@ -137,7 +138,11 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)
-    problem, likeliest, followed = _add_everyday_effects(*_choose_lags(problem, plain))
+    problem, likeliest, followed = _choose_lags(problem, plain)
+    problem, likeliest, followed = _add_run_lags(
+        problem, likeliest, followed, period=_sample_period(log.runs)
+    )
+    problem, likeliest, followed = _add_everyday_effects(problem, likeliest, followed)
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
     gains, errors = _gains_with_errors(point, parameter_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
@@ -204,6 +209,16 @@ def _choose_lags(
 
     best = _add_lags(problem, found, SHORT_LAGS, settle=settle)
     return problem, best, followed if best is found else replay_open_loop(problem, best)
+
+
+def _add_run_lags(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay, *, period: float
+) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
+    """The same with a lag of each run's own, where the runs' likelihood asks for it."""
+    extended, found = fit_run_lags(problem, point, period=period)
+    if found is point:
+        return problem, point, followed
+    return extended, found, replay_open_loop(extended, found)
 
 
 def _add_everyday_effects(
