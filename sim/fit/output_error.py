@@ -138,9 +138,10 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)
+    every = problem
     problem, likeliest, followed = _choose_lags(problem, plain)
     problem, likeliest, followed = _add_run_lags(
-        problem, likeliest, followed, period=_sample_period(log.runs)
+        problem, likeliest, followed, every=every, period=_sample_period(log.runs)
     )
     problem, likeliest, followed = _add_everyday_effects(problem, likeliest, followed)
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
@@ -212,10 +213,11 @@ def _choose_lags(
 
 
 def _add_run_lags(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay, *, period: float
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay, *,
+    every: PredictionErrorProblem, period: float,
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The same with a lag of each run's own, where the runs' likelihood asks for it."""
-    extended, found = fit_run_lags(problem, point, period=period)
+    extended, found = fit_run_lags(problem, point, every=every, period=period)
     if found is point:
         return problem, point, followed
     return extended, found, replay_open_loop(extended, found)

@@ -22,7 +22,7 @@ import numpy as np
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
 from sim.fit.everyday_effects import promised_improvement
-from sim.fit.search import ROUGHLY, STEPS, TRACKING, fit_open_loop
+from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking
 
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
 UNIFORM = math.sqrt(12.0)  # standard deviations in the width of an even distribution
@@ -30,28 +30,33 @@ SHARED = "delay"
 
 
 def fit_run_lags(
-    problem: PredictionErrorProblem, point: Estimate, *, period: float
+    problem: PredictionErrorProblem, point: Estimate, *, every: PredictionErrorProblem, period: float
 ) -> tuple[PredictionErrorProblem, Estimate]:
     """Fit a lag for each run, where the data ask for it.
 
     Args:
         problem: the measurements.
         point: the best estimate with one lag, or none.
+        every: the same measurements, none left out: what a model with one lag took for an outlier
+            may show that the runs differ.
         period: [s] between samples of the log.
 
     Returns:
         Both as they were if the runs' own lags do not explain enough.
     """
     extended = replace(problem, lag_sd=period / UNIFORM)
-    begin = _with_shared_lag(extended, point)
-    if not promised_improvement(extended, begin) > WORTH + laplace_correction(extended, begin):
+    begin = _with_shared_lag(extended, point, least=0.0)
+    if not promised_improvement(extended, begin) > WORTH:
         return problem, point
-    q = min(begin.process_noise, TRACKING * problem.noise.velocity**2)
-    begin = extended.evaluate(begin.structure, begin.values, begin.nuisance, q)
-    begin = levenberg_marquardt(extended, begin, steps=STEPS, enough=ROUGHLY)
-    found = fit_open_loop(extended, begin)
-    better = found.cost + laplace_correction(extended, found) < point.cost - WORTH
-    return (extended, found) if better else (problem, point)
+    alike = fit_tracking(every, point.structure, point.values)
+    extended = replace(every, lag_sd=period / UNIFORM)
+    begin = _with_shared_lag(extended, alike, least=0.5 * period)
+    tracked = levenberg_marquardt(extended, begin, steps=2 * STEPS, enough=ROUGHLY)
+    if not tracked.cost + laplace_correction(extended, tracked) < alike.cost - WORTH:
+        return problem, point
+    extended = drop_outliers(extended, tracked)
+    tracked = levenberg_marquardt(extended, _again(extended, tracked), steps=STEPS, enough=ROUGHLY)
+    return extended, fit_open_loop(extended, tracked)
 
 
 def laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
@@ -60,11 +65,17 @@ def laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> floa
     return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))
 
 
-def _with_shared_lag(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The estimate in a model that has a lag, of half a period at least, so that all may differ."""
+def _with_shared_lag(
+    problem: PredictionErrorProblem, point: Estimate, *, least: float
+) -> Estimate:
+    """The estimate in a model that has a lag, of ``least`` [s] or more, so that runs may differ."""
     structure = point.structure
     if SHARED not in structure.effects:
         structure += SHARED
-    half = 0.5 * UNIFORM * problem.lag_sd
-    values = {**point.values, "delay.lag": max(point.values.get("delay.lag", 0.0), half)}
+    values = {**point.values, "delay.lag": max(point.values.get("delay.lag", 0.0), least)}
     return problem.evaluate(structure, values, point.nuisance, point.process_noise)
+
+
+def _again(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The same values, with other measurements."""
+    return problem.evaluate(point.structure, point.values, point.nuisance, point.process_noise)

@@ -125,14 +125,14 @@ def step_run(
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
 
     A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
-    by ``late`` [s] beyond what the effects delay it, though never early; before the first has come, what rests is held where it rests, by a
+    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held where it rests, by a
     stop or a brake. ``measured`` (n, 2) are positions and velocities that correct the motion as it
     goes, nan where there is none, by the gains ``trust`` (n, 4); without rows it goes its way. A
     step lasts as long as ``steps`` lets it: [s], [unit] of way, and [s] that even that does not
     shorten. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
     at first.
     """
-    lag = max(command_delay(on, p) + late, 0.0)
+    lag = command_delay(on, p) + late
     n = time.size
     command = -1  # the last one that has arrived
     rests = state[V] == 0.0 and state[W] == 0.0
