@@ -25,6 +25,7 @@ ROBUST = 1.4826  # standard deviations in a median absolute deviation
 GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
 GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] how a stop yields
 REST_STEPS = 1.5  # steps of a position by which one at rest may differ
+RISES = 0.06  # [s] between the first voltage of a step and the first motion that a late sensor shows
 FILTERED = 0.3  # [s] by which an averaged velocity may be late
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
@@ -214,7 +215,7 @@ def _measure_run(
         else:
             near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
             first = go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0
-            first = min(first, max(go - 1, 0))
+            first = min(first, max(go - 1, 0), _find_step_begin(run, go))
     cut = slice(first, None)
     start = float(run.velocity[first])
     start = start if abs(start) > least else 0.0
@@ -292,6 +293,17 @@ def _find_departure(run: Run, moving: NDArray[np.bool_], *, step: float) -> int:
     still = np.flatnonzero(way <= REST_STEPS * step)
     left = int(still[-1]) + 1 if still.size else go
     return left if left < go and run.time[go] - run.time[left] < FILTERED else go
+
+
+def _find_step_begin(run: Run, go: int) -> int:
+    """The first sample of a step that moves a mechanism at ``go``, a little later than commanded.
+
+    A current limit lets a step rise over some samples, and what the first of them did to the motion
+    shows later, where readings are late.
+    """
+    early = np.arange(go + 1)[run.time[: go + 1] >= run.time[go] - RISES]
+    pushes = run.voltage[early] * np.sign(run.voltage[go]) >= 0.5 * abs(run.voltage[go])
+    return int(early[early.size - int(np.argmin(pushes[::-1]))]) if not pushes.all() else int(early[0])
 
 
 def _find_far_sample(run: Run) -> int:
