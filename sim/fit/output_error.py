@@ -56,7 +56,7 @@ from sim.fit.sysid_doubts import uncertain_gains
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
-SHORT_LAGS = {"delay.lag": (0.05, 0.2)}
+SHORT_LAGS = {"velocity-filter.window": (0.1, 0.5), "delay.lag": (0.05, 0.2)}
 """[sample periods] from which a search begins, and from which again when gains are nearly right.
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
@@ -201,14 +201,7 @@ def _choose_lags(
             found, followed = other, replay_open_loop(problem, other)
     if followed.has_misfit:  # a millisecond is not what is wrong
         return problem, found, followed
-
-    def settle(
-        problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
-    ) -> Estimate:
-        first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
-        return fit_open_loop(problem, refine(problem, first))
-
-    best = _add_lags(problem, found, SHORT_LAGS, settle=settle)
+    best = _add_short_lags(problem, found)
     return problem, best, followed if best is found else replay_open_loop(problem, best)
 
 
@@ -220,6 +213,7 @@ def _add_run_lags(
     extended, found = fit_run_lags(problem, point, every=every, period=period)
     if found is point:
         return problem, point, followed
+    found = _add_short_lags(extended, found)
     return extended, found, replay_open_loop(extended, found)
 
 
@@ -257,6 +251,18 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
     points.sort(key=lambda one: one.cost)
     best = (fit_tracking(problem, one.structure, one.values) for one in points[:HOPEFUL])
     return min(best, key=lambda one: one.cost)
+
+
+def _add_short_lags(problem: PredictionErrorProblem, found: Estimate) -> Estimate:
+    """An estimate whose gains are nearly right, with the short lags that are worth it."""
+
+    def settle(
+        problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
+    ) -> Estimate:
+        first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
+        return fit_open_loop(problem, refine(problem, first))
+
+    return _add_lags(problem, found, SHORT_LAGS, settle=settle)
 
 
 def _add_lags(

@@ -19,13 +19,15 @@ from dataclasses import replace
 
 import numpy as np
 
+from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
 from sim.fit.everyday_effects import promised_improvement
-from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking
+from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
 UNIFORM = math.sqrt(12.0)  # standard deviations in the width of an even distribution
+SLOPE_STEP = 1e-4  # [s] to both sides, for the slope of a reading
 SHARED = "delay"
 
 
@@ -56,7 +58,15 @@ def fit_run_lags(
         return problem, point
     extended = drop_outliers(extended, tracked)
     tracked = levenberg_marquardt(extended, _again(extended, tracked), steps=STEPS, enough=ROUGHLY)
-    return extended, fit_open_loop(extended, tracked)
+    found = fit_open_loop(extended, tracked)
+    framed = _at_frame_times(extended, found)
+    if framed is extended:
+        return extended, found
+    regular = refine(framed, _again(framed, found))
+    if not regular.cost < found.cost - WORTH:
+        return extended, found
+    framed = _at_frame_times(extended, regular)
+    return framed, fit_open_loop(framed, _again(framed, regular))
 
 
 def laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
@@ -74,6 +84,45 @@ def _with_shared_lag(
         structure += SHARED
     values = {**point.values, "delay.lag": max(point.values.get("delay.lag", 0.0), least)}
     return problem.evaluate(structure, values, point.nuisance, point.process_noise)
+
+
+def _at_frame_times(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
+    """The same readings as they would have been at their samples, if frames come at even times.
+
+    A frame is measured by the device's clock, and logged when the program's loop has come around,
+    a little early or late. How much, its times say: the reading is then moved by the slope that the
+    model has there.
+    """
+    late = [_deviation_from_even(record.measurements.time) for record in problem.records]
+    if max(float(np.abs(one).max()) for one in late) > 0.5 * problem.lag_sd * UNIFORM:
+        return problem
+    slopes = _reading_slopes(problem, point)
+    records = []
+    for record, own, first in zip(problem.records, late, problem.run_edges, strict=False):
+        run = record.measurements
+        measured = run.measured + slopes[first : first + own.size] * own[:, None]
+        records.append(replace(record, measurements=replace(run, measured=measured)))
+    return replace(problem, records=tuple(records))
+
+
+def _reading_slopes(problem: PredictionErrorProblem, point: Estimate) -> Array:
+    """(n, 2) change of position and velocity per second, as the sensor shows them."""
+    model = point.structure.model(point.values)
+    base = problem.initial_nuisance.add_lag(point.nuisance.lag_offset)
+    readings = [
+        problem.simulate(model, base.add_lag(np.full(len(problem.records), by)))
+        for by in (-SLOPE_STEP, SLOPE_STEP)
+    ]
+    early, late = (np.column_stack((one.expected, one.seen)) for one in readings)
+    return np.asarray((early - late) / (2.0 * SLOPE_STEP))
+
+
+def _deviation_from_even(time: Array) -> Array:
+    """(n,) [s] by which samples come later than evenly spaced ones."""
+    steps = np.diff(time)
+    index = np.concatenate(([0.0], np.cumsum(np.round(steps / np.median(steps)))))
+    line = np.polynomial.Polynomial.fit(index, time, 1)
+    return np.asarray(time - line(index))
 
 
 def _again(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
