@@ -210,11 +210,25 @@ def _add_run_lags(
     every: PredictionErrorProblem, period: float,
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The same with a lag of each run's own, where the runs' likelihood asks for it."""
+    if _lacks_more(problem, point, followed):
+        return problem, point, followed
     extended, found = fit_run_lags(problem, point, every=every, period=period)
     if found is point:
         return problem, point, followed
     found = _add_short_lags(extended, found)
-    return extended, found, replay_open_loop(extended, found)
+    after = replay_open_loop(extended, found)
+    if _lacks_more(extended, found, after):
+        return problem, point, followed
+    return extended, found, after
+
+
+def _lacks_more(
+    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+) -> bool:
+    """Whether so much is missing from a model that its small parameters stand in for it."""
+    return (
+        followed.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
+    )
 
 
 def _add_everyday_effects(
@@ -225,8 +239,8 @@ def _add_everyday_effects(
     if found is point:
         return problem, point, followed
     after = replay_open_loop(extended, found)
-    if after.has_misfit and found.process_noise > TRACKING * problem.noise.velocity**2:
-        return problem, point, followed  # something else is missing, and they stand in for it
+    if _lacks_more(extended, found, after):
+        return problem, point, followed
     return extended, found, after
 
 

@@ -26,6 +26,7 @@ from sim.fit.everyday_effects import promised_improvement
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
+EARLY = 0.2  # [sample periods] by which a lag may seem to be less than none
 UNIFORM = math.sqrt(12.0)  # standard deviations in the width of an even distribution
 SLOPE_STEP = 1e-4  # [s] to both sides, for the slope of a reading
 SHARED = "delay"
@@ -54,6 +55,9 @@ def fit_run_lags(
     extended = replace(every, lag_sd=period / UNIFORM)
     begin = _with_shared_lag(extended, alike, least=0.5 * period)
     tracked = levenberg_marquardt(extended, begin, steps=2 * STEPS, enough=ROUGHLY)
+    lags = tracked.values["delay.lag"] + tracked.nuisance.lag_offset
+    if lags.min() < -EARLY * period:
+        return problem, point  # no reading is newer than the voltage beside it
     if not tracked.cost + laplace_correction(extended, tracked) < alike.cost - WORTH:
         return problem, point
     extended = drop_outliers(extended, tracked)
