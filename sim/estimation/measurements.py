@@ -274,11 +274,11 @@ def _find_repeated_frames(
     Where a loop and a device's frames are in step, a little jitter makes the loop read a frame twice
     and miss the next one. Which of the two has the age of all others, nobody can tell.
     """
-    ways = np.abs(np.diff(run.position))
-    same = (ways == 0.0) & (np.diff(run.velocity) == 0.0) & fast[1:] & fast[:-1]
-    at_speed = ways[fast[1:] & fast[:-1]]
-    if not at_speed.size or np.median(at_speed) < FINE * step:
-        same[:] = False  # a sensor this coarse repeats itself
+    ways, pairs = np.abs(np.diff(run.position)), fast[1:] & fast[:-1]
+    same = (ways == 0.0) & (np.diff(run.velocity) == 0.0) & pairs
+    coarse = not pairs.any() or float(np.median(ways[pairs])) < FINE * step  # it repeats itself
+    if coarse or float(np.mean(same[pairs])) > HELD:
+        same[:] = False
     return np.asarray(np.append(same, False) | np.insert(same, 0, False))  # noqa: FBT003 - NumPy's
 
 
