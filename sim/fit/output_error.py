@@ -56,7 +56,7 @@ from sim.fit.sysid_doubts import uncertain_gains
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
-SHORT_LAGS = {"velocity-filter.window": (0.1, 0.5), "delay.lag": (0.05, 0.2)}
+SHORT_LAGS = {"velocity-filter.window": (0.1, 1.0, 0.5), "delay.lag": (0.05, 0.2)}
 """[sample periods] from which a search begins, and from which again when gains are nearly right.
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
@@ -296,8 +296,8 @@ def _add_lags(
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
-        firsts = [(name, sizes[0] * problem.period) for name, sizes in left.items()]
-        # a lag of any size shows in what a short one promises
+        # a lag of any size shows in what one of the first two promises
+        firsts = [(name, size * problem.period) for name, all_ in left.items() for size in all_[:2]]
         kept = make_joint_jacobian(problem, point, fine=True)
         if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
             break
