@@ -373,6 +373,19 @@ class PredictionErrorProblem:
         Raises:
             ValueError: the cost of the estimate is infinite.
         """
+        found = self._fine_jacobians.get(point) if fine else None
+        if found is None:
+            found = self._compute_jacobian(point, fine=fine)
+            if fine:
+                self._fine_jacobians[point] = found
+        return found
+
+    @cached_property
+    def _fine_jacobians(self) -> WeakKeyDictionary[Estimate, Array]:
+        """Those that were needed: a fit asks for one at its end, for lags and for its errors."""
+        return WeakKeyDictionary()
+
+    def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
         structure = point.structure
         sides = [
             self._difference_points(point, name, fine=fine) for name in structure.searched_names

@@ -43,6 +43,13 @@ class JointJacobian:
         taken = self.project(white)
         return float(white @ white - taken @ taken)
 
+    def improvement(self, white: Array, columns: Array, sd: float) -> float:
+        """[of -2 log L] gain of further columns (2 n, m), whose priors have this deviation."""
+        taken = self.basis.T @ columns
+        square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
+        slope = columns.T @ white - taken.T @ self.project(white)
+        return float(slope @ np.linalg.solve(square, slope))
+
     def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """What is left of a change's product with innovations, and with itself."""
         taken = self.basis.T @ change

@@ -54,9 +54,11 @@ from sim.fit.search import (
 from sim.fit.sysid_doubts import uncertain_gains
 
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
+CHANCE = 4.0  # [of -2 log L] more for a window below a sample, of which noise looks like one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
-SHORT_LAGS = {"velocity-filter.window": (0.1, 1.0, 0.5), "delay.lag": (0.05, 0.2)}
+SHORT_WINDOWS = (0.1, 1.0, 0.5)
+SHORT_LAGS = {"velocity-filter.window": SHORT_WINDOWS, "delay.lag": (0.05, 0.2)}
 """[sample periods] from which a search begins, and from which again when gains are nearly right.
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
@@ -302,13 +304,15 @@ def _add_lags(
         if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
             break
         tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
-        worth = predicted_improvement(problem, point, tried, kept=kept)
-        if not worth.max() > WORTH:
+        least = np.array([WORTH + CHANCE * (sizes is SHORT_WINDOWS) for sizes in left.values() for _ in sizes])
+        worth = predicted_improvement(problem, point, tried, kept=kept) - least
+        if not worth.max() > 0.0:
             break
-        name, value = tried[int(np.argmax(worth))]
+        best = int(np.argmax(worth))
+        name, value = tried[best]
         structure = point.structure + name.partition(".")[0]
         other = settle(problem, structure, {**point.values, name: value})
-        if not other.cost < point.cost - WORTH:
+        if not other.cost < point.cost - least[best]:
             break
         point = other
         del left[name]

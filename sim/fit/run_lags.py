@@ -21,8 +21,7 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import levenberg_marquardt
-from sim.fit.everyday_effects import promised_improvement
+from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
@@ -48,8 +47,9 @@ def fit_run_lags(
         Both as they were if the runs' own lags do not explain enough.
     """
     extended = replace(problem, lag_sd=period / UNIFORM)
-    begin = _with_shared_lag(extended, point, least=0.0)
-    if not promised_improvement(extended, begin) > WORTH:
+    white = problem.whiten(point, point.innovations)
+    own = make_joint_jacobian(problem, point, fine=True)
+    if not own.improvement(white, extended.lag_jacobian(point), extended.lag_sd) > WORTH:
         return problem, point
     alike = fit_tracking(every, point.structure, point.values)
     extended = replace(every, lag_sd=period / UNIFORM)
