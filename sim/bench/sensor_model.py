@@ -37,7 +37,7 @@ def read_sensor(
         velocity: (n,) [m/s or rad/s].
         rng: the source of noise.
         time: (n,) [s]; needed by a sensor that is late, filters or sends frames.
-        read_at: (m,) [s] when the robot program reads such a sensor; at every ``time`` if not given.
+        read_at: (m,) [s] when the robot program reads such a sensor; by default at every ``time``.
 
     Returns:
         (m,) readings.

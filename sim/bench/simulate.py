@@ -31,7 +31,9 @@ __all__ = ["move_gains_only", "read_sensor", "simulate"]
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
 FEWEST = 10  # [samples] a shorter test has nothing to say
-BETWEEN = 8  # steps of a loop for a sensor that reads between loops: a line from loop to loop is late
+BETWEEN = (
+    8  # steps of a loop for a sensor that reads between loops: a line from loop to loop is late
+)
 MARGIN = 0.04  # [share of the travel] before a stop at which someone ends the test
 
 

@@ -25,7 +25,9 @@ ROBUST = 1.4826  # standard deviations in a median absolute deviation
 GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
 GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] how a stop yields
 REST_STEPS = 1.5  # steps of a position by which one at rest may differ
-RISES = 0.06  # [s] between the first voltage of a step and the first motion that a late sensor shows
+RISES = (
+    0.06  # [s] between the first voltage of a step and the first motion that a late sensor shows
+)
 FILTERED = 0.3  # [s] by which an averaged velocity may be late
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
@@ -266,20 +268,18 @@ def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[n
     return np.asarray(new | (whole & (ends - index > 0.5 * frame)))
 
 
-def _find_repeated_frames(
-    run: Run, *, fast: NDArray[np.bool_], step: float
-) -> NDArray[np.bool_]:
+def _find_repeated_frames(run: Run, *, fast: NDArray[np.bool_], step: float) -> NDArray[np.bool_]:
     """(n,) readings of a frame that was read twice at speed: one of the two is a period older.
 
-    Where a loop and a device's frames are in step, a little jitter makes the loop read a frame twice
-    and miss the next one. Which of the two has the age of all others, nobody can tell.
+    Where a loop and a device's frames are in step, a little jitter makes the loop read a frame
+    twice and miss the next one. Which of the two has the age of all others, nobody can tell.
     """
     ways, pairs = np.abs(np.diff(run.position)), fast[1:] & fast[:-1]
     same = (ways == 0.0) & (np.diff(run.velocity) == 0.0) & pairs
     coarse = not pairs.any() or float(np.median(ways[pairs])) < FINE * step  # it repeats itself
     if coarse or float(np.mean(same[pairs])) > HELD:
         same[:] = False
-    return np.asarray(np.append(same, False) | np.insert(same, 0, False))  # noqa: FBT003 - NumPy's
+    return np.asarray(np.append(same, False) | np.insert(same, 0, False))
 
 
 def _find_departure(run: Run, moving: NDArray[np.bool_], *, step: float) -> int:
@@ -303,7 +303,9 @@ def _find_step_begin(run: Run, go: int) -> int:
     """
     early = np.arange(go + 1)[run.time[: go + 1] >= run.time[go] - RISES]
     pushes = run.voltage[early] * np.sign(run.voltage[go]) >= 0.5 * abs(run.voltage[go])
-    return int(early[early.size - int(np.argmin(pushes[::-1]))]) if not pushes.all() else int(early[0])
+    return (
+        int(early[early.size - int(np.argmin(pushes[::-1]))]) if not pushes.all() else int(early[0])
+    )
 
 
 def _find_far_sample(run: Run) -> int:

@@ -208,8 +208,12 @@ def _choose_lags(
 
 
 def _add_run_lags(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay, *,
-    every: PredictionErrorProblem, period: float,
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    followed: OpenLoopReplay,
+    *,
+    every: PredictionErrorProblem,
+    period: float,
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
     """The same with a lag of each run's own, where the runs' likelihood asks for it."""
     if _lacks_more(problem, point, followed):
@@ -224,13 +228,9 @@ def _add_run_lags(
     return extended, found, after
 
 
-def _lacks_more(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
-) -> bool:
+def _lacks_more(problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay) -> bool:
     """Whether so much is missing from a model that its small parameters stand in for it."""
-    return (
-        followed.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
-    )
+    return followed.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
 
 
 def _add_everyday_effects(
@@ -304,7 +304,9 @@ def _add_lags(
         if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
             break
         tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
-        least = np.array([WORTH + CHANCE * (sizes is SHORT_WINDOWS) for sizes in left.values() for _ in sizes])
+        least = np.array([
+            WORTH + CHANCE * (sizes is SHORT_WINDOWS) for sizes in left.values() for _ in sizes
+        ])  # fmt: skip
         worth = predicted_improvement(problem, point, tried, kept=kept) - least
         if not worth.max() > 0.0:
             break

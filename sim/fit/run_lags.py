@@ -9,7 +9,7 @@ The lag of run i is that of all runs plus d_i ~ N(0, λ²). λ is the standard d
 that is anything between nothing and a period. Whether the runs differ is decided by their
 likelihood with the d_i integrated out (Laplace's approximation):
 
-    -2 log L - Σ (d_i/λ)² - Σ log(1 + λ² a_i)        a_i the square of how innovations change with d_i
+    -2 log L + Σ (d_i/λ)² + Σ log(1 + λ² a_i)    a_i the square of how innovations change with d_i
 
 Source: N. Laird and J. Ware, "Random-effects models for longitudinal data", Biometrics 38, 1982.
 """
@@ -32,7 +32,11 @@ SHARED = "delay"
 
 
 def fit_run_lags(
-    problem: PredictionErrorProblem, point: Estimate, *, every: PredictionErrorProblem, period: float
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    *,
+    every: PredictionErrorProblem,
+    period: float,
 ) -> tuple[PredictionErrorProblem, Estimate]:
     """Fit a lag for each run, where the data ask for it.
 
@@ -79,9 +83,7 @@ def laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> floa
     return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))
 
 
-def _with_shared_lag(
-    problem: PredictionErrorProblem, point: Estimate, *, least: float
-) -> Estimate:
+def _with_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: float) -> Estimate:
     """The estimate in a model that has a lag, of ``least`` [s] or more, so that runs may differ."""
     structure = point.structure
     if SHARED not in structure.effects:

@@ -245,8 +245,8 @@ def filter_runs(
     gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
-        batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset), batch.sessions,
-        model_constants(model), NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS),
+        batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
+        batch.sessions, model_constants(model), NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS),
         batch.clocks, longest, simple, batch.measured if corrects else UNSEEN,
     _as_contiguous(gains), out )  # fmt: skip
     return out

@@ -78,9 +78,9 @@ class Kernel:
             raise TypeError("runs lie one behind the other")
         self._call(
             count, n, len(measured), _place(edges), _place(time), _place(asked), _place(slides),
-            _place(bodies), _place(low), _place(high), _place(rubs), _place(lates), _place(sessions),
-            _place(c), _place(w), _place(on), _place(p), _place(memory), _place(ways), _place(began),
-            _place(steps), plain, _place(measured), _place(trust), _place(out),
+            _place(bodies), _place(low), _place(high), _place(rubs), _place(lates),
+            _place(sessions), _place(c), _place(w), _place(on), _place(p), _place(memory),
+            _place(ways), _place(began), _place(steps), plain, _place(measured), _place(trust), _place(out),
         )  # fmt: skip
 
 

@@ -125,12 +125,12 @@ def step_run(
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
 
     A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
-    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held where it rests, by a
-    stop or a brake. ``measured`` (n, 2) are positions and velocities that correct the motion as it
-    goes, nan where there is none, by the gains ``trust`` (n, 4); without rows it goes its way. A
-    step lasts as long as ``steps`` lets it: [s], [unit] of way, and [s] that even that does not
-    shorten. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
-    at first.
+    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
+    where it rests, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that
+    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4); without
+    rows it goes its way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, and [s]
+    that even that does not shorten. ``ways`` is room for the tables of ``two_body_modes.py``: of
+    one model only, and empty at first.
     """
     lag = command_delay(on, p) + late
     n = time.size
@@ -182,8 +182,8 @@ measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
 
     A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
     when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
-    ``rubs`` [V] beyond kS, and it is late by ``lates`` [s] beyond the effects' delay. What effects remember goes on through runs of the same number in
-    ``sessions``.
+    ``rubs`` [V] beyond kS, and it is late by ``lates`` [s] beyond the effects' delay. What effects
+    remember goes on through runs of the same number in ``sessions``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])
