@@ -246,9 +246,9 @@ def filter_runs(
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
         batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
-        batch.sessions, model_constants(model), NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS),
-        batch.clocks, longest, simple, batch.measured if corrects else UNSEEN,
-    _as_contiguous(gains), out )  # fmt: skip
+        batch.sessions, model_constants(model), NO_WIRES, on, parameters,
+        np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
+    batch.measured if corrects else UNSEEN, _as_contiguous(gains), out )  # fmt: skip
     return out
 
 

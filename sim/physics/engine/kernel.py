@@ -80,7 +80,8 @@ class Kernel:
             count, n, len(measured), _place(edges), _place(time), _place(asked), _place(slides),
             _place(bodies), _place(low), _place(high), _place(rubs), _place(lates),
             _place(sessions), _place(c), _place(w), _place(on), _place(p), _place(memory),
-            _place(ways), _place(began), _place(steps), plain, _place(measured), _place(trust), _place(out),
+            _place(ways), _place(began), _place(steps), plain, _place(measured),
+            _place(trust), _place(out),
         )  # fmt: skip
 
 
