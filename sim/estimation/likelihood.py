@@ -376,7 +376,7 @@ class PredictionErrorProblem:
         found = self._fine_jacobians.get(point) if fine else None
         if found is None:
             found = self._compute_jacobian(point, fine=fine)
-            if fine:
+            if fine and len(self.measured) <= PARALLEL:  # of a long log, it takes much memory
                 self._fine_jacobians[point] = found
         return found
 
