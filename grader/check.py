@@ -113,7 +113,7 @@ class Check(Generic[Subject]):
     judge: Callable[[Subject], str | None]
 
     def run(self, subject: Subject) -> Result:
-        """Look at the subject; whatever happens is a result."""
+        """Run the check on an answer; an exception becomes a result, too."""
         try:
             note = self.judge(subject) or ""
         except WrongAnswer as wrong:

@@ -7,7 +7,7 @@ from grader.check import WrongAnswer, shorten
 
 
 def normalize_choice(text: str) -> str:
-    """A word without what people write it differently by: case, blanks, dots, parentheses."""
+    """A word in lower case, without blanks, dots and parentheses."""
     return re.sub(r"[^a-z0-9]", "", re.sub(r"\(.*|^.*\.(?=\w)|\bnew\b", "", text.strip().lower()))
 
 
@@ -45,7 +45,7 @@ def check_choice(
     why: Callable[[str], tuple[str, str]],
     also: Mapping[str, str] | None = None,
 ) -> None:
-    """Hold a word against the right one.
+    """Raise ``WrongAnswer`` unless a word is the right one.
 
     Args:
         raw: what was given.

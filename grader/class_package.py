@@ -12,7 +12,7 @@ PLACE = Path(".course") / "class.toml"
 
 @dataclass(frozen=True)
 class ClassPackage:
-    """Whose package this is.
+    """The student and the class that a package was issued to.
 
     Args:
         name: of the class.
@@ -32,7 +32,7 @@ class ClassPackage:
 
 
 def read_class_package(course: Path) -> ClassPackage | None:
-    """What a class issued into a course folder; None if it is nobody's but the learner's.
+    """The class package in a course folder; None if no class issued one.
 
     Raises:
         BadRequest: it is there, and cannot be read.

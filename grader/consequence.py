@@ -1,4 +1,4 @@
-"""What an answer would do on the robot: in words at once, as a picture when somebody wants it.
+"""What an answer would do on the robot, in words and as a picture.
 
 An exercise's ``checks.py`` may offer it, for answers that are not all right:
 
@@ -48,13 +48,13 @@ class Consequence:
 
 
 def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
-    """What becomes of profiles that mechanisms follow by a learner's feedforward alone.
+    """How mechanisms follow a motion profile with a learner's feedforward alone.
 
     Args:
         followed: at least one.
     """
     told = " ".join(one.description for one in followed)
-    words = f"Your numbers as feedforward, without feedback. {told}"
+    words = f"This is what your numbers do as feedforward, without feedback. {told}"
 
     def draw() -> Picture:
         from sim.plot.consequence import make_profile_traces, plot_consequence  # noqa: PLC0415 - only who draws waits for it

@@ -1,4 +1,4 @@
-"""What was drawn for somebody who studies alone, kept for their next answer.
+"""A cache on disk of the data drawn for a learner who studies alone.
 
 To draw twelve logs, and to see that the damage of each can be found, takes longer than all the rest
 of grading; who changes one word and asks again should not wait for it again. It is kept in the
@@ -27,7 +27,7 @@ _KEEPING = ContextVar("keeping", default=False)
 
 @contextmanager
 def enable_draw_cache() -> Iterator[None]:
-    """Keep what is drawn, as long as the block lasts."""
+    """A context in which drawn data are cached on disk."""
     token = _KEEPING.set(True)
     try:
         yield
@@ -36,7 +36,7 @@ def enable_draw_cache() -> Iterator[None]:
 
 
 def cache_draw_on_disk(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
-    """Look for what was drawn before it is drawn again.
+    """Decorator: read a student's drawn data from the cache where it is on, else draw them.
 
     Args:
         draw: a student -> what is theirs; in a module of an exercise's folder.
@@ -82,7 +82,7 @@ def _fingerprint_code(exercise: Path) -> str:
 
 
 def write_draw(place: Path, content: bytes) -> None:
-    """Keep it, if there is a place for it; the oldest of many are forgotten."""
+    """Write drawn data into the cache, if there is one; the oldest of many are removed."""
     with suppress(OSError):
         kept_files.write_cached(place, content)
         kept_files.remove_files(kept_files.select_older(place.parent.iterdir(), than=MOST))

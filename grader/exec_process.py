@@ -1,4 +1,4 @@
-"""A program run in our place: it gets the keyboard and the signals, we hand on its exit code.
+"""Run a program in place of this one: it gets keyboard and signals, and its exit code is ours.
 
 Uses nothing but Python's own library: it serves before anything is installed.
 """

@@ -42,7 +42,7 @@ HINTS = ("concept", "pointer", "step")  # from far to near
 
 @dataclass(frozen=True)
 class Grade:
-    """What became of one answer.
+    """The result of grading one answer.
 
     Args:
         exercise: ``exercise4``.
@@ -174,7 +174,7 @@ class Exercise:
         return best_grade([self._grade_file(file, student=student, run=run) for file in files])
 
     def find_consequence(self, grade: Grade) -> Consequence | None:
-        """What an answer would do on the robot; None where it is all right, or nothing is to see.
+        """What an answer would do on the robot; None where it is right, or has no visible effect.
 
         Args:
             grade: what became of the answer; its file is read once more, and nothing of it is run.
@@ -248,7 +248,7 @@ def _read_number(name: str) -> int:
 
 
 def find_exercise(asked: str, course: Path) -> Exercise:
-    """The exercise that is meant: ``exercise4``, ``ex4`` or ``4``.
+    """Look up an exercise by a name as people type it: ``exercise4``, ``ex4`` or ``4``.
 
     Raises:
         BadRequest: there is none; the message lists those there are.

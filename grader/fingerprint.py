@@ -1,4 +1,4 @@
-"""A text that changes with the code."""
+"""Digests of the code and of folders, by which stored results are known to be valid."""
 
 import hashlib
 from collections.abc import Iterable
@@ -9,12 +9,12 @@ PACKAGES = tuple(Path(__file__).resolve().parents[1] / name for name in ("grader
 
 
 def fingerprint_folders(*tops: Path) -> str:
-    """A text that changes with these folders, with the examiner and with the bench."""
+    """A digest of these folders, and of the packages ``grader`` and ``sim``."""
     return fingerprint_packages((*tops, *PACKAGES))
 
 
 def fingerprint_packages(tops: Iterable[Path]) -> str:
-    """A text that changes with what an author wrote in these folders."""
+    """A digest of the authored files in these folders."""
     found = hashlib.sha256()
     for top in tops:
         for path in list_authored_files(top):

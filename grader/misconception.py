@@ -30,6 +30,13 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         lesson="01_motor_model",
         section="Units: per rotation, per radian, per meter",
     ),
+    "M-GEARING": Misconception(
+        "A motor and its mechanism do not move equally fast. Divide the motor's speed by the gear "
+        "ratio. One turn of a wheel or drum then goes π times its diameter, which is twice its "
+        "radius.",
+        lesson="01_motor_model",
+        section="Is this kV possible?",
+    ),
     "M-ARGORDER": Misconception(
         "Only their order separates values in a list of arguments. Look up which comes first.",
         lesson="08_from_analyzer_to_robot",
@@ -57,7 +64,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "The straight line through a slow ramp meets v = 0 above kS: the ramp accelerates the "
         "mechanism all the time, and that takes kA·a in addition.",
         lesson="03_test_design",
-        section="Reading the ramp: the intercept drifts",
+        section="Reading the ramp: is the intercept kS?",
     ),
     "M-KG-EDGE": Misconception(
         "The voltage at which a mechanism just does not fall is not kG: friction helps to hold "

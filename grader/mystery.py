@@ -73,8 +73,8 @@ class MysteryState:
         return MysteryState(self.number + 1, level)
 
 
-def find_folder(course: Path, student: str) -> Path:
-    """Where a learner's mystery is."""
+def find_mystery_folder(course: Path, student: str) -> Path:
+    """The folder of a learner's mystery."""
     return course / FOLDER / make_folder_name(student)
 
 

@@ -35,7 +35,7 @@ STYLE = {  # of the line that leads a check; colors that are legible on light an
 
 @dataclass(frozen=True)
 class ShownGrade:
-    """What became of an answer, as a cell shows it.
+    """A grade as a notebook cell shows it.
 
     Args:
         lines: the same as on a terminal.

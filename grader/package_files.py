@@ -50,7 +50,7 @@ ID = 12  # [characters] of a cell's digest that name it: see .ci/derive_notebook
 
 @dataclass(frozen=True)
 class PackageFiles:
-    """What students get of a course.
+    """The files of a course that students get.
 
     Args:
         files: path in the course folder -> content, in the order of the paths.

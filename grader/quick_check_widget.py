@@ -1,4 +1,4 @@
-"""Quick checks in a lesson: one answers, and is told at once; nothing is kept or graded.
+"""Quick checks in a lesson: immediate feedback, neither stored nor graded.
 
 Quick("Which gain moved?", {"kS": "Friction did not change …", "kA": "It holds the mass."},
       right="kA")
@@ -45,7 +45,7 @@ class QuickCheck(Prediction):
         self._buttons.observe(self._tell, "value")
 
     def answer(self, chosen: str) -> str:
-        """Choose an answer, and read what is said to it.
+        """Choose an answer; the feedback to it.
 
         Raises:
             BadRequest: it is none of the answers.
@@ -55,7 +55,7 @@ class QuickCheck(Prediction):
 
     @property
     def feedback(self) -> str:
-        """What is said to the answer that is chosen; empty where none is."""
+        """The feedback to the chosen answer; empty where none is chosen."""
         if self.value is None:
             return ""
         return f"{RIGHT if self.value == self._right else NOT_YET} {self._says[self.value]}"
@@ -101,7 +101,7 @@ class QuickNumberCheck:
         self._typed.observe(self._tell, "value")
 
     def answer(self, given: object) -> str:
-        """What is said to an answer: a number, or a text with a unit."""
+        """The feedback to an answer: a number, or a text with a unit."""
         try:
             note = judge_number(self._name, {self._name: given}, self._key, points=1)
         except WrongAnswer as wrong:

@@ -92,7 +92,7 @@ def zip_files(files: Mapping[str, bytes]) -> bytes:
 
 
 def find_broken_seals(course: Path, found: ClassPackage, *, secret: bytes) -> list[str]:
-    """Files of a course folder that are not as the class gave them to this student."""
+    """The files of a course folder that differ from those the class issued to this student."""
 
     def whole(path: Path, expected: str) -> bool:
         if not path.is_file():

@@ -1,4 +1,4 @@
-"""What a learner is told: the verdict first, then what to do next. And the same as JSON."""
+"""The grade of an answer as text for a terminal (verdict, checks, next step) and as JSON."""
 
 import json
 import re
@@ -146,7 +146,7 @@ def _format_row(description: str, points: str, mark: str, style: str) -> list[Li
 
 
 def check_feedback(result: Result) -> list[tuple[str, str]]:
-    """What stands under a check: a word that leads, and what is said."""
+    """The lines of feedback under a check: a label and a text each."""
     if result.status is Status.PASSED:
         return [("note ", result.hint)]
     if result.status is not Status.FAILED:

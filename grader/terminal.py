@@ -31,7 +31,7 @@ def style_line(text: str = "", style: str = "") -> Line:
 
 
 def wrap_text(text: str, *, lead: str, style: str = "", spare: int = 0) -> list[Line]:
-    """A text under a lead of its own, broken into lines that fit.
+    """Break a text into lines that fit the terminal, after a lead of its own.
 
     Args:
         text: what to say; a line break in it stays.

@@ -40,7 +40,7 @@ def watch_exercise(
 
 
 def snapshot_files(exercise: Exercise) -> tuple[tuple[str, int, int], ...]:
-    """What changes when a file of the exercise is saved: names, times and sizes."""
+    """Names, times and sizes of the exercise's files, which change when one is saved."""
     found = []
     for name in exercise.files:
         try:

@@ -13,35 +13,36 @@
 # %% [markdown]
 # # Lesson 0: Start here: guess or measure?
 #
-# *About 40 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
+# *About 35 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
 # line.*
 #
 # **At the end you can**
 #
-# - say what *system identification* is, and how its question differs from that of guessing;
+# - say what *system identification* is, and how it differs from guessing;
 # - say when a measured gain beats a guessed one, and when it does not;
 # - say which gain changes when the robot gets heavier, and which do not;
-# - use the three tools of this course, and find the mechanism that belongs to your name.
+# - use the three tools of this course, and find the numbers that belong to your name.
 #
 # **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
 # and its answer appears below. Go from top to bottom, and run every cell. You do not have to
-# understand every line of code. Some cells are folded to a bar with three dots: their code would
-# show the answer to a question, or it only draws. Run them like the others.
+# understand every line of code. In some cells a bar with three dots hides the code, because it
+# contains an answer or only draws a picture. Run these cells like the others.
 #
 # <details><summary>You see no buttons or sliders?</summary>
 #
 # You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
 # prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
-# with the same numbers to change. Its picture is folded to a bar, so click on the bar. All lessons
+# with the same numbers to change. A bar hides its picture: click on the bar to see it. All lessons
 # work this way.
 # </details>
 
 # %% [markdown]
 # ## 1 Why: somebody has to choose the numbers
 #
-# Your robot program wants the drivetrain to move at 2 m/s. But it can only control a **voltage**.
-# How many volts give 2 m/s? A **feedforward** is a formula that computes the voltage for the motion
-# you want. It does not wait for an error: it gives the right voltage from the start.
+# Your robot program wants the drivetrain (motors, gears and wheels) to move at 2 m/s. But the
+# program can only set a **voltage**. How many volts give 2 m/s? A **feedforward** is a formula that
+# computes the voltage for the motion you want. A feedforward does not wait until the robot is too
+# slow: it gives the right voltage from the start.
 #
 # The formula contains three numbers, called **gains**:
 #
@@ -54,7 +55,7 @@
 #
 # - You can **guess**: try 0.1, load the code onto the robot (*deploy*), watch, try 0.2.
 # - You can **measure**: let the robot run a few tests, write down what it did, and compute the
-#   gains from that. This is **system identification**, in short *SysId*.
+#   gains from these data. This is **system identification**, in short *SysId*.
 #
 # Which is better? Let us race.
 
@@ -90,7 +91,7 @@ from sim.teaching.prediction import Prediction
 # ## 2 Your robot
 #
 # Write your name between the quotes, and run the cell. You get your own robot: a drivetrain with
-# its own gears, weight and friction. The same name always gives the same robot.
+# its own gears, mass and friction. The same name always gives the same robot.
 
 # %%
 NAME = "me"
@@ -103,8 +104,8 @@ def robot_of(name: str) -> Mechanism:
 
 
 robot = robot_of(NAME)
-print(f"{NAME}'s robot: {robot.summary}, more or less.")
-print("Its gains are hidden from you until the race is over.")
+print(f"{NAME}'s robot is similar to this one: {robot.summary}.")
+print("You see its gains after the race.")
 
 # %% [markdown]
 # The robot is simulated. The simulation knows its true gains, so you can check who was right.
@@ -113,8 +114,8 @@ print("Its gains are hidden from you until the race is over.")
 #
 # The robot should speed up to 2.5 m/s within half a second, hold that speed, stop, wait, and then
 # drive back at 1 m/s. The next cell describes this drive. The most important line is `volts = …`:
-# it computes the voltage from the motion we want. (`np.sign(v)` is +1 forward and −1 backward,
-# because friction always acts against the motion.)
+# it computes the voltage from the motion we want. (`np.sign(v)` is +1 forward and −1 backward.
+# Friction always acts against the motion, so its voltage changes sign, too.)
 
 # %%
 TIME = np.arange(0.0, 4.21, 0.02)  # [s] the robot program runs every 20 ms
@@ -133,23 +134,26 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 
 
 # %% [markdown]
-# Nothing corrects the robot while it drives. A correction (*feedback*, such as PID) would hide how
-# good or bad the gains are.
+# Nothing corrects the robot while it drives. A correction (*feedback*, for example a PID
+# controller) would hide how good or bad the gains are.
 
 # %% [markdown]
 # ## 3 The race
 #
 # **Round one: you.** You have **90 seconds** and two sliders, kS and kV. kA stays at 0. The clock
-# starts when you move the first slider. The dashed robot drives as it should; bring yours onto it.
-# Try to make the *typical error* small. (It is the "root mean square" of all errors: an average in
-# which large errors count more.) Race first, then run the cells below.
+# starts when you move the first slider. The dashed robot shows the target motion. Move the sliders
+# until your robot stays with it, and make the *typical error* small. (It is the "root mean square"
+# of all errors: an average in which large errors count more.)
 #
-# **Predict first.** Nobody grades your prediction. After the experiment, the page tells you whether
-# it was right.
+# **Round two: three lines.** Your opponent is a program of three lines. It tests the robot and
+# computes the gains.
+#
+# **Predict** before you race. Nobody grades your prediction. After the experiment, the page tells
+# you whether it was right.
 
 # %%
 guess_race = Prediction(
-    "You have 90 seconds and two sliders. The other side has three lines of code. Who gets the "
+    "You have 90 seconds and two sliders. Your opponent has three lines of code. Who gets the "
     "smaller typical error?",
     "me, clearly",
     "about the same",
@@ -184,15 +188,17 @@ def race(*knobs: Knob, seconds: float = 0.0) -> Animation:
 race(KS, KV, seconds=90.0)
 
 # %% [markdown]
-# The line above the picture shows your best try. Write its numbers here and run the cell:
+# Race now. The line above the picture shows your best try. Write its kS and kV into the next cell,
+# and run it:
 
 # %%
 MY_KS, MY_KV = START  # for example 0.2, 2.4
 
 # %% [markdown]
-# **Round two: three lines.** Line one runs four short tests with the robot and keeps the **log**: a
-# table of time, voltage, position and velocity with fifty rows per second. Line two computes the
-# gains from the log, in the same way as WPILib's SysId. Line three drives with these gains.
+# Now your opponent. Line one runs four tests with the robot and keeps the **log**: a table of time,
+# voltage, position and velocity with fifty rows per second. Line two *fits* the formula to the log:
+# it computes the gains that match the rows best, in the same way as the SysId tool of WPILib (the
+# code library of FRC). Line three drives with these gains.
 
 # %%
 log = simulate(robot, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
@@ -200,9 +206,9 @@ measured = fit(log, method="sysid").gains
 followed = drive(robot, measured)
 
 # %% [markdown]
-# The log contains two slow ramps and two sudden steps of the voltage, each forward and backward.
-# SysId calls the ramps *quasistatic* and the steps *dynamic*. (The picture shows only the first
-# second of each step. Lesson 3 explains these four tests.)
+# The log contains four tests: a *ramp* (the voltage grows slowly) and a *step* (the voltage jumps),
+# each forward and in reverse. SysId calls the ramps *quasistatic* and the steps *dynamic*. (The
+# picture shows only the first second of each step. Lesson 3 explains these four tests.)
 
 # %%
 plot_time_series(log, dynamic_seconds=1.0)
@@ -261,16 +267,16 @@ Table(
 # ### Explain
 #
 # Look at the second row of the table. The computer tried *every* pair of kS and kV in steps of
-# 0.05, and the best pair still has a large error. Look where: on the ramps of the drive, where the
-# robot speeds up and slows down. kS and kV alone cannot provide the voltage for acceleration. That
-# is the job of kA, and only the three lines have it. So **nobody could win round one**.
+# 0.05, and the best pair still has a large error. The error is large where the robot speeds up and
+# slows down. kS and kV alone do not give the voltage for acceleration. kA does, and only the three
+# lines have a kA. So **nobody could win round one**.
 #
 # Was the race fair? Only partly.
 #
-# - The simulation was **kind to you**. One try took you two seconds. On a robot, one try means:
+# - The simulation was **easy for you**. One try took you two seconds. On a robot, one try means:
 #   change the number, deploy, drive, walk back.
-# - The simulation was **kind to the three lines**, too. On a robot, line one is work: you need code
-#   for the tests, room to drive, a good battery, and a log that is not damaged. Lessons 3 to 6
+# - The simulation was **easy for the three lines**, too. On a robot, line one is work: you need
+#   code for the tests, room to drive, a good battery, and a log that is not damaged. Lessons 3 to 6
 #   teach this.
 #
 # <details><summary>Want to know why the true gains have an error, too?</summary>
@@ -295,7 +301,7 @@ print(f"The longest one drives {farthest:.1f} m. (Lesson 3 shows how to do it in
 race(KS, KV, KA)
 
 # %% [markdown]
-# ## 4 An honest twist: a pencil is enough for kV
+# ## 4 A third way: a pencil is enough for kV
 #
 # Now a teammate says: "I do not move sliders. I give the robot 1 V, wait until the speed is steady,
 # and write it down. Then 2 V, and so on. Then I draw a straight line with a ruler."
@@ -337,6 +343,9 @@ plot_misses(
     speeds, VOLTS, intercept=start, slope=slope, xlabel="velocity [m/s]", ylabel="voltage [V]"
 )
 
+# %% [markdown]
+# (A *miss* is the vertical distance from a dot to the line. Here the misses are too small to see.)
+
 # %%
 pencil = {"kS": float(start), "kV": float(slope), "kA": 0.0}
 truth = robot.gains
@@ -360,12 +369,12 @@ Table(
 
 # %% [markdown]
 # For kV both are nearly equal, and for kS often, too. A careful line by hand is *good*. A
-# maintainer of WPILib calls it "the better way" to find kS and kV by hand. ([frc-docs issue
-# 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
+# maintainer of WPILib (a person who develops it) calls it "the better way" to find kS and kV by
+# hand. ([frc-docs issue 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
 #
 # So the race was not "human against computer". Your teammate did *not* move a slider until they
-# liked the result. They **wrote down what the robot did, and fitted a model to it**. That is system
-# identification, done with a pencil.
+# liked the result. They **wrote down what the robot did, and fitted a model to these data**. (A
+# *model* is a formula for what the robot does.) This is system identification with a pencil.
 #
 # The pencil cannot find kA, because it only looks at steady speeds.
 
@@ -375,7 +384,7 @@ Table(
 # Guessing asks: **which number makes the robot behave as I like?** SysId asks: **which physical
 # model best explains what the robot did?** The official definition says the same: system
 # identification is finding a mathematical model of a system "through statistical analysis of its
-# inputs and outputs". The two questions lead to different things:
+# inputs and outputs". The two questions give different results:
 #
 # | | guessing | measuring |
 # |---|---|---|
@@ -383,13 +392,13 @@ Table(
 # | looks at | one drive, by eye | every row of the log |
 # | gives | a number that worked | a number with a meaning and a unit |
 # | how to check it | try again | compare with motor, gears and mass (lesson 1) |
-# | when it fails | turn another knob | see *where* the model fails (lesson 9) |
+# | when it fails | try another number | see *where* the model fails (lesson 9) |
 #
 # **Not everybody agrees.** Some people say that every good team uses SysId on every mechanism. A
 # maintainer of WPILib wrote in 2026 that most teams get the opposite advice: "avoid the SysId tool
-# and do manual tuning instead", because SysId is "error-prone" ([allwpilib issue
-# 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)). This course is the answer: each
-# lesson makes one of those errors on purpose, until you recognize it.
+# and do manual tuning instead", because SysId is "error-prone": you easily make mistakes with it.
+# ([allwpilib issue 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) This course makes
+# such mistakes on purpose, so that you recognize them.
 #
 # (This course grew out of another lesson, the *source lesson*. Most of it is right. Where it is
 # wrong or incomplete, you find a folded box: it quotes the source lesson, shows what the official
@@ -425,8 +434,8 @@ Table(
 # %% [markdown]
 # ## 6 Week 3: a brace
 #
-# Two weeks later, the build team bolts a steel brace onto the frame: **+4 kg**. Nobody tells the
-# programmers.
+# Two weeks later, the build team bolts a brace (a steel bar that makes the frame stronger) onto the
+# robot: **+4 kg**. Nobody tells the programmers.
 #
 # **Predict** two things:
 
@@ -489,8 +498,8 @@ Table(
 # ### Explain
 #
 # Only **kA** has changed. At a steady speed nothing accelerates, so a heavier robot needs no more
-# volts: kV stays the same. So a guess only becomes wrong where it depends on mass: choose 40 kg,
-# and look where the error grows.
+# volts: kV stays the same. Choose 40 kg in the picture. The error of the old gains grows only where
+# the robot speeds up or slows down.
 #
 # <details><summary>For mentors: do guesses stop being valid when the robot gets heavier?</summary>
 #
@@ -498,16 +507,18 @@ Table(
 # >
 # > **Source says:** only where they depend on mass. WPILib describes kS as what friction takes, kV
 # > as what a constant velocity takes, and kA as what acceleration takes. Mass resists acceleration.
-# > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > kS is "static friction in your gears, bearings, etc". Weight makes it larger only where it
+# > presses on them, or on the carpet.
+# > ([WPILib docs: Introduction to DC Motor Feedforward, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** choose 40 kg. Where does the robot miss more: on the ramps, or while it
 # > holds a speed?
 # </details>
 #
 # Your guess of kS and kV is as good as before, and it never had a kA. But when you guess, you do
-# not *notice* the brace. When you measure, you do. The next cell uses the course's own method
-# (`fit` without `method="sysid"`), before and after:
+# not *notice* the brace. When you measure, you do. The next cell measures before and after, with
+# the course's own method (`fit` without `method="sysid"`):
 
 # %%
 heavy_log = simulate(heavy, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(3))
@@ -517,12 +528,13 @@ weighed = robot.load * (growth - 1)
 print(f"kA grew by {100 * (growth - 1):.1f} %. kA grows in proportion to mass, and we know the")
 print(f"robot's old mass, {robot.load:.1f} kg. So the brace weighs {weighed:.2f} kg.")
 sysid_growth = again["kA"] / measured["kA"]
-print(f"(SysId's recipe, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less precise.)")
+print(f"(SysId's method, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less precise.)")
 
 # %% [markdown]
 # The log has *weighed* the brace: its numbers have a physical meaning.
 #
-# How much do 4 kg matter? That depends on where they are:
+# How much do 4 kg matter? That depends on where they are. (**kG** is the gain for gravity. Only
+# mechanisms that move up and down have it: lesson 2.)
 
 # %%
 lift = MECHANISMS["elevator"]
@@ -532,33 +544,33 @@ for name, one in (("your drivetrain", robot), ("an elevator's carriage", lift)):
     changes = [f"{100 * (more[gain] / one.gains[gain] - 1):.0f} %" for gain in ("kV", "kA")]
     gravity = f"{100 * (more['kG'] / one.gains['kG'] - 1):.0f} %" if "kG" in more else "none"
     rows.append((name, one.load, *changes, gravity))
-Table(("where", "moves [kg]", "kV grows by", "kA grows by", "kG grows by"), tuple(rows))
+Table(("where", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows by"), tuple(rows))
 
 # %% [markdown]
-# (**kG** is the gain for gravity, for mechanisms that move up and down: lesson 2.)
-#
 # ### So, guess or measure?
 #
 # - For **kV**, and often for kS, a careful line by hand is as good as a fit. If you need nothing
 #   else, take the pencil.
-# - For **kA**, and for **kG**, measuring wins. You cannot see them in a single steady speed.
+# - For **kA**, and for **kG**, measuring wins. kA shows only while the speed changes, and friction
+#   hides kG (lesson 2).
 # - When **something changes**, measuring wins: it shows what changed, and by how much.
 # - With a **damaged log**, measuring loses. A fit prints three numbers even when they are wrong.
 #   Lesson 6 teaches you to recognize such a log.
 #
-# ## 7 What you get for it
+# ## 7 What good gains give you
 #
 # Good gains help you more than once, because other code uses them.
 #
-# **Drivetrain.** A path planner such as PathPlanner needs to know how hard it is to turn the robot:
-# its *moment of inertia* (MOI). The PathPlanner docs give a formula that uses two kA values, one
+# **Drivetrain.** A path planner such as PathPlanner needs the robot's *moment of inertia* (MOI): it
+# says how hard it is to turn the robot. The PathPlanner docs give a formula with two kA values, one
 # measured while turning and one while driving straight. ([PathPlanner docs: Robot
 # Config](https://pathplanner.dev/robot-config.html))
 #
-# **Arm.** A motion profile asks for a velocity and an acceleration at every moment, as our drive
-# did. With good gains the arm follows, and the feedback has little to correct.
+# **Arm.** A *motion profile* plans a velocity and an acceleration for every moment, like the drive
+# of our race. With good gains the arm follows the plan, and the feedback has little to correct.
 #
-# **Shooter.** Ask for 4000 rpm with feedforward alone:
+# **Shooter.** The next table asks a shooter for 4000 rpm (rotations per minute) with feedforward
+# alone:
 
 # %%
 wheel = MECHANISMS["shooter"]
@@ -575,7 +587,7 @@ def reached(real: Mechanism, used: dict[str, float]) -> float:
 
 worn = replace(wheel, drag=wheel.drag + 0.03)
 Table(
-    ("gains", "reached [rpm]", "off 4000 rpm by"),
+    ("gains", "speed reached [rpm]", "off 4000 rpm by"),
     tuple(
         (name, f"{rpm:.0f}", f"{round(rpm / 40 - 100, 1) + 0.0:+.1f} %".replace("-", "−"))
         for name, rpm in (
@@ -634,9 +646,9 @@ Table(
 # ```
 #
 # From then on, every exercise gives you your own numbers: your own mechanism and your own log. Your
-# neighbor's answers will not help you, but you can compare *how* you found them. Your numbers are
-# in `exercises/exercise1/data/ada/given.toml`, and so on. (`NAME` at the top of this page is for
-# the race only.)
+# neighbor has other answers, but you can compare *how* you found yours. Your numbers are in
+# `exercises/exercise1/data/ada/given.toml`, and so on. (`NAME` at the top of this page is for the
+# race only.)
 #
 # The next cell shows which data you have:
 
@@ -652,7 +664,7 @@ else:
 # %% [markdown]
 # ### A first try
 #
-# In the terminal, these two commands do the same as lines one and two of the race:
+# In the terminal, these two commands do the work of lines one and two of the race:
 #
 # ```
 # sysid simulate drivetrain --seed 1 -o drive.wpilog
@@ -702,8 +714,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Guessing: which gain makes it behave the way I like? SysId: which physical model best explains
-# what this mechanism did?
+# Guessing: which gain makes the robot behave as I like? SysId: which physical model best explains
+# what the robot did?
 # </details>
 #
 # **2.** A teammate holds five steady voltages and draws a line. Which gains does that give, and how
@@ -712,33 +724,32 @@ quick
 # <details><summary>Answer</summary>
 #
 # kV (the slope) and kS (where the line meets velocity 0). Both are good: this kV is as good as that
-# of the fit. It cannot give kA, because at a steady speed nothing accelerates.
+# of the fit. The line cannot give kA, because at a steady speed nothing accelerates.
 # </details>
 #
 # **3.** The robot gets 4 kg heavier in week 3. Which of its gains has to change, and which not?
 #
 # <details><summary>Answer</summary>
 #
-# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction;
-# neither depends on the weight of the robot. (For an elevator or an arm, kG grows, too.)
-# </details>
+# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction.
+# Both stay the same. (For an elevator or an arm, kG grows, too.) </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?
 #
 # <details><summary>Answer</summary>
 #
 # The gains were measured on one day, and no model is perfect. Bearings age, belts stretch, another
-# robot pushes. Feedback corrects what the feedforward cannot know. With good gains it has little to
-# do.
+# robot pushes. Feedback corrects what the feedforward cannot know. With good gains, feedback has
+# little to do.
 # </details>
 #
 # **5.** What else can you use a drivetrain's kA for, besides the feedforward?
 #
 # <details><summary>Answer</summary>
 #
-# It shows how hard it is to speed up the robot: its mass. With a second kA, measured while turning,
-# a formula gives the robot's moment of inertia (lesson 8). And if kA jumps from one week to the
-# next, something heavy was added.
+# kA shows the robot's mass: how hard it is to speed up the robot. With a second kA, measured while
+# turning, a formula gives the robot's moment of inertia (lesson 8). And if kA jumps from one week
+# to the next, somebody added something heavy.
 # </details>
 
 # %% [markdown]
@@ -752,8 +763,9 @@ quick
 # grade exercise11
 # ```
 #
-# Or in a notebook. The letters are those of your own question sheet,
-# `exercises/exercise11/data/YOUR-NAME/questions.md`:
+# Or answer in a notebook. The questions are in
+# `exercises/exercise11/data/YOUR-NAME/questions.md`. Write the letters of your answers in place of
+# the dots:
 #
 # ```python
 # from grader import submit
@@ -761,9 +773,9 @@ quick
 # submit("exercise11", Q0_guess="...", Q0_sysid="...", Q0_brace="...")
 # ```
 #
-# It writes your answers into `exercises/exercise11/answers.toml` and shows the result. Or write
-# into that file with an editor, and start `grade watch exercise11` in a terminal: it grades each
-# time you save. Hints cost nothing: `grade exercise11 --hint`.
+# `submit` writes your answers into `exercises/exercise11/answers.toml` and shows the result. Or
+# write into that file with an editor, and start `grade watch exercise11` in a terminal: it grades
+# each time you save. Hints cost nothing: `grade exercise11 --hint`.
 #
 # <details><summary>More, if you like</summary>
 #

@@ -13,15 +13,15 @@
 # %% [markdown]
 # # Lesson 1: The motor model
 #
-# *About 50 minutes. You need lesson 0. No physics class is needed, and no calculus.*
+# *About 40 minutes. You need lesson 0. No physics class is needed, and no calculus.*
 #
 # **At the end you can**
 #
-# - say what each of kS, kV and kA pays for, in which unit, and when it pays nothing;
-# - split any voltage into three parts, and find the part that is wrong;
-# - compute the kV you should expect from the motor, the gears and the wheel, and say what to check
-#   when the measured kV is far above or below it;
-# - say what kA/kV means, in milliseconds;
+# - say what kS, kV and kA pay for, and in which unit;
+# - split any voltage into its three parts;
+# - compute the kV to expect from the motor, the gears and the wheel, and say what to check when the
+#   measured kV is far above or below it;
+# - say what the time constant kA/kV tells you;
 # - recognize a kS that means "stop and get a wrench";
 # - convert a gain per rotation into a gain per radian, in the right direction.
 
@@ -31,8 +31,8 @@
 # In lesson 0, kS and kV were just numbers on a slider. But each gain has a meaning and a unit. You
 # can read a gain as a **price**: kV = 2.5 V·s/m says that each m/s of speed costs 2.5 volts.
 #
-# "The analyzer says kV = 0.4." Can that be right? After this lesson you can answer that in a
-# minute, with the motor's data sheet and a calculator.
+# "The analyzer (the window of WPILib's SysId) says kV = 0.4." Can that be right? After this lesson
+# you can answer this in a minute, with the motor's data sheet and a calculator.
 
 # %%
 import math
@@ -68,24 +68,25 @@ print(drivetrain.summary)
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
-# V is the voltage at the motor, v the velocity, a the acceleration (by how much v grows each
-# second). sgn(v) is the *sign* of v: +1 forward and −1 backward.
+# V is the voltage at the motor, v is the velocity, and a is the acceleration (by how much v grows
+# each second). sgn(v) is the *sign* of v: +1 forward and −1 backward. The model has three *terms*,
+# one for each gain:
 #
 # | term | pays for | unit of the gain | is zero when |
 # |---|---|---|---|
-# | kS·sgn(v) | friction in bearings, gears, belts | V | it stands still |
-# | kV·v | speed | V·s/m: volts for each m/s | it stands still |
+# | kS·sgn(v) | friction in bearings, gears, belts | V | the robot stands still |
+# | kV·v | speed | V·s/m: volts for each m/s | the robot stands still |
 # | kA·a | *changing* the speed | V·s²/m: volts for each m/s² | the speed is steady |
 #
-# Each product is in volts: V·s/m times m/s is V. If your mechanism turns, read rotations or radians
+# Each term is in volts: V·s/m times m/s is V. If your mechanism turns, read rotations or radians
 # instead of meters (section 8). A mechanism that moves up and down also needs volts for gravity:
 # lesson 2.
 #
-# Friction takes the same voltage at any speed; only its direction changes. (Friction that grows
-# with speed becomes part of kV.)
+# The kS term is the same at any speed; only its sign changes. (Real friction also has a part that
+# grows with speed. This part becomes part of kV.)
 #
-# The next table shows the three terms of our simulated drivetrain in four moments. Cover the table
-# with your hand and compute the last row first: driving *backward* at 2 m/s.
+# The next table shows the three terms of our simulated drivetrain in four moments. Cover its last
+# row with your hand and compute it first: driving *backward* at 2 m/s.
 
 
 # %%
@@ -108,11 +109,11 @@ for name, (v, a) in MOMENTS.items():
 Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tuple(rows))
 
 # %% [markdown]
-# While the robot brakes, v is still positive (it still moves forward), but a is negative: the third
-# term *gives volts back*.
+# While the robot brakes, v is still positive (it still moves forward), but a is negative. So the
+# third term is negative: the robot needs fewer volts.
 #
-# Now a puzzle. The log shows this drivetrain at 2 m/s, with **7 V** on its motors. But the first
-# row of the table says that 2 m/s needs less than 7 V.
+# Now a puzzle. A log shows this drivetrain at 2 m/s, with **7 V** on its motors. But the first row
+# of the table says that a steady 2 m/s needs less than 7 V.
 #
 # **Predict:**
 
@@ -131,22 +132,22 @@ left = 7.0 - sum(bill(2.0, 0.0).values())
 print(guess_seven.reveal("into acceleration: the speed is not steady"))
 print(f"7 V − {gains['kS']:.2f} V − {gains['kV'] * 2:.2f} V = {left:.2f} V are left.")
 print(
-    f"They accelerate the robot by {left / gains['kA']:.1f} m/s every second, so it passes 2 "
-    "m/s and gets faster."
+    f"They accelerate the robot by {left / gains['kA']:.1f} m/s every second, so it gets faster "
+    "than 2 m/s."
 )
 print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
 
 # %% [markdown]
-# Two explanations for "7 V at 2 m/s" are possible: the speed is not steady, or the robot has a
+# So "7 V at 2 m/s" has two possible explanations: the speed is not steady, or the robot has a
 # different kV. To decide, check whether the velocity is still changing.
 
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
 #
 # Now do the same for every moment of a drive. The picture computes the three terms from the robot's
-# *motion* and stacks them on top of each other. Drag the line through the picture: the robot moves
-# with it. The black line is the voltage that was *applied*.
-# If the model is right, the stack reaches the line.
+# *motion* and draws them as three colored areas, one on top of the other. The thick line is the
+# voltage that the motors really got (the *applied* voltage). If the model is right, the areas reach
+# this line. Move the slider below the picture: it sets the time, and the robot moves with it.
 #
 # There are three drives:
 #
@@ -237,16 +238,16 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # ### Explain
 #
 # - **Sudden step.** At first there is no speed, so nearly all volts go into kA·a. As the robot gets
-#   faster, kV·v grows, fewer volts are left for kA·a, and the acceleration fades. This is why SysId
-#   needs the test: **kA takes many volts only here.**
+#   faster, kV·v grows, fewer volts are left for kA·a, and the acceleration gets smaller. So SysId
+#   needs this test for kA: **kA takes many volts only here.**
 # - **Slow ramp.** The acceleration is small the whole time. Most volts go into kS and kV·v, so this
 #   test shows **kS and kV**.
 # - **The gap at the start of the ramp.** Until the voltage reaches kS, friction holds the robot:
-#   nothing moves, and the stack is empty.
+#   nothing moves, and there is no colored area.
 # - **There and back.** When the voltage drops to 0 V, kA·a is negative, and the robot gets slower.
 #
-# Make the robot heavy, then light. Which area changes? Then increase the friction. In the ramp,
-# kA·a is small, but never zero: lesson 3 shows why that matters for kS.
+# Make the robot heavy, then light. Which area changes? Then increase the friction (kS). In the
+# ramp, kA·a is small, but never zero: lesson 3 shows why this matters for kS.
 #
 # <details><summary>For mentors: is kS the intercept of the quasistatic test?</summary>
 #
@@ -256,7 +257,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
 # > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
 # > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
 # > has the number. Lesson 3 shows what it does to a kS that is read off a line.
@@ -265,7 +266,10 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # %% [markdown]
 # ## 4 Where the prices come from
 #
-# The table below says what each gain depends on.
+# The table below says what each gain depends on. Its letters: R is the electrical resistance of the
+# motor; Ke and Kt are two more constants from its data sheet; G is the gear ratio (6.75:1 means
+# that the motor turns 6.75 times for one turn of the wheel); r is the radius of the wheel; n is the
+# number of motors; m is the mass.
 #
 # <details><summary>Want to know why? The derivation in three sentences</summary>
 #
@@ -276,8 +280,6 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # 2. **The remaining voltage drives a current** through the winding's resistance R: I = (V − Ke·ω) /
 #    R.
 # 3. **The current makes torque**, a turning force: T = Kt·I.
-#
-# (Ke, Kt and R are constants of the motor. They follow from the numbers on its data sheet.)
 #
 # Gears of ratio G and a wheel of radius r turn the torque of n motors into a force, n·G·T/r. Part
 # of that force works against friction, the rest moves the mass m:
@@ -297,11 +299,11 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # | kV | Ke·G/r | the kind of motor, gears, wheel |
 # | kA | R·r·m/(n·G·Kt) | mass, motors, gears, wheel |
 #
-# Look for the mass m. It is in kA and nowhere else, as you saw in week 3 of lesson 0. (We leave out
-# losses in the gears and the spinning parts.)
+# Look for the mass m. It is only in kA, as you saw in week 3 of lesson 0. (We leave out losses in
+# the gears, and the mass of the spinning parts.)
 #
-# Is that true? The next cell computes the gains from the motor's data, and compares them with a
-# log:
+# Is the table right? The next cell computes kV and kA from the motor's data, and compares them with
+# a log:
 
 # %%
 kraken = drivetrain.motor
@@ -314,7 +316,7 @@ measured = fit(log, method="sysid").gains
 print(f"R = {1000 * kraken.resistance:.1f} mΩ   Ke = {kraken.back_emf:.5f} V·s/rad")
 print(f"Kt = {kraken.torque_constant:.5f} N·m/A   G = {G}   r = {r} m   n = {n}   m = {m:g} kg")
 Table(
-    ("gain", "by hand", "from the log", "unit"),
+    ("gain", "from the data", "from the log", "unit"),
     (
         ("kV", by_hand["kV"], measured["kV"], "V·s/m"),
         ("kA", by_hand["kA"], measured["kA"], "V·s²/m"),
@@ -383,20 +385,20 @@ Table(
 )
 
 # %% [markdown]
-# Slower gears: the motor turns faster for each m/s, so speed costs **more** volts. But the motor
-# has more leverage, so acceleration costs **fewer** volts. Half the motors: each motor has twice
-# the load, so kS and kA double, and kV stays the same.
+# With slower gears the motor turns faster for each m/s, so speed costs **more** volts. But the
+# gears make more force from the same torque, so acceleration costs **fewer** volts. With half the
+# motors, each motor has twice the load, so kS and kA double. kV stays the same.
 
 # %% [markdown]
 # ## 5 Is this kV possible?
 #
-# A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing attached. It
-# tells you which kV to expect, the **theoretical kV**:
+# A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing attached.
+# From the free speed you get the kV to expect, the **theoretical kV**:
 #
 # > theoretical kV = 12 V / (free speed of the *mechanism*)
 #
-# The data sheet gives the speed of the motor in rpm, without gears and wheel. So convert it one
-# step at a time:
+# The data sheet gives the speed of the motor in rpm (rotations per minute), without gears and
+# wheel. So convert it one step at a time:
 
 # %%
 rpm = kraken.free_speed * 60 / (2 * math.pi)
@@ -410,8 +412,9 @@ print(f"theoretical kV: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s
 print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s: no robot does that.")
 
 # %% [markdown]
-# The next table has the theoretical kV of eight motors at 1:1. WPILib's `DCMotor` also subtracts a
-# small voltage drop inside the motor, so its kV is a little lower: see the last column.
+# The next table has the theoretical kV of eight motors without gears. `DCMotor`, WPILib's class for
+# motor data, also subtracts a small voltage that is lost inside the motor, so its kV is a little
+# lower: see the last column.
 #
 # <details><summary>For mentors: 12 V ÷ free speed, with source</summary>
 #
@@ -419,8 +422,8 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 # >
 # > **Source says:** a good first check. More exactly, kV follows from a constant of the motor.
 # > WPILib's `DCMotor` first subtracts the small voltage drop that the free current causes, so its
-# > kV is a little lower. ([WPILib Java docs:
-# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > kV is a little lower. ([WPILib's source:
+# > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
 # > Kraken that needs a paid license. With it, the free speed is different.)
@@ -443,8 +446,8 @@ Table(
 # %% [markdown]
 # ### Measured kV against theory
 #
-# A real kV is a little **above** the theoretical kV: grease and seals brake more, the faster they
-# turn. If kV is far above, something is wrong. And if it is **below**? A motor cannot turn faster
+# A real kV is a little **above** the theoretical kV, because grease and seals brake more at higher
+# speed. If kV is far above, something is wrong. And if kV is **below**? A motor cannot turn faster
 # than its free speed. So somebody wrote down a wrong number.
 #
 # | measured kV | verdict | what to do |
@@ -466,7 +469,7 @@ guess_cause = Prediction(
     "Which of these can make kV much too large?",
     "10 kg more on the robot",
     "a part that rubs, with the same force at every speed",
-    "a belt that brakes more, the faster it runs",
+    "a belt that brakes more at higher speed",
 )
 guess_cause
 
@@ -499,13 +502,13 @@ def bench(robot: Mechanism, seed: int) -> sim.Log:
 tired = Battery(rest=11.0, resistance=0.02)
 sagging = simulate_duty_cycle(sound, quick, battery=tired, rng=np.random.default_rng(6))
 STORIES = {
-    "sound": bench(sound, 1),
+    "no fault": bench(sound, 1),
     "10 kg more": bench(replace(sound, load=sound.load + 10), 2),
     "a part that rubs": bench(replace(sound, friction=0.8), 3),
     "a belt that is far too tight": bench(replace(sound, drag=0.30), 4),
-    "8.14 typed in, 6.75 built in": seen(bench(sound, 5), factor=6.75 / 8.14),
-    "diameter typed in as radius": seen(bench(sound, 7), factor=2.0),
-    "set(volts / 12), logs the command": seen(sagging, asked=True),
+    "code says 8.14, robot has 6.75": seen(bench(sound, 5), factor=6.75 / 8.14),
+    "diameter used as radius": seen(bench(sound, 7), factor=2.0),
+    "set(volts / 12), logs volts": seen(sagging, asked=True),
 }
 VERDICTS = {"bookkeeping": 0.0, "ok": 8.0, "watch": 20.0, "inspect": 40.0}
 
@@ -533,7 +536,7 @@ show_interactive(
 verdict("a belt that is far too tight")
 
 # %%
-print(guess_cause.reveal("a belt that brakes more, the faster it runs"))
+print(guess_cause.reveal("a belt that brakes more at higher speed"))
 rows = []
 for story, one in STORIES.items():
     got = found(one)
@@ -550,30 +553,32 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # - **Wrong numbers** (ratio, wheel, unit) multiply kV *and* kA by the same factor, and do not
 #   change kS.
 # - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` sets
-#   a share of the battery voltage, not a voltage. With an 11 V battery the motors get only 11/12 of
-#   what the log says: all three gains are wrong.
+#   a share of the battery voltage, not a voltage. With an 11 V battery the motors get at most 11/12
+#   of what the log says, and less when a large current pulls the battery voltage down. All three
+#   gains are wrong.
 #
 # When kV is more than 20 % above the theoretical kV, check the easiest things first:
 #
 # 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
-# 2. **Electrical** (in the log): did the logged voltage really reach the motors? Are all motors
-#    powered? If one is not, the others have to carry it: kS and kA grow. If its controller is in
-#    brake mode, kV grows, too.
-# 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn it by hand. Is it hot after
-#    a test?
+# 2. **Electrical** (in the log): did the logged voltage really reach the motors? Do all motors have
+#    power? If one has none, the others do its work, and kS and kA grow. If the controller of that
+#    motor is in brake mode, kV grows, too.
+# 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn the mechanism by hand. Is
+#    some part hot after a test?
 #
 # ### Check somebody else's numbers
 #
 # One published lesson gives a drivetrain with kV = 2.68 V·s/m, a ratio of 8.46, 4 inch wheels and
-# TalonFX motors. A TalonFX can be one of three motors. Which of them could it be?
+# TalonFX motors. A TalonFX is a controller that is built into three kinds of motor. Which of these
+# motors could it be?
 #
 # <details><summary>For mentors: the source lesson's drivetrain</summary>
 #
 # > **Lesson says:** "kV = 2.68", "GEAR_RATIO = 8.46" and a wheel of "4 in", with TalonFX motors.
 # >
 # > **Source says:** the free speeds of the motors that a TalonFX can be (the table above, which is
-# > WPILib's own). ([WPILib Java docs:
-# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > WPILib's own). ([WPILib's source:
+# > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** which of these motors could have been in that robot?
 # </details>
@@ -583,23 +588,23 @@ rows = []
 for name in ("falcon500", "krakenX60", "krakenX44"):
     theory = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
     rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
-Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
+Table(("motor", "theoretical kV [V·s/m]", "2.68 lies above by"), tuple(rows))
 
 # %% [markdown]
-# Two of these motors would have to turn faster than they can. Either that robot had the third
-# motor, or the ratio is wrong. You found that without touching the robot.
+# The first two motors would have to turn faster than they can. Either that robot had the third
+# motor, or the ratio is wrong. You found this without touching the robot.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
 #
-# Divide kA by kV and look at the units: V·s²/m over V·s/m leaves **seconds**. This time is called
-# the **time constant**, τ ("tau"). SysId's window shows it as *Response Timescale*, in
+# Divide kA by kV and look at the units: V·s²/m divided by V·s/m is **seconds**. This time is called
+# the **time constant**, τ ("tau"). SysId's window calls it *Response Timescale* and shows it in
 # milliseconds.
 #
-# After a step of voltage, the velocity rises fast, then slower and slower: in each τ it covers 63 %
-# of the remaining difference. (Such a curve is called *exponential*.) After 3 τ it has almost
-# reached its final speed. Below, four mechanisms get the same step of 4 V. Which one has the
-# longest τ?
+# After a step of voltage, the velocity rises fast, then slower and slower. In each τ it covers 63 %
+# of the way that is left to the final speed. (Such a curve is called *exponential*.) After 3 τ it
+# has almost reached the final speed. Below, four mechanisms get the same step of 4 V, in slow
+# motion. Which one has the longest τ?
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -623,9 +628,9 @@ animate_mechanism(
     Scene(since, tuple(spin_up(kind, since) for kind in KINDS)),
     panels=(Panel("velocity", "share of its final speed [%]", low=0.0, high=105.0, scale=100.0),),
     slow=12.0,
-    alt="Four wheels for four mechanisms get up to speed after a step of 4 V. The others are there "
-    f"within a quarter of a second; the shooter, with a τ of {1000 * tau('shooter'):.0f} ms, is "
-    "the last.",
+    alt="Four wheels for four mechanisms get up to speed after a step of 4 V. The shooter, with a "
+    f"τ of {1000 * tau('shooter'):.0f} ms, is the last; the others need less than a quarter of a "
+    "second.",
 )
 
 # %%
@@ -635,14 +640,14 @@ for count in (1, 2, 3):
     share = np.interp(count * tau("shooter"), wheel_time, spun) / spun[-1]
     print(f"The shooter after {count} τ: {100 * share:.0f} % of its final speed")
 Table(
-    ("mechanism", "τ [ms]", "rows of 20 ms in one τ", "3 τ [ms]"),
+    ("mechanism", "τ [ms]", "rows of the log in one τ", "3 τ [ms]"),
     tuple((kind, 1000 * tau(kind), tau(kind) / 0.02, 3000 * tau(kind)) for kind in KINDS),
 )
 
 # %% [markdown]
 # Look at the third column. A robot program writes one row every 20 ms. If τ is only two or three
-# rows long, the log hardly shows the acceleration, and kA is uncertain. Then log faster. (Lesson 7
-# counts the rows.)
+# rows long, the log hardly shows the acceleration, and kA is uncertain. Then write more rows each
+# second. (Lesson 7 counts the rows.)
 
 # %% [markdown]
 # ## 7 kS: when to get a wrench
@@ -652,7 +657,7 @@ Table(
 # wearing out.
 #
 # But how high is too high? One rule says: stop when kS is much higher than kV × typical velocity.
-# Test the rule: how large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
+# Let us test this rule. How large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
 #
@@ -662,7 +667,7 @@ Table(
 # > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
 # > barely get it moving", and gives no bound. See for yourself how much friction this rule allows.
 # > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how large may our drivetrain's kS get at 2 m/s before this rule says *stop*?
 # </details>
@@ -676,7 +681,7 @@ print(
 )
 
 # %% [markdown]
-# So this rule comes very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
+# So this rule warns you very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
 # about 4 % of 12 V. (This is our rule of thumb. Some healthy mechanisms with a high gear ratio are
 # above it.)
 #
@@ -745,9 +750,7 @@ rows = [
         ("rpm", 50.0 * 60.0),
     )
 ]
-Table(
-    ("counted in", "one and the same speed", "kV, volts for each of these", "kV·v [V]"), tuple(rows)
-)
+Table(("unit", "the same speed in this unit", "kV [V for one unit]", "kV·v [V]"), tuple(rows))
 
 # %% [markdown]
 # The same speed must cost the same volts: look at the last column. 50 rot/s is 314 rad/s, so each
@@ -760,7 +763,8 @@ Table(
 # Two traps:
 #
 # - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
-#   If you use it on a **gain**, the gain changes in the wrong direction, and is wrong by (2π)².
+#   If you use it on a **gain**, the gain changes in the wrong direction: it is (2π)² = 39.5 times
+#   too large.
 # - kV and the velocity that you pass to the feedforward must be in the **same** unit. The code does
 #   not notice when they differ.
 
@@ -780,8 +784,8 @@ print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V
 # - [ ] Each gain has its **unit** written next to it.
 # - [ ] kV is positive, and 0 to 8 % above the theoretical kV. If not, you know why.
 # - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
-# - [ ] kA/kV makes sense for the mechanism: tens of milliseconds if it is light, hundreds if it is
-#   heavy for its motors.
+# - [ ] kA/kV makes sense for the mechanism: tens of milliseconds if the mechanism is light,
+#   hundreds if it is heavy for its motors.
 # - [ ] The velocity that you pass to the feedforward has the same length or angle unit as kV.
 #
 # ## 10 Knowledge check
@@ -851,7 +855,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # The intake is nearly up to speed before the log has its second row. The log hardly shows any
-# acceleration, so kA is uncertain. kV is not affected. Log faster.
+# acceleration, so kA is uncertain. kV is not affected. Write more rows each second.
 # </details>
 
 # %% [markdown]

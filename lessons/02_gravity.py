@@ -13,16 +13,16 @@
 # %% [markdown]
 # # Lesson 2: Gravity
 #
-# *About 45 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
+# *About 35 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
 # explains it.*
 #
 # **At the end you can**
 #
 # - say what kG is, and why a whole *window* of voltages holds an elevator still;
 # - find kG and kS from two voltages, and say which edge of the window a method finds;
-# - do the same for an arm, and correct the offset of its encoder;
+# - do the same for an arm, and correct the zero of its encoder (the sensor that measures position);
 # - choose SysId's analysis type and WPILib's feedforward class, with the arguments in order;
-# - explain why you cannot separate kG from kS if an elevator only drove up.
+# - explain why you cannot tell kG from kS if an elevator only drove up.
 
 # %% [markdown]
 # ## 1 Why: it falls
@@ -31,8 +31,9 @@
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# With 0 V, this model says, nothing moves. That is right for a drivetrain. But an elevator falls
-# when you let go of it. The model lacks something: gravity.
+# This model says: with 0 V nothing moves. That is right for a drivetrain. But the *carriage* of an
+# elevator (the part that moves up and down) falls when you let go of it. One thing is missing in
+# the model: gravity.
 #
 # Today's elevator and arm are simulated, so we know their true gains. Run the next cell to set them
 # up. (You do not need to read the code. Run each cell, and read what it prints.)
@@ -54,7 +55,6 @@ from sim.physics.engine import State, simulate_run
 from sim.plot import (
     Picture,
     Table,
-    plot_curves,
     plot_ellipses,
     plot_hold_angles,
     plot_hold_window,
@@ -90,7 +90,8 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 #
 # > arm: **V = kG·cos(θ) + kS·sgn(v) + kV·v + kA·a**
 #
-# (θ, "theta", is the arm's angle from level. sgn(v) is the direction: +1 up, −1 down.)
+# (θ, "theta", is the arm's angle: 0° when the arm is level, that is horizontal. sgn(v) is the
+# direction: +1 up, −1 down.)
 #
 # Compare the first two terms. The kS term changes its sign with the direction, because friction
 # always acts *against* the motion. The kG term does not: gravity always pulls down. Remember this
@@ -114,7 +115,7 @@ UNITS = {"kS": "V", "kV": "V·s/m", "kA": "V·s²/m", "kG": "V"}
 heavy = replace(elevator, load=TIMES * elevator.load).gains
 print(guess_load.reveal("kG and kA"))
 Table(
-    ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "times", "unit"),
+    ("gain", f"at {elevator.load:.0f} kg", f"at {TIMES * elevator.load:.0f} kg", "factor", "unit"),
     tuple((one, truth[one], heavy[one], heavy[one] / truth[one], UNITS[one]) for one in truth),
 )
 
@@ -123,8 +124,8 @@ Table(
 # steady speed nothing accelerates, so kV does not change. (In our simulation friction does not
 # change either. On a real robot, more weight can press harder on a bearing.)
 #
-# So test an elevator with its load: for kG and kA, not for kV. Change `TIMES` above to 3. Which
-# rows change?
+# So test an elevator with the load that it will carry. kG and kA need this; kV does not. Change
+# `TIMES` above to 3. Which rows change?
 #
 # <details><summary>For mentors: does kV change with the load?</summary>
 #
@@ -134,7 +135,7 @@ Table(
 # > **Source says:** kV is the voltage "to hold (or "cruise") at a given constant velocity", against
 # > the motor's own back-EMF and friction that grows with speed. There is no mass in it. kA is, and
 # > kG is. ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** change `TIMES` above to 3. Which rows change?
 # </details>
@@ -149,20 +150,25 @@ print(
 )
 
 # %% [markdown]
-# On a real elevator with one stage the ratio is a little smaller, because kA also contains the
-# spinning parts of the motors. If your ratio is 15, look for a mistake before you trust one of the
-# two gains.
+# On a real elevator the ratio is a little smaller, because kA also contains the spinning parts of
+# the motors. If your ratio is 15, look for a mistake before you trust the two gains.
 #
-# <details><summary>Want to know more? Cascades and counterweights</summary>
+# Two kinds of elevator have another ratio. The next cell simulates both:
 #
+# - In a **cascade**, a lower stage moves, too, at half the speed: kG/kA is between g and 2·g. (g is
+#   the acceleration of gravity.)
+# - A **counterweight** on the other end of the rope adds inertia and takes away weight: kG/kA is
+#   below g.
 #
-# A **cascade** elevator is different. Its lower stage moves at half the carriage's speed. With a
-# carriage of mass m and a lower stage of mass m₁, the motor carries the weight (m + m₁/2)·g and
-# accelerates the mass m + m₁/4. So kG/kA is between g and 2·g: 11.8 m/s² if both have the same
-# mass.
+# <details><summary>Want to know why?</summary>
 #
-# A **counterweight** on the other end of the rope adds inertia and takes away weight. Then kG/kA is
-# below g. The next cell simulates both.
+# Let the carriage of a cascade have the mass m and its lower stage the mass m₁. The carriage moves
+# at v, the stage at v/2. To lift both, the motor needs the power m·g·v + m₁·g·v/2: that is the
+# weight (m + m₁/2)·g, moved at v. Both have the kinetic energy m·v²/2 + m₁·(v/2)²/2: that is the
+# mass m + m₁/4, moved at v. So kG/kA is 11.8 m/s² if both have the same mass.
+#
+# A counterweight m₂ moves at v and goes down: weight (m − m₂)·g, inertia m + m₂. (Textbooks call it
+# Atwood's machine: Goldstein, *Classical Mechanics*, 3rd edition (2002), section 1.6.)
 # </details>
 
 # %%
@@ -195,12 +201,12 @@ print(guess_hold.reveal("it stays"))
 print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
-# It stays. Friction acts against *any* motion, also against falling, so it helps you to hold the
-# carriage. The carriage sinks only if your voltage is more than kS below kG. It rises only if your
-# voltage is more than kS above kG.
+# The carriage stays. Friction acts against *any* motion, also against falling, so friction helps
+# you to hold the carriage. The carriage sinks only if your voltage is more than kS below kG. It
+# rises only if your voltage is more than kS above kG.
 #
-# So there is a **window**, from kG − kS to kG + kS, in which nothing moves. The usual methods for
-# kG raise the voltage and stop at "the right moment". Let us try two of them, in steps of 10 mV.
+# So there is a **window** of voltages, from kG − kS to kG + kS, in which nothing moves. Two common
+# methods for kG raise the voltage in small steps and stop at some moment. Which moment is right?
 
 # %%
 steps = np.arange(0.0, 4.0, 0.01)
@@ -235,8 +241,9 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# Change the voltage and press *Play*. Where does the carriage begin to sink, and where does it
-# begin to rise? Then run the next cell: it shows all voltages, and what the two methods find.
+# Change the voltage and press *Play*. At which voltage does the carriage begin to sink, and at
+# which does it begin to rise? Then run the next cell: it tries all voltages in steps of 10 mV, and
+# shows what the two methods find.
 
 # %%
 shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
@@ -281,48 +288,21 @@ rows = [
 ]
 print(f"half the width: {(not_rising - not_falling) / 2:.3f} V. True kS: {truth['kS']:.3f} V.")
 Table(
-    ("method", "its kG [V]", "error [V]", "moves upward too fast by [m/s]"),
+    ("method", "its kG [V]", "error of kG [V]", "error of velocity [m/s]"),
     tuple(rows),
-    caption=f"True kG: {truth['kG']:.3f} V. Minus means too little, or too fast downward.",
+    caption=f"True kG: {truth['kG']:.3f} V. Up is plus.",
 )
 
 # %% [markdown]
 # The last column shows what a wrong kG does later, in a feedforward. With the first method the
 # elevator is too slow on the way up and too fast on the way down. With the second method it is too
-# fast on the way up and too slow on the way down. The speed error is always kS/kV.
+# fast on the way up and too slow on the way down. The error is always kS/kV.
+#
+# The less friction, the narrower the window. Without friction it closes, and both methods are
+# right.
 #
 # (This is simplified: our simulated friction is the same at rest and in motion. Real friction is
-# often larger at rest. Then the window is wider than the friction in motion.)
-#
-# How does the window depend on friction? Without friction it closes, and both methods are right:
-
-
-# %%
-def edges_picture(friction: float) -> Picture:
-    """Both edges over the friction, with a friction of your choice marked on the upper one."""
-    ks = np.round(np.arange(0.0, 0.61, 0.05), 2)
-    return plot_curves(
-        ks,
-        {"upper edge, kG + kS": truth["kG"] + ks, "lower edge, kG − kS": truth["kG"] - ks},
-        xlabel="kS [V]",
-        ylabel="voltage [V]",
-        levels={"kG": truth["kG"]},
-        marked=(friction, truth["kG"] + friction),
-    )
-
-
-show_interactive(
-    edges_picture,
-    friction=widgets.FloatSlider(
-        min=0.0, max=0.6, step=0.05, value=0.25, description="kS [V]", continuous_update=False
-    ),
-)
-
-# %% [markdown]
-# No slider? Change the number here:
-
-# %%
-edges_picture(0.25)
+# often larger at rest. Then the window is wider than 2·kS.)
 
 # %% [markdown]
 # ## 4 An arm: the cosine
@@ -356,7 +336,7 @@ Table(("angle from level", "share of kG"), tuple(cosines))
 # Beyond 90° the share is negative: the arm is past the top, and gravity pulls it further over.
 #
 # Friction does not depend on the angle. So the window has the same width at every angle, and its
-# middle follows the cosine. The next cell measures the window at seven angles.
+# middle follows the cosine. Hold the arm at 0°, then at 60°: at which voltages does it stay?
 
 
 # %%
@@ -404,7 +384,7 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# Hold the arm at 0°, then at 60°. Here are the windows that the cell above measured:
+# Here is the window at seven angles, measured in steps of 10 mV:
 
 # %%
 plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
@@ -414,18 +394,24 @@ plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
 #
 # The formula needs the angle from **level**. But an encoder does not know where level is: its zero
 # depends on how somebody mounted it. Suppose our encoder shows 25° too much. Then the true angle is
-# reading + offset, with an offset of −25°.
+# reading + *offset*, with an offset of −25°.
 #
-# You can find the offset from the windows. Their middle follows kG·cos(reading + offset), and a
-# cosine with an offset is a sum of a cosine and a sine:
+# You can find the offset from the windows: by eye in the next picture, or by a fit, as the next
+# cell does.
+#
+# <details><summary>How to compute the offset (you need it for exercise 3)</summary>
+#
+# Let r be the reading. The middle of the window is kG·cos(r + offset). A rule of mathematics splits
+# this into a cosine and a sine:
 #
 # > kG·cos(r + offset) = **A**·cos(r) + **B**·sin(r), with A = kG·cos(offset) and
 # > B = −kG·sin(offset)
 #
-# A and B are two unknowns. At a reading of 0° the sine is 0, so the middle is A. At 90° the cosine
-# is 0, so the middle is B. If you have more rows, a least-squares fit uses all of them
+# So you look for two numbers, A and B. At a reading of 0° the sine is 0, so the middle is A. At 90°
+# the cosine is 0, so the middle is B. If you have more rows, a least-squares fit uses all of them
 # (`np.linalg.lstsq`; lesson 7 explains it). Then kG = √(A² + B²), and the offset is the angle whose
 # tangent is −B/A (`np.arctan2`).
+# </details>
 
 # %%
 TILT = 25.0  # [deg] our encoder shows this much too much
@@ -440,13 +426,13 @@ found_kg = float(np.hypot(a_share, b_share))
 found_offset = float(np.degrees(np.arctan2(-b_share, a_share)))
 print(f"kG = {found_kg:.3f} V (true: {arm.gains['kG']:.3f} V)")
 print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
-print(f"offset = {found_offset:.1f}°, to be added to every reading")
+print(f"offset = {found_offset:.1f}°: add it to every reading")
 
 # %% [markdown]
-# The result is not exactly the truth, because we tried voltages in steps of 10 mV. Finer steps give
-# a better result.
+# The result is not exactly the truth, because we tried voltages in steps of 10 mV.
 #
-# In the picture, the cosine is highest where the arm is *really* level, not at a reading of 0.
+# In the next picture the marks are highest where the arm is *really* level, not at a reading of 0.
+# Find the offset at which the band covers all marks.
 
 
 # %%
@@ -469,11 +455,11 @@ show_interactive(
 askew_picture(0)
 
 # %% [markdown]
-# Find the offset at which the band covers all marks. SysId does the same for an arm: it fits a
-# cosine and a sine, and computes kG and the offset from them.
+# SysId does the same for an arm: it fits a cosine and a sine, and computes kG and the offset from
+# them.
 #
 # So "the voltage at horizontal" is kG only if you take the middle of the window, and if your
-# encoder reads 0 at horizontal. What would you get at a *reading* of 0°?
+# encoder reads 0 at horizontal. What do you get at a *reading* of 0°?
 #
 # <details><summary>For mentors: kG at horizontal, and its source</summary>
 #
@@ -494,8 +480,8 @@ print(f"At a reading of 0° the middle is {at_zero:.2f} V; kG is {arm.gains['kG'
 # %% [markdown]
 # ## 5 From a log: choose the analysis type
 #
-# Finding the window by hand takes time. The four tests of SysId find kG, too, together with the
-# other gains, *if* you choose the right **analysis type**. The types are the models of section 2:
+# Finding the window by hand takes time. SysId's four tests find kG and the other gains together,
+# *if* you choose the right **analysis type**. Each type is one model:
 #
 # | analysis type | model | for |
 # |---|---|---|
@@ -516,7 +502,7 @@ plot_time_series(log)
 # %%
 guess_type = Prediction(
     "We fit this log as Simple, which has no kG. What comes out?",
-    "kS takes up kG, the rest is right",
+    "kS absorbs kG, the rest is right",
     "the same gains, only kG is missing",
     "nonsense",
 )
@@ -548,11 +534,12 @@ Table(
 
 # %% [markdown]
 # With the right type, the gains are close to the truth. With the type Simple, the elevator's gains
-# are nonsense: kV is negative. The model has no term that is the same up and down, so the fit makes
-# the other terms wrong. (`sysid fit` warns about such gains.)
+# are nonsense: kV is negative. This model has no term that is the same up and down, so the fit
+# makes the other terms wrong. (`sysid fit` warns about such gains.)
 #
-# The arm with the type Elevator is worse: every gain is positive and looks plausible, but every
-# gain is wrong. The last row is harmless: a drivetrain with the type Elevator gets a kG near 0.
+# It is more dangerous to fit the arm with the type Elevator: every gain is positive and looks
+# plausible, but every gain is wrong. The last row is harmless: a drivetrain with the type Elevator
+# gets a kG near 0.
 #
 # **Myth check.** "SysId does not find kG; you must measure it separately." *False:* SysId fits kG
 # for the types Elevator and Arm. It is true only for the type Simple. Compare kG in the second row
@@ -609,14 +596,14 @@ except sim.Refusal as refusal:
 # > V = **kG + kS** + kV·v + kA·a
 #
 # kG and kS are always together in a sum. If you take 1 V from kG and add it to kS, every row fits
-# as well as before. Even a thousand rows do not help, because they all say the same.
+# as well as before. Even a thousand rows do not help, because all of them show only the sum.
 #
-# The next picture shows this. If you repeated the tests many times, noise would change the fitted
-# pair (kS, kG) a little each time. The shaded region contains 95 of 100 such fits: it is called a
-# *confidence ellipse*. A small ellipse means that you know both gains well. The slider adds rows
-# from the way down.
+# The next picture shows this. Every sensor has *noise*: small random errors. If you repeated the
+# tests many times, noise would change the fitted pair (kS, kG) a little each time. The shaded
+# region contains 95 of 100 such fits: it is called a *confidence ellipse*. A small ellipse means
+# that you know both gains well. The slider adds rows from the way down.
 #
-# (You may skip the code. It takes rows without noise and computes how far noise could move a fit.)
+# (You may skip the code. It computes how far noise could move a fit.)
 
 # %%
 SIDES = ("kS", "kG")
@@ -646,7 +633,7 @@ def up_and(down_rows: int) -> Picture:
         *SIDES
     )
     return plot_ellipses(
-        {f"the way up; rows of the way down: {down_rows}": told},
+        {f"95 of 100 fits (rows from the way down: {down_rows})": told},
         names=("kS [V]", "kG [V]"),
         truth=(truth["kS"], truth["kG"]),
         reach=(0.25, 0.25),
@@ -668,10 +655,11 @@ up_and(0)
 
 # %% [markdown]
 # Without rows from the way down, the ellipse is an endless band. Everywhere in this band the sum
-# kG + kS is nearly the same. A single row from the way down closes the ellipse.
+# kG + kS is nearly the same. A single row from the way down makes it a closed ellipse.
 #
-# An arm is easier. On the way up its cosine changes and kS does not. So the fit can separate the
-# two, but not precisely:
+# An arm is easier. On the way up, its cosine changes and kS does not. So the fit can tell kG from
+# kS, but not precisely. The next table shows how far noise moves a fit; the *standard error* is the
+# typical distance from the truth:
 
 # %%
 rows = []
@@ -683,14 +671,11 @@ for name, mechanism, tests in (
     for which, ways in (("all four tests", ("forward", "reverse")), ("up only", ("forward",))):
         used = {test: part for test, part in every.items() if test.endswith(ways)}
         errors = compute_information(used, type=mechanism.type, noise=noise_of(mechanism)).errors
-        cells = (errors[gain] if np.isfinite(errors[gain]) else "anything" for gain in SIDES)
+        cells = (errors[gain] if np.isfinite(errors[gain]) else "unknown" for gain in SIDES)
         rows.append((f"{name}, {which}", *cells))
-Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="One standard error of each")
+Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standard error")
 
 # %% [markdown]
-# (A *standard error* is the typical distance between a fit and the truth if noise is the only
-# cause.)
-#
 # So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four
 # tests. Run them, and be ready: with 0 V the carriage already falls.
 #
@@ -722,7 +707,7 @@ print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f}
 # %% [markdown]
 # ## 7 Which class, and in which order
 #
-# In the robot's code, the gains go into a *feedforward class*. There is one for each model:
+# In the robot's code, you put the gains into a *feedforward class*. There is one for each model:
 #
 # | analysis type | class | arguments |
 # |---|---|---|

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 50 minutes. You need lessons 1 and 2. You need no robot today: you plan its tests.*
+# *About 35 minutes. You need lessons 1 and 2. You need no robot today: you plan its tests.*
 #
 # **At the end you can**
 #
@@ -26,12 +26,12 @@
 # ## 1 Why: a test is a question
 #
 # SysId cannot find what the data do not contain. If a robot never accelerates in the log, no
-# mathematics will find its kA. So before you press a button you decide: how fast, how hard, how
-# far, how long. This is test design. It takes ten minutes. If you have to drive all tests again, it
-# takes an evening.
+# mathematics will find its kA. So before you press a button you decide how fast the voltage rises,
+# how far it jumps, how far the robot drives, and how long. This is *test design*. A plan takes ten
+# minutes. To drive all tests again takes an evening.
 #
-# Today's mechanisms are simulated, so we know their true gains. (You do not need
-# to read the code. Run each cell, and read what it prints.)
+# Today's mechanisms are simulated, so we know their true gains. (You do not need to read the code.
+# Run each cell, and read what it prints.)
 
 # %%
 from dataclasses import replace
@@ -91,7 +91,17 @@ Table(
 # - **Dynamic.** The voltage jumps to a *step* and stays. At first the speed is zero, so nearly all
 #   of the voltage goes into acceleration. This test shows **kA**.
 #
-# You run each test forward and in reverse. That makes four runs.
+# You run each test forward and in reverse. That makes four runs. **Predict** how the speed rises in
+# the second test:
+
+# %%
+guess_rise = Prediction(
+    "After the step, how does the speed rise to its final value?",
+    "evenly, then suddenly flat",
+    "quickly first, then slower and slower",
+    "slowly first, then faster and faster",
+)
+guess_rise
 
 # %%
 routine = sim.Routine(ramp=1.0, step=2.0, timeout=8.0)
@@ -99,17 +109,8 @@ log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# The picture shows only the first second of the steps. **Predict** how the speed rises in that
-# second, before you run the next cells.
-
-# %%
-guess_rise = Prediction(
-    "After the step, how does the speed rise to its top?",
-    "evenly, then suddenly flat",
-    "quickly first, then slower and slower",
-    "slowly first, then faster and faster",
-)
-guess_rise
+# These are the four runs. (The picture shows only the first second of each step.) Now look at the
+# rise after the step more closely:
 
 # %%
 since = np.round(np.arange(0.0, 0.5, 0.005), 3)
@@ -120,7 +121,8 @@ at_tau = float(np.interp(tau, since, speed))
 
 print(guess_rise.reveal("quickly first, then slower and slower"))
 print(
-    f"kA/kV = {1000 * tau:.0f} ms (the star). By then: {100 * at_tau / top:.0f} % of its top speed."
+    f"The star is at kA/kV = {1000 * tau:.0f} ms: the robot has {100 * at_tau / top:.0f} % of its "
+    "final speed."
 )
 plot_curves(
     since,
@@ -130,15 +132,16 @@ plot_curves(
     },
     xlabel="time since the step [s]",
     ylabel="speed [m/s]",
-    levels={"top speed": top},
+    levels={"final speed": top},
     marked=(round(tau, 3), at_tau),
+    mark="after τ",
 )
 
 # %% [markdown]
-# The faster it goes, the more volts kV·v takes, and the fewer are left for acceleration. So the
-# rise is steep at first and gets flatter: it approaches the top speed *exponentially*. How fast
-# depends on the **time constant τ = kA/kV** ("tau"): after τ the speed has covered about two thirds
-# of the way, after 3τ nearly all. SysId shows it as *Response Timescale*.
+# The faster the robot goes, the more volts kV·v takes, and the fewer are left for acceleration. So
+# the curve is steep at first and gets flatter: the speed approaches its final value
+# *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how fast: after τ the speed has
+# covered about two thirds of the way, after 3τ nearly all.
 #
 # **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
 # *False:* that would be the dashed line. WPILib describes a good test as "an approximately
@@ -152,27 +155,27 @@ plot_curves(
 # >
 # > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
 # > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** the dashed line above is constant acceleration. If *your* data look like that, ask
 # > why: a current limit and slipping wheels both hold the acceleration at one value.
 # </details>
 
 # %% [markdown]
-# ## 3 Reading the ramp: the intercept drifts
+# ## 3 Reading the ramp: is the intercept kS?
 #
 # Draw voltage over velocity for the ramp. V ≈ kS + kV·v is a straight line. Its slope is kV, and
-# the voltage where it meets velocity 0 (its *intercept*) is kS. A high intercept means much
-# friction; a low one means that the mechanism moves easily.
+# the voltage where it meets velocity 0 (its *intercept*) should be kS. To *read kS off* the ramp
+# means to take this intercept.
 #
-# Now compare it with the truth: is the intercept really the robot's kS? We test a drivetrain and a
-# shooter's flywheel. The flywheel is heavy for its motors, so its τ is much longer.
+# Is the intercept really kS? We test a drivetrain and a shooter's flywheel (its heavy wheel). The
+# flywheel is heavy for its motors, so its τ is much longer.
 #
 # **Predict:**
 
 # %%
 guess_drift = Prediction(
-    "You read kS off a ramp of 1 V/s. Whose kS is further from the truth?",
+    "You read kS off a ramp of 1 V/s. Which kS is further from the truth?",
     "the drivetrain's",
     "the flywheel's",
     "neither, both are right",
@@ -213,6 +216,7 @@ def drift_picture(name: str, ramp: float) -> list[Picture]:
             ylabel="kS [V]",
             levels={"the true kS": gains["kS"]},
             marked=(ramp, line.intercept),
+            mark="the line in the picture above",
         ),
     ]
 
@@ -247,8 +251,8 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# A ramp never stops accelerating. The voltage rises by `ramp` volts each second, so the speed rises
-# by ramp/kV each second. This is a small but constant acceleration, and it takes
+# During a ramp the robot never stops accelerating. The voltage rises by `ramp` volts each second,
+# so the speed rises by ramp/kV each second. This small, constant acceleration takes
 #
 # > kA · (ramp/kV) = **τ·ramp** volts, during the whole ramp.
 #
@@ -263,8 +267,13 @@ Table(
 # </details>
 #
 # SysId itself does not read an intercept: it fits all runs at once, with a kA term for the ramps,
-# too. If you read one by eye, use a slow ramp. How slow must the flywheel's ramp be for an error
-# below 0.03 V? Solve τ·ramp = 0.03.
+# too. If you read an intercept by eye, use a slow ramp. How slow must the flywheel's ramp be for an
+# error below 0.03 V? Solve τ·ramp = 0.03.
+#
+# <details><summary>Answer</summary>
+#
+# 0.03 V / 0.267 s = 0.11 V/s.
+# </details>
 #
 # <details><summary>For mentors: is the intercept kS?</summary>
 #
@@ -274,7 +283,7 @@ Table(
 # > **Source says:** the ramp makes the voltage of the acceleration *negligible*. SysId itself does
 # > not read an intercept: it fits all runs at once, with a kA term for the ramps, too. ([WPILib
 # > docs: Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -284,26 +293,27 @@ Table(
 # %% [markdown]
 # ## 4 The information map: what each run adds
 #
-# Every row of a log is one equation: this voltage, for this velocity v and this acceleration a.
-# Draw each row as a dot, v to the right and a upward. If the dots spread over the picture, the
-# equations differ, and the fit can separate the gains. If all dots are on one line, it cannot
-# separate some of them.
+# Every row of a log is one equation: this velocity v and this acceleration a needed this voltage.
+# The left picture shows each row as a dot, v to the right and a upward. If the dots spread over the
+# picture, the equations differ, and the fit can separate the gains. If all dots are on one line,
+# the fit cannot separate them.
 #
-# Next to the map you see the **confidence ellipse** of lesson 2: if you repeated the tests with new
-# noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means: unknown.
+# The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
+# noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means that both
+# gains are unknown.
 #
-# **Predict** before you switch runs off:
+# **Predict** before you choose runs in the menu:
 
 # %%
 guess_drop = Prediction(
-    "We lose the dynamic reverse run of this drivetrain. What becomes unknown?",
+    "The dynamic reverse run of this drivetrain is missing. What becomes unknown?",
     "kA",
     "kS",
     "kV",
     "nothing, the errors grow a little",
 )
 guess_ramps = Prediction(
-    "We lose both ramps instead, and keep both steps. What becomes unknown?",
+    "Now both ramps are missing, and we have both steps. What becomes unknown?",
     "kA only",
     "kS only",
     "all three gains",
@@ -371,7 +381,7 @@ map_picture("all four", "kS and kA")
 # %% [markdown]
 # Add runs one by one: use the first four lines of the menu. With one ramp, the ellipse of kS and kA
 # is long: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts. A single
-# step separates them. Here are all the choices in numbers:
+# step separates the two parts. Here are all the choices in numbers:
 
 # %%
 rows = []
@@ -392,12 +402,12 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# - **Without steps** (the row "2 ramps") kA is poor, and kS suffers with it.
+# - **Without steps** (the row "2 ramps") kA is very uncertain, and so is kS.
 # - **Without ramps**, no gain can be found. With one constant voltage the rows only show the final
-#   speed and how quickly the robot reaches it. These are two numbers for three unknowns. (If you
-#   knew kS, the other two would follow: the band in the map is narrow.)
-# - **Without the dynamic reverse** this drivetrain loses almost nothing. Forward and reverse are
-#   equal *here*, because we simulated it that way.
+#   speed and how quickly the robot reaches it. These are two numbers for three unknown gains. (If
+#   you knew kS, you could compute the other two.)
+# - **Without the dynamic reverse run**, almost nothing is lost. Forward and reverse are equal
+#   *here*, because we simulated the robot that way.
 #
 # But SysId accepts only a log with all four:
 
@@ -409,7 +419,7 @@ except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
-# So you need ramps and steps: neither can replace the other.
+# So you need ramps and steps. Neither can replace the other.
 #
 # <details><summary>For mentors: one test alone, with source</summary>
 #
@@ -419,7 +429,7 @@ except sim.Refusal as refusal:
 # > **Source says:** in the quasistatic test "the voltage corresponding to acceleration is
 # > negligible". The dynamic test is there "so that the behavior while accelerating can be
 # > determined". Neither test replaces the other. ([WPILib docs: Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines, and the ellipse is a
 # > band.
@@ -433,13 +443,13 @@ except sim.Refusal as refusal:
 #
 # **Reason 1: gravity.** For an elevator, only the way down separates kS from kG (lesson 2).
 #
-# **Reason 2: asymmetry.** A dragging brake, a worm gear, a bearing pressed to one side: friction
-# can differ by direction. Here is a drivetrain whose friction is three times as large in reverse.
+# **Reason 2: asymmetry.** A brake that rubs, a worm gear or a tilted bearing can make friction
+# different in each direction. Here is a drivetrain with three times as much friction in reverse.
 # **Predict:**
 
 # %%
 guess_lean = Prediction(
-    "We fit all four runs with one kS. Which gain suffers the most?",
+    "We fit all four runs with one kS. Which gain has the largest error, in percent?",
     "kS",
     "kV",
     "kA",
@@ -468,8 +478,8 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # 7) stays high. So compare the gains of one direction with those of the other: that shows more than
 # any score.
 #
-# Without the reverse runs, the table would have one row. On the way back, your feedforward would
-# give a third of the voltage that friction needs, and you would not know why.
+# Without the reverse runs you would know only the first row. In reverse, your feedforward would
+# give a third of the voltage that friction needs.
 #
 # **Reason 3: the way back.** The reverse run brings the robot back to where it started, so the next
 # test has room again.
@@ -481,9 +491,13 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # >
 # > **Source says:** a backward test right after a forward test "will more or less reset the
 # > mechanism to its original position"
-# > ([Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html)).
+# > ([Creating a Routine, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst)).
 # > SysId's maintainer has called backward tests not required for the fit of an elevator or arm
-# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)).
+# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)). But SysId's window wants
+# > all four: it looks for each of them, and lists those that are missing
+# > ([DataSelector.cpp, at one
+# > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** the last row of section 4's table is forward only. For a *symmetric* drivetrain it
 # > is fine. Now set `lean` to 0 above: do the rows agree?
@@ -492,7 +506,7 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # %% [markdown]
 # ## 6 Choose the ramp: how far will it go?
 #
-# A slow ramp is precise (section 3). Is it also safe? Your hall has a certain length, and the robot
+# A slow ramp is precise (section 3). Is it also safe? Your room has a certain length, and the robot
 # should reach 1 m/s in the ramp. **Predict:**
 
 # %%
@@ -536,16 +550,15 @@ Table(
 )
 
 # %% [markdown]
-# The answer is: twice as far. With half the ramp the robot needs twice the time to reach any speed,
-# and so twice the distance:
+# With half the ramp the robot needs twice the time to reach any speed, and so twice the distance:
 #
 # > **d ≈ kV·v² / (2·ramp)**
 #
 # So "slow is safe" is wrong if your room is short. With a very slow ramp the robot reaches the end
 # of the room before it is fast, and a log without speed contains little about kV. Choose the
 # slowest ramp that fits into your room. WPILib recommends "at least 10' of space, ideally closer to
-# 20'" (3 to 6 m), and never on blocks, where the robot's mass does not move. In the table, row 0.5:
-# how far does this drivetrain go in 10 s?
+# 20'" (3 to 6 m). Never run the tests on blocks, with the wheels in the air: then the robot's mass
+# does not move. Look at the row 0.500 of the table: how far does this drivetrain go in 10 s?
 #
 # <details><summary>For mentors: 10 feet and 0.5 V/s, with source</summary>
 #
@@ -556,7 +569,7 @@ Table(
 # > robot's mass does not move. The library's default ramp is 1 V/s. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** in the table, row 0.5: how far does this drivetrain get in 10 s? And how many volts
 # > does it see in 10 feet?
@@ -565,7 +578,7 @@ Table(
 # %% [markdown]
 # ## 7 Choose the step: hard enough, not too hard
 #
-# A large step gives a large acceleration, which is easy to see above the noise. Three things limit
+# A large step gives a large acceleration, which is much larger than the noise. Three things limit
 # the step.
 #
 # 1. **Grip.** Wheels slip when the motors push harder than the carpet can hold. From standstill
@@ -577,11 +590,14 @@ Table(
 #    current in a motor to 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and you need time to let go of the button.
 #
-# (For the limit see
-# [CTRE's docs: CurrentLimitsConfigs](https://api.ctr-electronics.com/phoenix6/stable/csharp/api/CTRE.Phoenix6.Configs.CurrentLimitsConfigs.html).)
+# (For the limit see `CurrentLimitsConfigs` in
+# [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/).)
 #
-# And the step must not be too small: SysId computes the acceleration from neighboring speeds, so it
-# is noisy. The first acceleration should be at least ten times that noise.
+# And the step must not be too small. SysId computes the acceleration from the differences of
+# speeds, so the acceleration is noisy. ([SysId's source:
+# FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# The acceleration at the start should be at least ten times as large as this noise. For our robot
+# 2 V is enough and 0.6 V is not: there SysId finds a kA that is far too large.
 
 # %%
 rows = []
@@ -595,19 +611,19 @@ for name, count, motor_name in (("4 Kraken X60", 4, "krakenX60"), ("4 NEO", 4, "
     rows.append((name, gains["kA"], least, slip, cut if cut < 12 else "never"))
 Table(
     (
-        "60 kg, 6.75:1",
+        "motors",
         "kA [V·s²/m]",
-        "step: at least [V]",
+        "smallest step [V]",
         "slips from [V]",
-        "a limit of 120 A cuts from [V]",
+        "120 A limit acts from [V]",
     ),
     tuple(rows),
 )
 
 # %% [markdown]
-# Other motors need another step. With 3.5 V, the wheels of one of these two robots spin, and those
-# of the other do not. Stay at 90 % of V_slip or less. For that you need kA *before* the test:
-# compute it from mass and motors (lesson 1), or start with a small step.
+# Both robots have 60 kg and a ratio of 6.75. With a step of 3.5 V, the wheels of one robot spin,
+# and those of the other do not. Stay at 90 % of V_slip or less. For that you need kA *before* the
+# test: compute kA from mass and motors (lesson 1), or start with a small step.
 #
 # <details><summary>For mentors: typical steps and the default of 7 V</summary>
 #
@@ -628,9 +644,9 @@ Table(
 # %% [markdown]
 # ## 8 Choose when to stop: mark and timeout
 #
-# Two things end a test: your thumb when the robot passes a **mark** on the floor, and the
-# **timeout**. The timeout stops the robot if you do not let go. Set it a little longer than the
-# test needs.
+# Two things end a test. You let go of the button when the robot passes a **mark** on the floor. If
+# you do not let go, the **timeout** stops the robot. Set the timeout a little longer than the test
+# needs.
 #
 # Does a long dynamic test harm the fit? We cut the same step after different times:
 
@@ -661,9 +677,9 @@ Table(
 )
 
 # %% [markdown]
-# SysId uses the rows up to 90 % of the top speed and drops the rest, so a long test does not harm
-# kA. But it needs a long room: look at the last column. After 3τ, the rows contain nothing new
-# about kA. (A fit that does not drop the later rows gets a wrong kA: lesson 7.)
+# SysId uses the rows up to 90 % of the final speed and drops the rest, so a long test does not harm
+# kA. But a long test needs a long room: look at the last column. After 3τ, the rows contain nothing
+# new about kA. (A fit that does not drop the later rows gets a wrong kA: lesson 7.)
 #
 # <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
@@ -683,13 +699,13 @@ Table(
 # %% [markdown]
 # ## 9 Plan one
 #
-# Now plan a complete test for the drivetrain. You let go of the button 0.3 s after the robot passes
-# the mark. Both tests drive through the hall below. Above it stand four of the rules of exercise 6,
-# and the current limit. Find a plan that follows all five in a room of 4 m. Then try 2.5 m.
+# Now plan a ramp and a step for the drivetrain. You let go of the button 0.3 s after the robot
+# passes the mark. Above the picture you see five rules: four rules of exercise 6, and the current
+# limit. Find a plan that follows all five in a room of 4 m. Then try 2.5 m.
 #
 # **Choose your current limit first.** It protects the motors and the battery. If a step is too
-# large, the limit reduces the voltage at the start. So set the limit that you will drive with, then
-# plan a step below it.
+# large, the limit reduces the voltage at the start. So set the limit that you will use in a match,
+# then plan a step that stays below this limit.
 
 # %%
 REACTION = 0.3  # [s] from the mark to the thumb off the button
@@ -717,17 +733,19 @@ animate_mechanism(
         Knob("limit", "limit [A]", low=20.0, high=120.0, step=5.0, value=120.0),
     ),
     rules=(
-        Rule("it has stopped after [m]", "farthest", at_most=Gain("room")),
-        Rule("the ramp moves it for [s]", "moving", motion="ramp", at_least=3),
+        Rule("both robots have stopped after [m]", "farthest", at_most=Gain("room")),
+        Rule("in the ramp the robot moves for [s]", "moving", motion="ramp", at_least=3),
         Rule("top speed of the ramp [% of free speed]", "fastest", 100 / FREE, "ramp", at_least=25),
         Rule("step [% of V_slip]", "step", 100 / SLIP, at_most=90),
-        Rule("a motor's current as the step begins [A]", "step", 1 / OHMS, at_most=Gain("limit")),
+        Rule(
+            "current of a motor when the step begins [A]", "step", 1 / OHMS, at_most=Gain("limit")
+        ),
     ),
     span=(-1.0, 10.5),
     wall=Gain("room"),
     marks={"mark": Gain("mark")},
-    alt="A hall with a mark on the floor and a wall at its end. Two robots drive the ramp and the "
-    "step. Each is switched off 0.3 s after the mark. Above the hall stand five rules, ticked or "
+    alt="A room with a mark on the floor and a wall at its end. Two robots drive the ramp and the "
+    "step. Each is switched off 0.3 s after the mark. Above the room stand five rules, ticked or "
     "broken. With 0.5 V/s and 3.5 V in a room of 4 m, two rules are broken.",
 )
 
@@ -738,8 +756,9 @@ animate_mechanism(
 # (This is simplified: the motors brake at 0 V, the floor is flat, and the battery voltage does not
 # drop. Leave more room than the plan says.)
 #
-# **A shooter can spin as long as you like**, so its ramp may be as slow as the timeout allows. **An
-# elevator** has limited travel, and less time on the way down, because gravity pulls it.
+# **A shooter** can spin as long as you like, so its ramp may be as slow as the timeout allows. **An
+# elevator** can move only a short way, and it has less time on the way down, because gravity pulls
+# it.
 
 # %% [markdown]
 # ## 10 System check
@@ -803,7 +822,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # Look at the robot, not at the fit. Something rubs in one direction: a brake, a chain, a bearing. A
-# fit with one kS for both directions gives a wrong kA, and its score may stay high.
+# fit with one kS for both directions gives a wrong kA, and its R² may stay high.
 # </details>
 #
 # **5.** The rise after a step is a straight line that ends in a corner. What happened?

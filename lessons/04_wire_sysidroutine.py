@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Lesson 4: Wire a SysIdRoutine
 #
-# *About 45 minutes. Think of one of your robot's subsystems: a drivetrain, a shooter, anything with
-# a motor and an encoder. You need no robot today.*
+# *About 30 minutes. You need lesson 3, and you have written some robot code. You need no robot
+# today.*
 #
 # **At the end you can**
 #
@@ -24,20 +24,22 @@
 # - bind the four test commands to buttons, behind a guard;
 # - look at a wrong gain and name the line of code that caused it.
 #
-# The code is for WPILib 2026, in Java and in Python (RobotPy). Read the one your team uses. In 2027
-# the names of packages and of some methods change (section 3); the ideas stay the same.
+# (A *callback* is a function of yours that the library calls. A *guard* is a condition that must be
+# true before a button works.)
+#
+# The code is for WPILib 2026, in Java and in Python (RobotPy). Open the language that your team
+# uses.
 
 # %% [markdown]
 # ## 1 Why: every later step depends on the log
 #
 # A `SysIdRoutine` does two things, fifty times a second: it **sets a voltage**, and it **writes
-# down what happened**. Nothing more. You compute the gains later, from the log.
+# down what happened**. You compute the gains later, from the log.
 #
-# So a mistake in this code causes no crash. The robot moves, the log fills, and the analyzer prints
-# numbers. But they are the gains of a different robot. Today you make such mistakes on purpose, on
-# a simulated robot with known gains, and learn what each mistake looks like.
-#
-# Run the next cell to set up the simulated robot.
+# So a mistake in this code causes no crash. The robot moves, the log fills, and the analyzer (the
+# SysId window) prints numbers. But these are the gains of a different robot. Today you make such
+# mistakes on purpose, on a simulated robot with known gains, and learn what each mistake looks
+# like.
 
 # %%
 import math
@@ -71,16 +73,14 @@ Table(
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
-# (sgn(v) is the direction: +1 forward, −1 backward. v is velocity, a is acceleration.)
-#
 # To find the three gains, the analyzer needs many rows with V, v and a:
 #
-# | what | where it comes from | who needs it |
+# | what | where it comes from | what needs it |
 # |---|---|---|
 # | voltage V | the motor controller | every fit |
 # | velocity v | the encoder | every fit |
-# | acceleration a | SysId computes it from v and the time | nobody logs it |
-# | position | the encoder | arms (gravity depends on the angle); finding when motion starts |
+# | acceleration a | SysId computes it from v and the time | every fit, but you do not log it |
+# | position | the encoder | arms: gravity depends on the angle |
 #
 # SysId's window loads a log only if it has position, velocity and voltage. But the fit of a
 # drivetrain or a shooter uses only velocity and voltage. The last cell of this section removes the
@@ -108,10 +108,8 @@ right = simulate(drivetrain, routine, rng=np.random.default_rng(4))
 plot_time_series(right, dynamic_seconds=1.0)
 
 # %% [markdown]
-# Two slow ramps (*quasistatic*, "almost standing still") and two sudden steps (*dynamic*), each
-# forward and in reverse. The picture shows only the first second of each step; the rest is flat.
-#
-# Which gains does SysId's method find in it?
+# You see the four runs of lesson 3, and only the first second of each step. Which gains does
+# SysId's method find in this log?
 
 
 # %%
@@ -130,8 +128,8 @@ no_positions = replace(
 Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 
 # %% [markdown]
-# The two **R²** ("R squared") are SysId's scores: 1 is perfect. They mean different things, which
-# lesson 7 explains. Here we only watch whether they notice a mistake.
+# The gains do not change. The two **R²** ("R squared") are SysId's scores: 1 is perfect. Lesson 7
+# explains them. Here we only watch whether they show a mistake.
 
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
@@ -141,9 +139,8 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 #
 # ### Two arguments
 #
-# The routine takes two arguments: `SysIdRoutine(Config config, Mechanism mechanism)`. The name in
-# the log is an optional fourth argument of `Mechanism`. If you leave it out, the log uses the name
-# of the subsystem.
+# The routine takes two arguments: `SysIdRoutine(Config config, Mechanism mechanism)`. `Config` says
+# how the tests run. `Mechanism` holds your two callbacks and the subsystem.
 #
 # <details><summary>For mentors: two arguments or three?</summary>
 #
@@ -152,7 +149,7 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # >
 # > **Source says:** two: `SysIdRoutine(Config config, Mechanism mechanism)`. The name is an
 # > optional *fourth* argument of `Mechanism`; left out, it is the subsystem's own name.
-# > ([WPILib Java docs: SysIdRoutine](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.html))
+# > ([WPILib's source: SysIdRoutine.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibNewCommands/src/main/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.java))
 # >
 # > **Try it:** count the arguments in the code below.
 # </details>
@@ -160,12 +157,13 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # ### Config: how hard, how long
 #
 # `Config` holds the ramp rate (volts per second), the step (volts) and the timeout (seconds). In
-# Java, `null` means "use the library's default":
+# Java, `null` means "use the library's default". In Python, leave the argument out: there `None` is
+# an error.
 
 # %%
 defaults = sim.Routine()
 Table(
-    ("setting", "default", "source lesson", "unit"),
+    ("setting", "default", "this lesson's log", "unit"),
     (
         ("ramp rate", defaults.ramp, routine.ramp, "V/s"),
         ("step", defaults.step, routine.step, "V"),
@@ -174,11 +172,9 @@ Table(
 )
 
 # %% [markdown]
-# **Myth check.** "A step between 3 and 7 V is fine." *It depends on your robot.* Wheels slip when
-# the motors push harder than the carpet can hold, and the model does not describe slipping. A
-# maintainer of WPILib calls the default of 7 V "almost always too much". From standstill, wheels
-# slip at about `kS + kA·μ·g` volts, with grip μ and g = 9.81 m/s². The next cell computes this for
-# two drivetrains with the same motors. Would 3 V be safe?
+# **Myth check.** "A step between 3 and 7 V is fine." *It depends on your robot.* A maintainer of
+# WPILib calls the default of 7 V "almost always too much". The next cell computes V_slip of lesson
+# 3, `kS + kA·μ·g`, for two drivetrains with the same motors. Would 3 V be safe?
 #
 # <details><summary>For mentors: typical steps, with source</summary>
 #
@@ -203,13 +199,11 @@ for mass in (60.0, 30.0):
 
 # %% [markdown]
 # A strong drivetrain slips early, and a light one slips even earlier. (Our simulated wheels never
-# slip, so we may use 3.5 V here. Your robot's wheels do: choose the step from your own kA, with the
-# planner of lesson 3.)
+# slip, so we may use 3.5 V here. For your robot, choose the step with the planner of lesson 3.)
 #
 # **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test:
-# the words `quasistatic-forward` and so on, which show the analyzer where a test begins and ends.
-# With `null` these words go into the **WPILOG file** on the robot, as a text entry called
-# `sysid-test-state-` and the mechanism's name. Nothing goes to the Driver Station.
+# words such as `quasistatic-forward`, which tell the analyzer where a test begins and ends. With
+# `null` these words go into the **WPILOG file** on the robot (the log that WPILib writes).
 #
 # <details><summary>For mentors: where does the test state go?</summary>
 #
@@ -217,14 +211,15 @@ for mass in (60.0, 30.0):
 # >
 # > **Source says:** with `null` the state goes into the **WPILOG file** on the robot, as a text
 # > entry named `sysid-test-state-` and the mechanism's name. Nothing goes to the Driver Station.
-# > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > ([WPILib docs: Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
 # </details>
 #
-# In Python, `None` is *not* the default but an error. Leave the argument out.
+# <details><summary>Want to know more? A name or a logger of your own</summary>
 #
-# <details><summary>Want to know more? A logger of your own</summary>
+# `Mechanism` has an optional fourth argument: the name in the log. If you leave it out, the log
+# uses the name of the subsystem.
 #
 # If you give the state to a logger of your own in Python, use `SysIdRoutineLog.stateEnumToString`:
 # it makes the word that the analyzer looks for. `str(state)` does not.
@@ -232,6 +227,11 @@ for mass in (60.0, 30.0):
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
 # first loop of the test: write `lambda log: None`. In this course you write the callback.
+#
+# (Read in `commands2/sysid/sysidroutine.py` of
+# [robotpy-commands-v2 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/). CTRE's
+# Python example uses both: [Plumbing & Running SysId, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst).)
 # </details>
 
 # %% [markdown]
@@ -244,11 +244,9 @@ for mass in (60.0, 30.0):
 #    If a controller corrects the motion, SysId measures that controller too.
 # 2. **A voltage, not a share of the battery.** `set(0.3)` means "30 % of the present battery
 #    voltage". The battery voltage drops when motors draw current, so the motor gets less voltage
-#    than you think.
-# 3. **Every motor.** If one gets no voltage, the others have to turn it, too, and you measure that.
-#
-# On a TalonFX (Phoenix 6) you may write `setVoltage()` or `setControl(new VoltageOut(…))`: they do
-# the same. You can test rule 2 in section 4.
+#    than you think. You can test this in section 4.
+# 3. **Every motor.** If one gets no voltage, the others have to turn it, too. Then the gains are
+#    wrong.
 #
 # <details><summary>For mentors: setVoltage or VoltageOut?</summary>
 #
@@ -257,7 +255,7 @@ for mass in (60.0, 30.0):
 # >
 # > **Source says:** on a TalonFX (Phoenix 6) the two are the same thing: `setVoltage()` *is* a
 # > `VoltageOut` request, and CTRE's own SysId example uses `setControl` with one request object.
-# > ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
 # > The rule worth keeping is rule 2. **Try it** in section 4.
 # </details>
@@ -267,19 +265,19 @@ for mass in (60.0, 30.0):
 # Once per loop, write down for each motor group: **applied voltage, position, velocity**.
 #
 # - **Applied** voltage is what reached the motor. A TalonFX reports it as `getMotorVoltage()`. For
-#   a simple PWM controller it is `get()` times the battery voltage. It is *not* the number that the
-#   routine commanded. In a brownout the applied voltage drops to 0 and comes back, again and again.
-#   The commanded voltage stays as it was (lesson 6).
+#   a simple PWM controller it is `get()` times the battery voltage. It is *not* the voltage that
+#   the routine commanded: in a brownout (the battery voltage gets too low), the applied voltage
+#   drops to 0 and comes back, again and again (lesson 6).
 # - **Units.** A drivetrain or an elevator moves along a line: meters and meters per second, after
 #   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
 #   the *output*, after the gear ratio.
 # - **Direction.** A positive voltage must give a positive velocity. Check this first.
 # - **Name.** `log.motor("drive-left")`: one name for each motor, or for each pair that shares an
-#   encoder. Later you choose this name from a long list.
+#   encoder. Later you choose this name in the analyzer.
 #
 # The Java logger accepts any unit of angle, but it always *stores rotations*. So the gains are per
-# rotation. If your feedforward uses radians, convert the **gain**, at the end. The next cell fits
-# one shooter log and prints kV per rotation and per radian.
+# rotation. If your feedforward uses radians, convert the **gain**, at the end (lesson 1). The next
+# cell fits one shooter log and prints kV per rotation and per radian.
 #
 # <details><summary>For mentors: where to convert to radians</summary>
 #
@@ -288,7 +286,7 @@ for mass in (60.0, 30.0):
 # > **Source says:** the Java logger takes any unit of angle, and always *stores rotations*. The
 # > gains come out per rotation. What you convert is the **gain**, at the end, or the number you
 # > hand to your feedforward.
-# > ([WPILib Java docs: SysIdRoutineLog](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.html))
+# > ([WPILib's source: SysIdRoutineLog.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibj/src/main/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.java))
 # >
 # > **Try it:** the next cell fits one shooter log and prints kV per rotation and per radian.
 # </details>
@@ -302,10 +300,11 @@ print(f"kV = {per_rotation:.4f} V·s/rotation = {per_radian:.5f} V·s/radian")
 print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:.4f}.")
 
 # %% [markdown]
-# It is the same shooter and the same log. If you mix up the units, your feedforward is wrong by
-# this factor.
+# If you mix up the units, your feedforward is wrong by this factor.
 #
 # ### All of it, in Java
+#
+# <details><summary>Open the code in Java</summary>
 #
 # ```java
 # package frc.robot.subsystems;
@@ -369,7 +368,13 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # }
 # ```
 #
-# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward.)
+# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward. A stick
+# that you push forward gives a *minus*: negate it in your drive code.
+# [WPILib docs: Coordinate System, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/171e0ea60c03fb59789a30b8fdfca9a299747af9/source/docs/software/basic-programming/coordinate-system.rst))
+# </details>
+#
+# <details><summary>For WPILib 2027: Commands v3</summary>
 #
 # **Commands v3** comes with WPILib 2027, for Java. There the class `extends Mechanism`, and the
 # parts of the same routine have other names: `Config.useDataLog` takes ramp, step and timeout, and
@@ -377,9 +382,12 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # there: for WPILib's own numbers write `Config.defaults()`. Exercises 4 and 5 accept both versions.
 # ([SysIdRoutine of Commands v3, at one commit of the
 # branch](https://github.com/wpilibsuite/allwpilib/blob/10171e2f048a8b86ffa82d52b65d09287c342268/commandsv3/src/main/java/org/wpilib/command3/sysid/SysIdRoutine.java))
+# </details>
 
 # %% [markdown]
 # ### All of it, in Python
+#
+# <details><summary>Open the code in Python</summary>
 #
 # This version uses PWM controllers and encoders on the roboRIO, so it needs no vendor library. The
 # course's own tests run it in WPILib's simulation, press its buttons and fit its log.
@@ -452,23 +460,28 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # Mechanism(self.voltageDrive, …, self))`, but not in which method. In the body of a class there is
 # no `self`, and Python stops with a `NameError`. Write it into `__init__`, as `self.routine = …`
 # above.
-# ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/latest/docs/software/advanced-controls/system-identification/creating-routine.html))
+# ([WPILib docs: Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
+# </details>
+#
+# In the code you have opened, find three lines: the one that sets the voltage, the one that logs
+# it, and the one that passes the subsystem (`this` or `self`). With `this`, no other command can
+# drive the subsystem during a test.
 
 # %% [markdown]
 # ### Four commands, bound and guarded
 #
 # The routine makes four commands: `quasistatic(kForward)`, `quasistatic(kReverse)`,
-# `dynamic(kForward)`, `dynamic(kReverse)`. Make them public, and bind **each to its own button**.
-# For each binding you need:
+# `dynamic(kForward)`, `dynamic(kReverse)`. Make them public, and bind **each to its own button**
+# (to *bind* means: this button starts this command). For each binding you need:
 #
 # - **`whileTrue`**, so that letting go ends the test. With `onTrue` the test continues after you
 #   let go, until the timeout.
-# - **A comment on each binding** that names the test *and what it measures*. In six months you will
-#   need it.
+# - **A comment on each binding** that names the test *and what it measures*. You will need it in
+#   six months.
 # - **A guard**, so that nobody starts a test in a match: Test mode (as here), a separate
 #   controller, or two buttons at once.
 #
-# In Java:
+# In Java (the Python code above ends with the same bindings):
 #
 # ```java
 # Trigger testMode = new Trigger(DriverStation::isTestEnabled); // the guard
@@ -482,11 +495,17 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # testMode.and(m_sysIdController.y()).whileTrue(m_drive.sysIdDynamic(Direction.kReverse));
 # ```
 #
+# <details><summary>For WPILib 2027: other names</summary>
+#
 # **In WPILib 2027** (not released yet; names as on its development branch) these lines do not
 # compile. Test mode is called *utility mode* there. The guard is `RobotModeTriggers.utility()`, or
 # `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. You set a
 # motor's duty cycle with `setThrottle` instead of `set`; `setVoltage` keeps its name.
-# ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
+# ([RobotModeTriggers](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java)
+# and, in C++,
+# [MotorController](https://github.com/wpilibsuite/allwpilib/blob/3738b6f682ce731dd8f7a6306fd708b9ed3ed22f/wpilibc/src/main/native/include/wpi/hardware/motor/MotorController.hpp),
+# each at one commit of the branch)
+# </details>
 #
 # **Myth check.** "A SysId test bypasses all limits." *Only partly.* During a test, your other
 # *commands* do not run, so their safety code does not work. Limits **inside the motor controller**
@@ -502,7 +521,7 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # > subsystem for itself. Limits **inside the motor controller** still work if you set them up;
 # > WPILib's docs name "soft and hard limits" as a reason to use your own code for the tests, and
 # > say that setting them up is your job.
-# > ([Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
+# > ([Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
 # > [Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > Both sides matter: a limit protects you, *and* when it engages, the data show the limit instead
@@ -518,18 +537,14 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # The test command starts its timer in one loop, and drives for the first time two loops later. (We
 # saw this when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is
-# not zero, as the next cell shows.
+# not zero: with a ramp of 0.5 V/s and loops of 20 ms it is 0.02 V.
 # </details>
-
-# %%
-ramp = right.runs_of_test("quasistatic-forward")[0]
-print(f"rows in {routine.timeout:.0f} s: {len(ramp)}")
-print(f"first voltage: {ramp.voltage[0]:.3f} V, two loops of 20 ms into a {routine.ramp} V/s ramp")
 
 # %% [markdown]
 # ## 4 The virtual robot: one mistake at a time
 #
-# Here are seven programs; only one of them is correct. **Predict** before you look:
+# Now you run seven programs on the simulated robot. Only one of them is correct. **Predict** before
+# you look:
 
 # %%
 guess_gain = Prediction(
@@ -549,8 +564,8 @@ guess_factor = Prediction(
     "2 times too big",
 )
 guess_score = Prediction(
-    "3. Will the simulated velocity R² fall below 0.9, so that you notice?",
-    "yes, for all of them",
+    "3. For which of the wrong programs does the simulated velocity R² fall below 0.9?",
+    "for all",
     "for some",
     "for none",
 )
@@ -559,15 +574,15 @@ display(guess_gain, guess_factor, guess_score)
 # %% [markdown]
 # These are the seven programs:
 #
-# | program | the mistake in the code | what the simulation does |
-# |---|---|---|
-# | right | none | simulates it |
-# | share of the battery | `set(volts / 12)`, logs the commanded volts | battery voltage drops |
-# | …but logs applied volts | `set(volts / 12)`, logs `getMotorVoltage()` | same run, applied V |
-# | turns called meters | `Meters.of(wheelTurns)` | divides by the wheel's circumference |
-# | radians taken for turns | `circumference * radians` | multiplies by 2π |
-# | encoder inverted | `setInverted` forgotten | changes the sign of the sensor |
-# | one motor of each pair | the second one gets no command | half the motors, same friction |
+# | program | the mistake in the code |
+# |---|---|
+# | correct | none |
+# | share of the battery | `set(volts / 12)`, logs the commanded volts |
+# | …but logs applied volts | `set(volts / 12)`, logs `getMotorVoltage()` |
+# | turns called meters | `Meters.of(wheelTurns)` |
+# | radians taken for turns | `circumference * radians` |
+# | encoder inverted | `setInverted` forgotten |
+# | one motor of each pair | the second motor of each side gets no command |
 
 # %%
 CIRCUMFERENCE = math.pi * 0.1016  # [m] of a 4 inch wheel
@@ -596,7 +611,7 @@ halved = simulate(half, routine, rng=rng)
 
 # program -> (what its log says, what really happened)
 programs = {
-    "right": (right, right),
+    "correct": (right, right),
     "share of the battery": (as_asked(sagging), sagging),
     "…but logs applied volts": (sagging, sagging),
     "turns called meters": (rescaled(right, 1 / CIRCUMFERENCE), right),
@@ -606,8 +621,8 @@ programs = {
 }
 
 # %% [markdown]
-# Now choose a program. The upper picture shows its log, and as a thin dotted line what really
-# happened. The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
+# Choose a program. The upper picture shows its log; a thin dotted line shows what really happened.
+# The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
 
 
 # %%
@@ -656,23 +671,21 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # ### Explain what you saw
 #
 # - **Share of the battery.** At the start of the step the current is large, the battery voltage
-#   drops, and the motors get less than the log says. The fit sees a slow robot and computes too
-#   much inertia: **kA** has the largest error. At a steady speed the current is small, so kV is
-#   hardly wrong.
-# - **Logging the applied volts repairs it.** In both rows the robot drove with a share of the
-#   battery; only the log differs. *Log the applied voltage*: it costs nothing. (With `setVoltage`,
-#   a log of the commanded voltage also looks fine, until a current limit, an empty battery or a
-#   brownout makes the two differ. Then you have the same error and no warning.)
+#   drops, and the motors get less than the log says. The robot looks heavier than it is: **kA** has
+#   the largest error. At a steady speed the current is small, so kV is hardly wrong.
+# - **Logging the applied volts repairs it.** The robot drove as before; only the log differs. *Log
+#   the applied voltage*: it costs nothing. (With `setVoltage`, commanded and applied voltage also
+#   differ when a current limit, an empty battery or a brownout acts.)
 # - **Wrong units** multiply kV and kA by the same factor, and do not change kS, because kS has no
 #   distance in its unit. You can recognize the factor: 2π, a circumference, a gear ratio.
 # - **Encoder inverted** makes every gain negative. No real robot has a negative kV.
-# - **One motor of each pair:** the log is correct, but you will not drive the robot like this. kS
-#   and kA double, because each volt now gives half the force. kV stays.
-# - **R² notices none of this.** With wrong units and signs it cannot: the log is a perfect log of a
-#   robot with other units. Compare the scores in the table above.
+# - **One motor of each pair:** the log is correct, but you will drive with all motors. kS and kA
+#   double, because each volt now gives half the force. kV stays.
+# - **R² shows none of this.** With a wrong unit or sign it cannot: the log is a perfect log of
+#   another robot.
 #
-# One more mistake is not in the list: a PID in the drive callback. Then the voltage depends on the
-# motion, and the fit measures your PID.
+# One more mistake is not in the list: a PID controller in the drive callback. Then the fit measures
+# the controller, too.
 
 # %% [markdown]
 # ## 5 From your robot to your computer
@@ -681,16 +694,16 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # 2. Run the four tests (lesson 5 shows each step). **One routine per log:** switch the robot off
 #    and on before you test another mechanism. WPILib's docs say that analysis fails otherwise.
 #    ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
-# 3. Fetch the `.wpilog` file with WPILib's Data Log Tool or with AdvantageScope. Section 5 of
-#    lesson 5 shows where it is.
+# 3. Download the `.wpilog` file with WPILib's Data Log Tool or with AdvantageScope (lesson 5,
+#    section 5).
 # 4. Fit it on your own computer. In a terminal:
 #
 # ```
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
-# The type is `simple` unless you add `--type elevator` or `--type arm`. In WPILib's SysId window
-# check that menu: it starts on *Elevator*, whatever your mechanism is.
+# The analysis type is `simple` unless you add `--type elevator` or `--type arm`. WPILib's SysId
+# window starts with *Elevator*, so check its menu.
 #
 # <details><summary>For mentors: where the log is</summary>
 #
@@ -743,7 +756,7 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # no comment says which button does what.
 # </details>
 #
-# **In Python, one more.** WPILib's docs make the commands like this. What stops the robot?
+# **One more, in Python.** WPILib's docs make the commands like this. Which error stops the program?
 #
 # ```python
 # def sysid_dynamic(self, direction: SysIdRoutine.Direction) -> commands2.Command:
@@ -752,9 +765,9 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #
 # <details><summary>The defect</summary>
 #
-# `SysIdRoutine` is the class, and a class has no motors. Python takes the direction for the routine
-# and stops with a `TypeError` when you bind the buttons: an argument is missing. Ask *your*
-# routine: `self.routine.dynamic(direction)`.
+# `SysIdRoutine` is the class, and a class has no motors. Python uses the direction as `self` and
+# stops with a `TypeError` when you bind the buttons: an argument is missing. Call the method of
+# *your* routine: `self.routine.dynamic(direction)`.
 # ([source of WPILib's docs, at one commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # </details>
 
@@ -780,8 +793,8 @@ from grader import QuickCheck
 
 quick = QuickCheck(
     (
-        "A drive callback calls motor.set(volts / 12), and the log contains `volts`. Which "
-        "gains are wrong when the battery gives 11 V all the time?"
+        "A drive callback calls motor.set(volts / 12), and the log contains the commanded "
+        "volts. Which gains are wrong when the battery gives 11 V all the time?"
     ),
     {
         "none": "A share of 11 V is not the same share of 12 V.",

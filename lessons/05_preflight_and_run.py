@@ -13,26 +13,27 @@
 # %% [markdown]
 # # Lesson 5: Pre-flight and the first run
 #
-# *About 45 minutes. You need lessons 3 and 4. You can read it without a robot. Take sections 5 and
-# 6 with you to the robot.*
+# *About 35 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
+# 6, and take them to the robot.*
 #
 # **At the end you can**
 #
-# - name the four steps of a characterization, and say which one you are in;
+# - name the four steps of a characterization;
 # - choose where the tape goes on the floor, and say where the robot will stop;
 # - decide *go* or *no-go* from five checks, and say what each check prevents;
 # - find your log, on a roboRIO of 2026 and on a Systemcore of 2027;
-# - run the four tests on a real robot, and know within a minute whether the log is any good.
+# - run the four tests on a real robot, and find out within a minute whether the log is good.
 
 # %% [markdown]
 # ## 1 Why: for ten seconds, nobody steers
 #
-# A SysId test drives your mechanism with a voltage that only grows, or with one that is simply
-# *on*. No code checks where the mechanism is. The person at the button is the only brake.
+# A SysId test drives your mechanism with a voltage that grows (the *ramp*, or quasistatic test) or
+# with a constant voltage (the *step*, or dynamic test). The code of the test does not check where
+# the mechanism is. The person at the button has to stop it.
 #
 # So before the test you decide how far the mechanism may go, and you check that everything is
-# ready. Pilots call this a *pre-flight check*. It takes five minutes. In this lesson you skip the
-# checks one by one, on a simulated robot, and see what happens.
+# ready. Pilots call this a *pre-flight check*. It takes five minutes. In this lesson you skip one
+# check at a time and see what happens.
 #
 # ### The four steps
 #
@@ -43,9 +44,9 @@
 # | 3. inspect and fit | look at the data first, then compute the gains | lessons 6 and 7 |
 # | 4. place the gains | put them into the constants and the feedforward | lesson 8 |
 #
-# The order matters. If nobody looked at the data, the gains are only guesses with more digits.
+# The order matters: if nobody looked at the data, you cannot trust the gains.
 #
-# Cover the table and write down the four steps in order. Exercise 6 asks for them.
+# Learn the four steps in order: exercise 6 asks for them.
 #
 # <details><summary>For mentors: where the four steps come from</summary>
 #
@@ -86,24 +87,24 @@ print(ROBOT.summary)
 Table(
     ("gain", "true value", "unit"),
     (("kS", TRUTH["kS"], "V"), ("kV", TRUTH["kV"], "V·s/m"), ("kA", TRUTH["kA"], "V·s²/m")),
-    caption="Our robot. Its true gains are known, because we built it.",
+    caption="Our robot. We know its true gains, because it is simulated.",
 )
 
 # %% [markdown]
 # ## 2 The model: how far does a test go?
 #
-# With a ramp of `r` volts per second, nothing moves until the voltage is above kS. From then on the
-# speed grows by `r/kV` each second. So after `t` seconds of motion
+# In a ramp the voltage grows by `r` volts per second. Nothing moves until the voltage is above kS.
+# Then the speed grows by `r/kV` each second. So after `t` seconds of motion
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# (The formula ignores that the robot reacts a little later than the voltage. The simulation does
-# not.)
+# (The formula ignores a small delay.)
 #
-# Then you let go. You need time to react, and the voltage is still on. Then the motors brake, if
-# their neutral mode is *Brake*. They cannot brake harder than the carpet can hold. So braking takes
-# at least another `v² / (2·μ·g)`, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on
-# carpet, less on a smooth floor).
+# You need time to react before you let go of the button, and the motors still drive. Then they
+# brake, if their neutral mode is *Brake* (the neutral mode says what a motor does at 0 V). The
+# wheels can only brake as hard as they grip the carpet. So braking takes at least another `v² /
+# (2·μ·g)` meters, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a
+# smooth floor).
 #
 # **Predict:**
 
@@ -150,13 +151,12 @@ Table(
 )
 
 # %% [markdown]
-# "Slow is safe" sounds right, but here it is wrong. With a slow ramp the robot drives for a long
-# time at medium speed, and that takes a lot of room. In a short room, a steeper ramp reaches a
-# higher speed. (The disadvantage of a steeper ramp: it shifts the kS that you read off, see lesson
-# 3.)
+# "Slow is safe" is wrong here. With a slow ramp the robot drives for a long time, and that takes a
+# lot of room. In a short room, use a steeper ramp. (Its disadvantage: you read off a larger kS, see
+# lesson 3.)
 #
-# WPILib asks for "at least 10' of space, ideally closer to 20'"; CTRE recommends 15 m. How fast is
-# the robot after 10 feet?
+# WPILib asks for "at least 10' of space, ideally closer to 20'" (10 feet are 3 m). CTRE recommends
+# 15 m. How fast is the robot after 10 feet?
 #
 # <details><summary>For mentors: how much room, with sources</summary>
 #
@@ -167,7 +167,7 @@ Table(
 # > be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [CTRE docs: Plumbing & Running
-# > SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
 # > **Try it:** the next cell shows how fast the robot is after 10 feet.
 # </details>
@@ -187,11 +187,11 @@ Table(
 )
 
 # %% [markdown]
-# Ten feet give you *some* data, but then the robot still has to brake. More room allows more speed,
-# and you need speed to measure kV.
+# Ten feet give you only *some* data, and the robot still needs room to brake. More room allows more
+# speed, and you need speed to measure kV.
 #
-# **And on blocks?** Then the motors only turn the wheels. Suppose the wheels are a tenth of the
-# robot's inertia:
+# **And on blocks?** If the robot stands on blocks, its wheels hang in the air. The motors only turn
+# the wheels. Suppose that the load on the motors is then a tenth of the robot's mass:
 
 # %%
 routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
@@ -201,14 +201,14 @@ print(f"On blocks: kV ÷ true = {lifted['kV'] / TRUTH['kV']:.2f}")
 print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
 
 # %% [markdown]
-# Here kV is almost right (a real robot also has less friction on blocks). But kA is the kA of the
-# wheels alone. You cannot use it for a robot on the floor.
+# Here kV is almost right (a real robot also has less friction on blocks). But this kA only
+# describes the wheels and the motors. So test on the floor, and compute the room.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
 #
-# Now you are the person at the button. The hall is 12 m long. There is a strip of tape on the
-# floor. When the front bumper passes the tape, you let go 0.3 s later.
+# Now you are the person at the button. The wall is 12 m away. There is a strip of tape on the
+# floor. You let go of the button 0.3 s after the front bumper passes the tape.
 #
 # The ramp is 1 V/s, the step 3.5 V, the timeout 10 s.
 #
@@ -222,20 +222,11 @@ guess_stop = Prediction(
     "about 3 m past it",
     "at the wall",
 )
-guess_check = Prediction(
-    "You skip one of the five checks. Which one damages the log although everything looks "
-    "normal on the floor?",
-    "room",
-    "battery",
-    "encoder",
-    "log",
-    "guard",
-)
-display(guess_stop, guess_check)
+guess_stop
 
 # %% [markdown]
-# Move the sliders. *Moment* moves the robot through the test. The dashed outline shows where the
-# robot stops.
+# Move the sliders. *Moment* chooses the time that you see: 0 is the start of the test, 1 is the
+# end. The dashed outline shows where the robot stops.
 
 # %%
 WALL = 12.0  # [m]
@@ -254,7 +245,7 @@ show_interactive(
         min=1, max=11.5, step=0.5, value=7, description="tape [m]", continuous_update=False
     ),
     thumb=widgets.FloatSlider(
-        min=0.1, max=1.5, step=0.1, value=THUMB, description="thumb [s]", continuous_update=False
+        min=0.1, max=1.5, step=0.1, value=THUMB, description="reaction [s]", continuous_update=False
     ),
     moment=widgets.FloatSlider(
         min=0, max=1, step=0.1, value=0.7, description="moment", continuous_update=False
@@ -277,20 +268,33 @@ print(f"  reaction {let_go - 7.0:.2f} m, braking {went.final_position - let_go:.
 print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.2f} m.")
 
 # %% [markdown]
-# To place the tape, start at the wall. Go back by your reaction distance, by the braking distance,
-# and by a good reserve. Put the tape there. You need one piece of tape for each direction.
+# To place the tape, start at the wall. Go back by the reaction distance, the braking distance and a
+# reserve, and put the tape there. You need tape for each direction.
 #
 # ### Now skip a check
 #
-# It is the same hall and the same robot, but you skip one check:
+# The hall and the robot are the same, but you skip one check:
 #
 # | skipped | what was wrong that morning |
 # |---|---|
-# | 1 room | nobody put tape on the floor, so nobody knows when to let go |
-# | 2 battery | the robot has driven all day: 11.6 V at rest, and the battery is old (35 mΩ) |
-# | 3 encoder | it is mounted the wrong way round: forward counts down |
-# | 4 log | nobody knows where the robot saves it |
-# | 5 guard | in the pit, somebody hits the button: the wall is 1.5 m away, *Disable* takes 1 s |
+# | 1 room | there is no tape on the floor, so you do not know when to let go |
+# | 2 battery | the robot drove all day: 11.6 V at rest, and an old battery (resistance 35 mΩ) |
+# | 3 encoder | the encoder is inverted: when the robot drives forward, the position falls |
+# | 4 log | nobody knows where the robot saves the log |
+# | 5 guard | nothing locks the tests: in the pit, 1 m from a wall, somebody presses a button |
+#
+# **Predict:**
+
+# %%
+guess_check = Prediction(
+    "You skip one of these checks. The robot drives as always, but the log is wrong. Which check?",
+    "room",
+    "battery",
+    "encoder",
+    "log",
+    "guard",
+)
+guess_check
 
 # %%
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
@@ -303,39 +307,39 @@ def morning(skipped: str, test: str, moment: float) -> Picture:
     if skipped == "1 room":
         floor = Floor(wall=WALL)
     if skipped == "5 guard":
-        floor = Floor(wall=1.5, watched=1.0)
+        floor = Floor(wall=1.0, watched=1.0)  # Disable takes a second
     robot = TIRED if skipped == "2 battery" else ROBOT
     return plot_runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
 
 
 show_interactive(
     morning,
-    skipped=widgets.Dropdown(options=SKIPS, description="skipped"),
-    test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], description="test"),
+    skipped=widgets.Dropdown(options=SKIPS, value="2 battery", description="skipped"),
+    test=widgets.Dropdown(options=[("ramp", RAMP), ("step", STEP)], value=STEP, description="test"),
     moment=widgets.FloatSlider(
         min=0, max=1, step=0.1, value=1, description="moment", continuous_update=False
     ),
 )
 
 # %% [markdown]
-# No menu? Here is the battery that was not charged, in the step:
+# No menu? Here is the step with the battery that was not charged:
 
 # %%
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# Look at the battery voltage. The step draws so much current that this voltage falls below a
-# threshold. Then the robot controller turns the motors off to protect itself: this is a *brownout*.
-# The battery recovers at once, the motors come back, and so on. The robot crawls. (A real robot
-# stutters more slowly than our simulation.)
+# First look at *2 battery* in the *step*. The step draws so much current that the battery voltage
+# falls below the dashed line. Then the robot controller turns the motors off to protect itself:
+# this is a *brownout*. The battery recovers, the motors start again, and so on. The robot hardly
+# moves. (A real robot switches more slowly.) Then try the other checks.
 #
-# If you skip check 3 or 4, you see nothing on the floor: the robot drives as always. The damage is
-# in the log, and nobody in the pit sees it.
+# If you skip check 3 or 4, the robot drives as always.
 #
 # ### What the log is worth
 #
-# Here are the four tests of each morning, and the gains from SysId's method. `inspect` is our own
-# program that looks for known faults; lesson 6 explains it.
+# Each row of the next table is one morning: the robot ran all four tests, and SysId's method
+# computed the gains. A value of 1 means that the gain is right. The program `sysid inspect` looks
+# for known faults (lesson 6).
 
 # %%
 sound = simulate(ROBOT, routine, rng=np.random.default_rng(5))
@@ -371,34 +375,36 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # %% [markdown]
 # ### Explain
 #
-# - **1 room.** You see it on the floor, and the log is damaged, too: at the wall there is voltage
-#   without speed. (Here it happens in one ramp only. That is enough.)
-# - **2 battery.** You may see the robot crawl, and the Driver Station shows the brownout. `inspect`
-#   finds it, because the applied voltage is cut to 0 again and again.
-# - **3 encoder.** On the floor, *everything looks normal*. Skip this check and nobody notices until
-#   every gain comes out negative.
-# - **4 log.** You had a perfect afternoon, and you have no log.
-# - **5 guard.** The log is fine. The robot is not, and somebody's hand may be hurt.
+# - **1 room.** The robot hits the wall, and the log is damaged, too: at the wall there is voltage
+#   without speed. One bad ramp ruins all gains.
+# - **2 battery.** The Driver Station shows the brownout. `sysid inspect` finds it, because the
+#   applied voltage drops to 0 again and again.
+# - **3 encoder.** On the floor, *everything looks normal*. Nobody notices the mistake until every
+#   gain is negative.
+# - **4 log.** The tests were perfect, and you have no log.
+# - **5 guard.** A later log is good. But in the step the robot hits the wall, and it may hurt
+#   somebody.
 
 # %% [markdown]
 # ## 4 Five checks, and the reasons for them
 #
 # ### Room
 #
-# Clear the way in **both** directions, on the carpet the robot will drive on. Compute the distance
-# (section 2), put tape down, and let a second person watch it. For an arm or an elevator: move it
-# by hand through all of its travel. Nothing may be in the way, and no cable may pull.
+# Clear the way in **both** directions, on the carpet that the robot will drive on. Compute the
+# distance (section 2), put tape down, and let a second person watch the tape. If you test an arm or
+# an elevator, move it by hand from end to end. Nothing may block it, and no cable may be too short.
 #
-# Set the **timeout** to what your plan needs, and no longer: it ends the test if your thumb does
-# not. Begin with a **small step**. A strong, light drivetrain slips even below 3 V (lesson 4).
+# Make the **timeout** only as long as your plan needs: it ends the test if you forget to let go.
+# Begin with a **small step**. The wheels of a strong, light drivetrain slip even below 3 V (lesson
+# 4).
 #
 # ### Battery
 #
-# A charged battery shows 12 V or more at rest. Below 12 V is not yet a brownout: a roboRIO 1
+# A charged battery shows 12.7 V or more at rest. Even 12 V is not yet a brownout: a roboRIO 1
 # disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. What does an
-# empty battery do to kA? The next cell runs the tests with two batteries and two steps. It fits
-# once with the voltage that was **applied** to the motors, and once with the voltage that was
-# **commanded**.
+# empty battery do to kA? The next cell runs the tests with two batteries and two steps. It computes
+# kA once from the voltage that was **applied** to the motors, and once from the voltage that the
+# code **commanded**.
 #
 # <details><summary>For mentors: batteries below 12 V, with source</summary>
 #
@@ -406,7 +412,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # >
 # > **Source says:** motors are disabled below 6.3 V on a roboRIO 1; on a roboRIO 2 the threshold
 # > can be set, and is 6.75 V if you do not. Below 12 V is not yet a brownout.
-# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > ([WPILib docs: Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
 # > **applied** voltage and the **commanded** voltage.
@@ -449,45 +456,50 @@ Table(
 )
 
 # %% [markdown]
-# Without a brownout, the empty battery gives the same kA in both columns: this robot sets a
-# *voltage*, and its motor controllers compensate for the lower battery voltage. (With a share of
-# the battery, as in lesson 4, they do not.) A brownout damages both columns, and the commanded one
-# far more. So charge the battery anyway, begin with a small step, and log the applied voltage.
+# Without a brownout, both columns are right, even with the tired battery: this robot calls
+# `setVoltage`, and its motor controllers compensate for the lower battery voltage. `set` does not
+# (lesson 4). With a brownout, both columns are wrong, and the commanded one is far worse. So charge
+# the battery, begin with a small step, and log the applied voltage.
 #
-# Ask for **12.5 V or more at rest**, and for 20 mΩ or less on a battery tester.
+# Require **12.5 V or more at rest**. On a battery tester, require 20 mΩ or less.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
-# flat: WPILib's docs call 11.7 to 12.5 V on an idle robot "depleted", and advise against a battery
-# of more than 20 mΩ.
-# ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half flat
+# or worse: [a table of voltages, at one
+# commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
+# says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
+# battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
+# swapped and charged". They also advise against a battery of more than 20 mΩ in matches.
+# ([WPILib docs: Robot Battery Basics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
 # ### Encoder
 #
-# With the robot disabled, push the mechanism **forward** by hand. On the dashboard or in
-# AdvantageScope, the position must **rise** smoothly, and the velocity must be positive while it
-# moves. Then push it back. Then give it a small positive voltage: it must move the same way. *Plus
-# volts, plus velocity* is the most important check, because R² does not show when it fails (lesson
-# 6).
+# Disable the robot and push the mechanism **forward** by hand. On the dashboard or in
+# AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
+# enable the robot and apply a small positive voltage: the mechanism must move forward, too. *Plus
+# volts, plus velocity* is the most important check, because SysId's score R² stays high even if the
+# sign is wrong (lesson 6).
 #
 # ### Log
 #
-# Fetch **yesterday's** log before you need today's. Section 5 shows where it is.
+# Before the first test, fetch an **older** log, as practice. Section 5 shows where the logs are.
 #
 # ### Guard
 #
-# Lock the tests with your guard, and enable the robot. (If your guard is Test mode, called
-# *Utility* in 2027, enable in Teleop.) Press all four buttons. Nothing may move. (Lesson 4 shows
-# three kinds of guard.) One person has no other job than to press *Disable*. In the 2026 Driver
-# Station the **Enter** key disables, and the **space bar** is the emergency stop: it works even if
-# another window is in front, and you have to reboot the roboRIO afterwards. ([WPILib docs: Driver
+# A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Lock the
+# tests and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable in
+# Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
+# *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables. The **space
+# bar** is the emergency stop: it works even if another window is in front, and you have to reboot
+# the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
-# Your own safety code in *commands* does not run during a test. Limits *in the motor controller*
-# do, if you have set them (lesson 4). The next cell sets a current limit of 40 A per motor and runs
-# the tests.
+# Safety code in your own *commands* does not run during a test. Limits *in the motor controller*
+# work, if you have set them (lesson 4). The next cell sets a current limit of 40 A per motor and
+# runs the tests.
 #
 # <details><summary>For mentors: which limits work in a test?</summary>
 #
@@ -516,10 +528,9 @@ print(f"Highest current of a motor in all four tests: {highest:.0f} A. The limit
 print(f"kA ÷ true: {arrived:.2f} with the applied voltage, {asked:.2f} with the commanded one.")
 
 # %% [markdown]
-# So the limit **protects** you. But when it acts, the motor gets less than the commanded voltage,
-# and a log of the commanded voltage is wrong.
+# So the limit **protects** you. But while it acts, a log of the commanded voltage is wrong.
 #
-# Two more rules that are easy to keep:
+# Two more rules:
 #
 # - **One mechanism per log.** WPILib: if you run a second routine "without extracting the log or
 #   power-cycling the roboRIO in between, analysis will fail".
@@ -543,10 +554,7 @@ print(f"kA ÷ true: {arrived:.2f} with the applied voltage, {asked:.2f} with the
 # └─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
 # ```
 #
-# The Data Log Tool and AdvantageScope can always fetch the log, except through the radio on a
-# competition field: its firewall blocks them, so use a USB cable there. The Driver Station copies
-# logs only if you ticked *Upload WPILogs*. The next cell answers the question for three robots.
-# Then answer it for yours.
+# The table shows three robots. Which row is yours?
 #
 # <details><summary>For mentors: the log folder, with sources</summary>
 #
@@ -582,9 +590,11 @@ Table(
 )
 
 # %% [markdown]
-# How to fetch the log:
-#
 # <details><summary>Four ways to fetch the log, step by step</summary>
+#
+# WPILib's Data Log Tool and AdvantageScope can always fetch the log. (On a competition field, use a
+# USB cable: the firewall of the radio blocks them.) The Driver Station copies logs only if you
+# ticked *Upload WPILogs*.
 #
 # - **AdvantageScope:** *File* > *Download Logs…*. You should see a list, the newest at the top.
 #   Select, then click the ↓ sign. If it finds no robot: set its address and the log folder in the
@@ -622,13 +632,12 @@ Table(
 # 10. `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
 # 11. `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
 #
-# You may run the four tests in any order. With forward and then reverse, the robot returns to where
-# it was.
+# You may run the four tests in any order.
 #
-# **Do step 10 before anybody packs up.** It takes a minute. Repeating a test now takes five
-# minutes; repeating it tomorrow takes an evening.
+# **Do step 10 before anybody packs up.** Repeating a test takes five minutes now, and an evening
+# tomorrow.
 #
-# Here are steps 9 to 11 with a simulated log. `sim.write` writes the same kind of file as a robot:
+# Here are steps 9 to 11 with a simulated log:
 
 # %%
 with TemporaryDirectory() as place:
@@ -656,12 +665,16 @@ Table(
 # ```
 #
 # An arm or an elevator needs `--type arm` or `--type elevator`. If your log has several motors,
-# name one: `--motor left`. If the entries in your log have other names, give them: `--voltage`,
-# `--position`, `--velocity`, `--state`.
+# name one: `--motor left`.
 #
-# **The same file in WPILib's SysId.** In VS Code `Ctrl+Shift+P`, *WPILib: Start Tool*, *SysId*.
+# <details><summary>If the entries in your log have other names</summary>
 #
-# <details><summary>Five steps in SysId</summary>
+# Give their names with the options `--voltage`, `--position`, `--velocity` and `--state`.
+# </details>
+#
+# <details><summary>The same file in WPILib's SysId, in five steps</summary>
+#
+# In VS Code press `Ctrl+Shift+P`, and choose *WPILib: Start Tool*, *SysId*.
 #
 # 1. *Log Loader*: *Open data log file…*
 # 2. Type `sysid-test-state` into *Filter*. Drag that entry to *Test State*.
@@ -674,7 +687,7 @@ Table(
 # %% [markdown]
 # ### Motors from CTRE or REV?
 #
-# The steps above work for all motors. Open your vendor's box if you want to use its own logger.
+# The steps above work for all motors. Each maker also has its own logger: open your maker's box.
 #
 # <details><summary>If your motors are CTRE's (Phoenix 6)</summary>
 #
@@ -691,7 +704,7 @@ Table(
 #    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is the applied voltage.
 #
 # CTRE asks you not to convert with other tools, because they may lose signals.
-# ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html),
+# ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
 # Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the
@@ -724,10 +737,11 @@ Table(
 # ### Watch the tests live
 #
 # `sysid watch` reads the log while the robot writes it. After each test it fits the gains again and
-# says what to do next: which test is missing, which test to repeat, or that you have enough. So you
-# know it while the robot still stands on the carpet.
+# says what to do next: which test is missing, which test to repeat, or that you have enough data.
 #
-# Try it with a simulated robot. `exercises/exercise6/robot.py` is a robot program with a
+# <details><summary>Try it with a simulated robot, or use it with your own</summary>
+#
+# `exercises/exercise6/robot.py` is a robot program with a
 # `SysIdRoutine`, as in lesson 4. It runs its four tests in WPILib's simulation. It needs RobotPy:
 # `pip install "sysid-course[robot]"`. Open two terminals in the course folder. In the first type
 #
@@ -748,8 +762,9 @@ Table(
 # instead, the values that the robot sends to the dashboard: `sysid watch --nt 1234`, with your own
 # team number. Then the robot program has to send voltage, position, velocity and the name of the
 # test. The example program does it.
+# </details>
 #
-# The next cell shows what `sysid watch` would say after each test of our simulated robot.
+# The next table shows what `sysid watch` would say after each test of our simulated robot.
 
 # %%
 from sim.core import errors
@@ -770,22 +785,22 @@ Table(("after this test", "it says"), tuple(rows))
 # ## 7 When: not at the first regional
 #
 # Some teams "spend their entire practice match window trying to characterize their drivetrain". But
-# a pit is as small as a parking space, and there are eight minutes between two matches. The tests
-# themselves are short:
+# a pit is as small as a parking space, and there may be only eight minutes between two matches. The
+# tests themselves are short:
 
 # %%
 seconds = sum(float(run.time[-1] - run.time[0]) for run in sound.runs)
 print(f"The four tests take {seconds:.0f} s, {seconds / (8 * 60):.0%} of eight minutes.")
-print(f"They need up to {slow.final_position / FOOT:.0f} feet, even at 0.5 V/s.")
+print(f"The ramp needs up to {slow.final_position / FOOT:.0f} feet, at 0.5 V/s.")
 
 # %% [markdown]
-# Everything else takes long: finding room and carpet, a battery, the log, and a second try.
+# But it takes long to find room, to charge a battery, to fetch the log and to try again.
 #
 # **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and
 # you still have time to use the gains.
 #
 # Do gains from the shop work at the competition? Only if the robot and the floor stay the same. The
-# next cell changes one thing at a time. Which gain changes?
+# next table changes one thing at a time. Which gain changes?
 #
 # <details><summary>For mentors: do the gains transfer to competition?</summary>
 #
@@ -814,7 +829,7 @@ Table(
 # %% [markdown]
 # ## 8 System check
 #
-# Read it aloud before you press the first button. If one point is missing, it is *no-go*:
+# Read this list aloud before the first test. If one point is missing, it is *no-go*:
 #
 # - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. Tape is on
 #   the floor.
@@ -825,27 +840,27 @@ Table(
 # - [ ] **Guard.** While the guard locks the tests, no button moves anything. One person only waits
 #   to disable.
 #
-# Write down two more things for each log: **brake or coast** (set the mode that you drive with; it
-# decides how far the robot rolls after a test), and the current limit that was set.
+# Write down two more things for each log: **brake or coast** (the neutral mode; use the one that
+# you drive with, because it decides how far the robot rolls after a test), and the current limit.
 #
 # ## 9 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "When is a soft limit bypassed by a SysId test?",
+    "Which soft limits (limits in software) stop working during a SysId test?",
     {
-        "always": "A limit inside the motor controller still works.",
-        "never": "The test replaces your own commands, and the limits in them.",
-        "where it is in your own commands": (
+        "all": "A limit inside the motor controller still works.",
+        "none": "The test replaces your own commands, and the limits in them.",
+        "those in your own commands": (
             "The test has the subsystem for itself. A limit in the motor controller still "
             "acts, and then your data show it."
         ),
     },
-    right="where it is in your own commands",
+    right="those in your own commands",
 )
 quick
 
@@ -898,16 +913,16 @@ quick
 # ## 10 Practice
 #
 # **Exercise 6, part (b)** ([exercises/exercise6/README.md](../exercises/exercise6/README.md)). You
-# get a description of a morning. Some things in it are wrong. Decide *go* or *no-go* for each line,
-# put the four steps in order, and say where the log is. (Part (a), the four plans, belongs to
-# lesson 3.)
+# get a description of a morning, with some mistakes. Decide *go* or *no-go* for each line, put the
+# four steps in order, and say where the log is. (Part (a) belongs to lesson 3.)
 #
 # ```
 # grade exercise6
 # ```
 #
-# Or answer from a notebook. This writes into `exercises/exercise6/answers.toml` and shows the
-# result:
+# <details><summary>Or answer from a notebook</summary>
+#
+# This writes into `exercises/exercise6/answers.toml` and shows the result:
 #
 # ```python
 # from grader import submit
@@ -915,8 +930,11 @@ quick
 # submit("exercise6", check_travel="go", check_battery="no-go", log_2027="/home/systemcore/logs")
 # ```
 #
-# (These answers are only examples. Yours depend on your morning.) Hints cost nothing: `grade
-# exercise6 --hint`. With an editor, use `grade watch exercise6`: it grades each time you save.
+# (These answers are only examples.)
+# </details>
+#
+# Hints cost nothing: `grade exercise6 --hint`. If you use an editor, `grade watch exercise6` grades
+# each time you save.
 #
 # **On your own robot:** do the five checks today, with the robot disabled. Fetch any log from it,
 # and open it in AdvantageScope.

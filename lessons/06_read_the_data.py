@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 6: Read the data
 #
-# *About 50 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
+# *About 40 minutes. You need lessons 1 and 3. Today you decide whether you can trust a log.*
 #
 # **At the end you can**
 #
@@ -25,10 +25,11 @@
 # %% [markdown]
 # ## 1 Why: a fit never says "I do not know"
 #
-# A fit gives you three numbers for any log. It does not know that a wheel slipped, or that the
-# battery was empty. It finds the numbers that match the data best, good or bad.
+# A *fit* is the calculation that finds the gains from a log. It gives you three numbers for any
+# log. It does not know that a wheel slipped, or that the battery was empty. It finds the numbers
+# that match the data best, good or bad.
 #
-# > The fit believes the log. So somebody has to check the log first. That is you.
+# > The fit believes the log. So you have to check the log first.
 #
 # Today's robot is our simulated drivetrain. We know its true gains, so we can say how wrong a fit
 # is. On your robot you do not know them.
@@ -73,11 +74,11 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
 print(
-    f"kA/kV = {1000 * TAU:.0f} ms: after this time the robot has nearly two thirds of its new speed"
+    f"kA/kV = {1000 * TAU:.0f} ms: after this time, a step reaches nearly two thirds of its speed"
 )
 
 # %% [markdown]
-# ## 2 The model: what a sound log looks like
+# ## 2 The model: what a good log looks like
 #
 # **Predict first.** In the dynamic test the voltage jumps to 3.5 V and stays there.
 
@@ -94,18 +95,19 @@ guess_rise
 plot_time_series(sound, dynamic_seconds=0.6)
 
 # %% [markdown]
-# **A sound quasistatic test** (left):
+# **A good quasistatic test** (left):
 #
 # - The voltage is a ramp. The velocity stays at zero until the voltage is above kS, then it climbs
 #   in a straight line.
-# - Forward and reverse are mirror images, nearly. (Not for an elevator or an arm: lesson 2.)
-# - Voltage over velocity is a straight line with little scatter: the plot below.
+# - Forward and reverse are nearly mirror images. (For an elevator or an arm they are not: lesson
+#   2.)
+# - Voltage over velocity is a straight line with little scatter, as in the plot below.
 #
-# **A sound dynamic test** (right):
+# **A good dynamic test** (right):
 #
-# - The voltage jumps and stays.
+# - The voltage jumps and stays constant.
 # - The velocity rises at once, steeply, then bends over and goes flat.
-# - It ends because somebody lets go or presses *Disable*, not at a wall.
+# - The test ends because somebody lets go or presses *Disable*, not because the robot hits a wall.
 #
 # In both tests there is a sample every 20 ms, and the slope of the position is the velocity.
 
@@ -113,8 +115,8 @@ plot_time_series(sound, dynamic_seconds=0.6)
 plot_voltage_velocity(sound)
 
 # %% [markdown]
-# The straight line is a good sign. Look where it meets velocity 0: near kS, but not exactly at kS
-# (lesson 7 explains why).
+# The straight line is a good sign. At velocity 0 it meets the voltage axis near kS, but not exactly
+# at kS (lesson 7 explains why).
 #
 # <details><summary>For mentors: the plots of SysId, with source</summary>
 #
@@ -124,7 +126,7 @@ plot_voltage_velocity(sound)
 # > **Source says:** SysId 2026 has no plot of voltage over velocity. It draws velocity over time,
 # > acceleration over velocity, and the time steps. And it has *two* R², which mean different things
 # > (section 5). ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** look where our line meets velocity 0. That is near kS, but not exactly at kS (lesson
 # > 7 explains why).
@@ -147,12 +149,13 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # %% [markdown]
 # ### Explain
 #
-# The motor accelerates with the remaining voltage: V − kS − kV·v. The faster it goes, the less
-# remains. So the acceleration is **largest at the start**. After each kA/kV, only about 37 % of it
-# remains. Such a curve is called *exponential*. In the plot above it is a straight line that falls.
+# The voltage that remains for the acceleration is V − kS − kV·v. The faster the robot goes, the
+# less remains. So the acceleration is **largest at the start**. After each time kA/kV, only about
+# 37 % of the acceleration is left. Such a curve is called *exponential*. In the plot above,
+# acceleration over velocity, it is a straight line that falls.
 #
 # **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test. A
-# constant acceleration is a warning: in section 3, choose *current limit*.
+# constant acceleration is a warning: you see one in section 3, under *current limit*.
 #
 # <details><summary>For mentors: the rise is exponential, with source</summary>
 #
@@ -160,7 +163,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # >
 # > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
 # > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** in section 3, choose *current limit*. A **constant** acceleration is what that looks
 # > like. It is a warning, not a good sign.
@@ -169,26 +172,27 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # %% [markdown]
 # ## 3 Reading: thirteen ways to damage a log
 #
-# The source lesson names four *contaminations*. Five more are common in the field, and four more
-# are easy to see. Exercise 7 and `sysid inspect` use the same names.
+# A *fault* is something that makes a log wrong. The first four are the classic *contaminations*.
+# Five more are common on real robots, and four are easy to see. Exercise 7 and `sysid inspect` use
+# the same names.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
-# | **the source lesson's four** | | |
+# | **the first four** | | |
 # | encoder slip | the encoder slips on its shaft for a while | fix it, run again |
 # | brownout | the battery voltage drops, the controller turns the motors off | charge, run again |
-# | hard stop | the mechanism hits its end while the voltage stays on | trim, or run again |
+# | hard stop | the mechanism hits its end, the voltage stays on | cut that part off, or run again |
 # | loop overrun | the robot program is too slow, samples are missing | find the cause, run again |
-# | **five from the field** | | |
+# | **five from real robots** | | |
 # | command logged | the motor got less than the logged voltage | log the applied voltage |
 # | velocity filter | the sensor averages, so its velocity is late | set a shorter filter |
-# | current limit | the controller reduces the voltage of the step | use a smaller step |
+# | current limit | the motor controller reduces the voltage of the step | use a smaller step |
 # | wheel slip | the wheels spin faster than the robot moves | smaller step, on carpet |
 # | stale samples | the log samples faster than the sensor updates | log at the sensor's rate |
 # | **four more** | | |
-# | unit error | velocity has another unit than position | fix the code |
+# | unit error | the velocity does not fit the position (rpm, not rot/s) | fix the code |
 # | mislabelled test | a test has the name of another test | fix the code |
-# | voltage dropout | single voltages are missing in the log | fix the logging |
+# | voltage dropout | the log holds 0 V for single samples | fix the logging |
 # | stuck sensor | position and velocity freeze for a while | check the cable, run again |
 #
 # **Predict:**
@@ -201,16 +205,16 @@ guess_late = Prediction(
     "the velocity next to the slope of the position",
 )
 guess_gap = Prediction(
-    "A few samples are missing. Which gain gets the largest error?",
+    "A few samples are missing in the log. Which gain gets the largest error?",
     "kS",
     "kV",
     "kA",
-    "all alike",
+    "all the same",
 )
 display(guess_late, guess_gap)
 
 # %% [markdown]
-# Choose a log and a plot. Look at *clean* in every plot first.
+# Choose a log and a plot. First look at *clean* in every plot.
 
 
 # %%
@@ -239,7 +243,7 @@ gallery = {
     "stale samples": spoiled("stale-samples"),
     "unit error": spoiled("unit-error"),
     "mislabelled test": spoiled("mislabelled-test"),
-    "voltage dropout": spoiled("voltage-dropout"),
+    "voltage dropout": spoiled("voltage-dropout", test=RAMP, at=2.0),
     "stuck sensor": spoiled("stuck-sensor", test=RAMP, at=3.0),
 }
 
@@ -277,7 +281,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus on your screen? Change the two names here, and run the cell:
+# No menus? Change the two names here, and run the cell:
 
 # %%
 look("current limit", "over time")
@@ -289,8 +293,9 @@ look("current limit", "over time")
 look("velocity filter", "velocity and position's slope")
 
 # %% [markdown]
-# The next table shows what each fault does to the gains. The two **R²** are SysId's scores. 1 is
-# perfect, 0 means that the gains explain nothing. Section 5 explains them.
+# The next table shows what each fault does to the gains. *kS ÷ true* is the gain that SysId finds,
+# divided by the true one: 1 is right. The two **R²** are scores that SysId shows for a fit: 1 is
+# perfect. Section 5 explains them.
 
 
 # %%
@@ -307,28 +312,30 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # %% [markdown]
 # ### What to look for
 #
-# Ask one question about every plot: **could the motor do that?** A mass cannot change its speed
+# Ask one question about every plot: **could the motor do that?** A robot cannot change its speed
 # within one sample.
 #
-# - **Encoder slip.** The velocity drops by a share of its value from one sample to the next, and
-#   comes back just as suddenly. Voltage over velocity gets a second branch.
+# - **Encoder slip.** From one sample to the next, the velocity drops to a fraction of its value;
+#   later it jumps back. Voltage over velocity shows a second line.
 # - **Brownout.** The controller turned the motors off. The velocity falls along a *curve*, and
-#   later rises again along a curve. If the log holds the **commanded** voltage, it still shows a
-#   voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0 and comes back,
-#   again and again. If the log has the **bus voltage**, you see it fall below the threshold.
-# - **Hard stop.** The velocity goes to zero within a few samples. The position stays, the voltage
-#   stays on.
-# - **Loop overrun.** Only *time steps* shows it well.
-# - **Command logged.** The step in the log is perfect, but the velocity starts to rise in a
+#   later rises again along a curve. If the log holds the **commanded** voltage, the log still shows
+#   a voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0 and comes
+#   back, again and again. If the log has the **bus voltage** (of the battery), you see it fall
+#   below the threshold of lesson 5.
+# - **Hard stop.** The velocity goes to zero within a few samples. The position stays the same, and
+#   the voltage stays on.
+# - **Loop overrun.** In *time steps*, some points are far above 20 ms. The other plots hardly show
+#   the fault.
+# - **Command logged.** The voltage of the step looks perfect, but at first the velocity rises in a
 #   straight line.
-# - **Current limit.** The velocity rises in the same way, but the *voltage* shows the limit,
-#   because the log holds the applied voltage. This log is correct: the errors of its gains are
-#   small.
-# - **Velocity filter.** The velocity is later than the slope of the position. The position is not
-#   filtered.
-# - **Wheel slip.** The velocity jumps up, pauses, then rises slowly: the wheels were faster than
-#   the robot.
-# - **Stale samples.** Stairs: the same value two or three times, then a jump.
+# - **Current limit.** The velocity rises in a straight line, too. But the *voltage* shows the
+#   limit, because this log holds the applied voltage. So the log is correct, and the errors of its
+#   gains are small.
+# - **Velocity filter.** The velocity rises later than the slope of the position, because the
+#   position is not filtered.
+# - **Wheel slip.** The velocity jumps up, pauses, then rises slowly: the wheels turned faster than
+#   the robot moved.
+# - **Stale samples.** The curve looks like stairs: the same value two or three times, then a jump.
 # - **Unit error.** The velocity has the right shape but the wrong size compared with the slope of
 #   the position.
 # - **Mislabelled test.** A "ramp" starts with a step, or a "forward" test goes backward.
@@ -343,16 +350,18 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Source says:** in a brownout the robot controller disables its outputs until the battery
 # > recovers. So the *applied* voltage drops and recovers. The commanded voltage does not drop,
 # > because the routine does not know about the brownout. ([WPILib docs:
-# > Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** look at both brownouts above in the plot *over time*.
 # </details>
 #
 # ### How bad are timing gaps?
 #
-# SysId divides each difference of velocities by the *mean* time step of the test, so a gap gives a
-# wrong acceleration. The normal step is 20 ms, and half of all steps are a bit longer. So count
-# only steps that are longer than 1.5 times the usual one. How wrong does kA get?
+# To get the acceleration, SysId divides each change of the velocity by the *mean* time step of the
+# test. So at a gap the acceleration is wrong. The normal time step is 20 ms, and half of all steps
+# are a bit longer. So count only steps that are longer than 1.5 times the usual one. How wrong is
+# kA?
 #
 # <details><summary>For mentors: gaps and kA, with source</summary>
 #
@@ -399,7 +408,7 @@ print(guess_gap.reveal("kA"))
 Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), tuple(rows))
 
 # %% [markdown]
-# kV hardly changes. kA does, if a gap falls into the few samples of the rise.
+# kV hardly changes. kA changes if a gap falls into the few samples in which the velocity rises.
 #
 # ### How bad are repeated samples?
 #
@@ -416,25 +425,28 @@ for rate in (50, 100, 250):
 Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
 
 # %% [markdown]
-# Between two repeated rows, SysId sees an acceleration of zero. So log as fast as the frames come,
-# or set faster frames for the test. (`sysid fit` finds the repeated readings and leaves them out.)
+# Between two equal readings, SysId sees an acceleration of zero. So log as fast as the frames
+# come, or set faster frames for the test. (`sysid fit` finds the repeated readings and leaves them
+# out.)
 
 # %% [markdown]
-# ## 4 Doing it: trim what is not physics
+# ## 4 Doing it: trim what the model does not describe
 #
-# The equation V = kS·sgn(v) + kV·v + kA·a is true while **the motor alone** moves the mechanism.
+# To *trim* a log is to cut off samples. The equation V = kS·sgn(v) + kV·v + kA·a is true while
+# **only the motor** moves the mechanism.
 #
-# - At a stop, something else pushes. The equation does not describe that: **cut it.**
+# - At a hard stop, the stop pushes the mechanism, too. The equation does not describe that: **cut
+#   this part off.**
 # - At rest, friction holds the mechanism at any voltage up to kS. The equation does not describe
-#   that either: **drop it**, by a *threshold* on the speed.
-# - A single wild reading is a sensor error. A **median filter** replaces it by the middle one of
-#   three neighboring values.
-# - A noisy part is only ugly: **keep it.**
+#   that either: **drop it**, with a *threshold* (the lowest speed that you keep).
+# - A single wild reading is a sensor error. A **median filter** sorts each value and its neighbors
+#   by size, and keeps the middle one.
+# - A noisy part looks ugly, but the equation is true there: **keep it.**
 #
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
-# (the median filter) and *Test Duration* (dynamic tests only). None of them sets the end of a ramp.
-# Below is a log with a hard stop, a noisy standstill and three wild readings. Which setting repairs
-# which fault?
+# (the median filter) and *Test Duration* (dynamic tests only). None of them sets the end of a ramp;
+# you can do that here. Below is a log with a hard stop, a noisy standstill and three wild readings.
+# Which setting repairs which fault?
 #
 # <details><summary>For mentors: trimming in SysId, with source</summary>
 #
@@ -445,7 +457,7 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # > tests only, *Window Size* is the median filter, *Test Duration* works on dynamic tests only.
 # > None of them sets the end of a ramp. The threshold removes samples at a stop, **if** the encoder
 # > is quiet at standstill. ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
@@ -486,7 +498,7 @@ def ratios(end: float, threshold: float, median: int) -> dict[str, float]:
 
 def trimmed(end: float, threshold: float, median: int) -> Picture:
     """The same as a picture."""
-    return plot_choices(ratios(end, threshold, median), truth=1.0, name="found ÷ true")
+    return plot_choices(ratios(end, threshold, median), truth=1.0, name="found gain ÷ true gain")
 
 
 WHOLE = {"description_width": "initial"}  # a slider's name is not cut off
@@ -527,15 +539,16 @@ tries = {
 Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
-# - Each setting repairs a different fault; none repairs all.
-# - **More is not better.** A median of 15 samples flattens the rise, and kA is only half its true
-#   value. A threshold of 1 m/s drops the part of the ramp that shows kS.
+# - The threshold drops the noisy standstill, and the samples at the stop. The end cuts off the hard
+#   stop with its bounce. The median removes the wild readings. No setting repairs everything.
+# - **More filtering is not better.** A median of 15 samples flattens the rise, so kA is only half
+#   its true value. A threshold of 1 m/s drops the part of the ramp that shows kS.
 #
 # ### Do not trim for beauty
 #
 # The fast end of a ramp is its most valuable part: kV is a slope, and you need a long line to
-# measure a slope. We keep less and less of the ramps of the **clean** log. *One standard error* is
-# the typical error from noise alone.
+# measure a slope. The next table keeps less and less of each ramp of the **clean** log. *One
+# standard error* is the typical error that noise alone causes.
 
 # %%
 rows = []
@@ -552,10 +565,14 @@ Table(
 # %% [markdown]
 # ## 5 R² is not a lie detector
 #
-# Now you see no plots, only a score: SysId's **simulated velocity R²**. Below are logs A to V of
-# one drivetrain. One is clean. One was damaged and then repaired. In all others something is wrong.
+# Now you see no plots, only a score, SysId's **simulated velocity R²**. SysId simulates the robot
+# with the fitted gains and the voltage of the log. The score compares simulated and measured
+# velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and then
+# repaired. In all others something is wrong.
 #
-# The official docs say: "A value north of .9 indicates a good fit." ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# The official docs say: "A value north of .9 indicates a good fit" ("north of" means "above").
+# ([WPILib docs: Viewing
+# Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 #
 # **Predict:**
 
@@ -578,7 +595,7 @@ display(guess_count, guess_robust)
 
 # %% [markdown]
 # **Decide first:** which of these logs would you use? Write down their letters. Then choose
-# *reveal*, and read on.
+# *reveal*.
 
 # %%
 order = np.random.default_rng(6).permutation(len(all_cases))
@@ -623,13 +640,14 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus on your screen? Here they are, sorted by the error of kA:
+# No menus? Here they are, sorted by the error of kA:
 
 # %%
 grid(sort="error of kA", truth="reveal")
 
 # %% [markdown]
-# This is the damage in each log, and the whole table with both R². Decide before you look.
+# This table shows the damage in each log, the errors of its gains, and the acceleration R². Decide
+# before you look.
 
 
 # %%
@@ -639,28 +657,19 @@ def percent(share: float) -> str:
     return f"{whole:+d}\N{NO-BREAK SPACE}%".replace("-", "−") if whole else "0\N{NO-BREAK SPACE}%"
 
 
-display(
-    Table(
-        ("log", "what happened"),
-        tuple(
-            (label(case.name, revealed=True), case.story)
-            for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
-        ),
-        caption="60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V unless the name says more",
+Table(
+    ("log", "what happened", "kS", "kV", "kA", ACC),
+    tuple(
+        (
+            label(case.name, revealed=True),
+            case.story,
+            *(percent(case.gain_error(gain)) for gain in OFF),
+            case.fit.acceleration_r2,
+        )
+        for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
     ),
-    Table(
-        ("log", "kS off", "kV off", "kA off", ACC, SIM),
-        tuple(
-            (
-                case.name,
-                *(percent(case.gain_error(gain)) for gain in OFF),
-                case.fit.acceleration_r2,
-                case.fit.simulated_velocity_r2,
-            )
-            for case in all_cases
-        ),
-        caption="The gains that SysId's method finds",
-    ),
+    caption="Errors of the gains. 60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V unless "
+    "the name says otherwise",
 )
 
 # %%
@@ -681,13 +690,14 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 # ### Explain
 #
 # - **The simulated velocity R² asks:** is the simulated velocity close to the measured one? The
-#   velocity depends mostly on kV, and kV is right in nearly all logs. kA only matters for a
-#   fraction of a second. So kA may be wrong by half, and the score hardly changes.
-# - **kV is robust, kA is fragile, kS is in between.** Many samples contain information about kV,
-#   only a few about kA.
-# - **The acceleration R² is the more sensitive of the two.** Sort by it: spikes, lurch and the
-#   worst slips are at the bottom. But it does *not notice* a wrong voltage, a wrong ratio or a
-#   wrong sign. And a low value proves nothing: it is low on many good logs, too.
+#   velocity depends mostly on kV, and kV is right in nearly all logs. kA only matters for a part of
+#   a second. So kA may be wrong by half, and the score hardly changes.
+# - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
+#   information about kV, and only a few about kA.
+# - **The acceleration R² compares accelerations row by row (lesson 7), and it is the more sensitive
+#   of the two.** Sort by it: spikes (wild readings), the lurch (a sudden jump) and the worst slips
+#   are at the bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or a
+#   wrong sign. And a low value proves nothing: many good logs have a low value, too.
 #
 # <details><summary>Want to know more?</summary>
 #
@@ -700,13 +710,13 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 #
 # ## 6 Checks that find more
 #
-# These five checks find more:
+# A good score proves little. These five checks find more:
 #
 # 1. **Signs.** kV and kA are positive, kS is not negative.
 # 2. **kV agrees with motors and gears**, within 10 % (lesson 1).
 # 3. **kA agrees with motors and mass**, within 25 %.
 # 4. **Acceleration R² is not below 0.2.**
-# 5. **Somebody looked** at the plots of section 3. Here the program `inspect` does it.
+# 5. **Somebody looked** at the plots of section 3. In the table, the program `inspect` looks.
 
 # %%
 CHECKS = {
@@ -734,12 +744,12 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"Found by their signs alone: {by_signs}.  Found by no check: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# No check complains about the clean log: good. The others in this list are damaged, and only a
-# person who knows the robot can find out. For a velocity filter, look into the settings of your
-# motor controller.
+# No check reports the clean log, which is right. But the other two logs in that last line are
+# damaged. Only somebody who knows the robot can find that: for example, look for a velocity filter
+# in the settings of your motor controller.
 #
-# A sixth check: **fit forward and reverse apart.** Friction may differ between the directions. R²
-# does not show that, and one kS cannot describe both:
+# A sixth check: **fit forward and reverse separately.** Friction may differ between the directions.
+# One kS cannot describe both, and R² does not show it:
 
 # %%
 leaning = by_name["friction differs"].log
@@ -750,15 +760,16 @@ for way in ("forward", "reverse"):
     print(f"{way}: the line of the ramp meets velocity 0 at {volts:.2f} V")
 
 # %% [markdown]
-# One trap comes before any data: SysId's menu *Analysis Type* starts on **Elevator**. Choose the
-# type of your mechanism (lesson 2).
+# Before you load a log, check one setting: SysId's menu *Analysis Type* starts on **Elevator**.
+# Choose the type of your mechanism (lesson 2).
 #
-# ### Let the program look, after you did
+# ### Let the program look, after you looked
 #
-# `inspect` says which fault it sees, where, how sure it is, and what to do:
+# The program `inspect` says which fault it finds, where, how sure it is (1 is certain), and what to
+# do:
 
 # %%
-print(f"It knows {len(FAULTS)} faults.")
+print(f"It knows {len(FAULTS)} faults: most of those of section 3, and some more.")
 seen = inspect(gallery["encoder slip"])
 for damage in seen.damages:
     print(f"{damage.fault} in {damage.where.test}, confidence {damage.confidence:.2f}")
@@ -767,8 +778,8 @@ for damage in seen.damages:
 plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
-# In a terminal: `sysid inspect drive.wpilog`. It is a second opinion: it has never seen *your*
-# robot, so look yourself first.
+# In a terminal, type `sysid inspect drive.wpilog`. The program has never seen *your* robot, so look
+# yourself first.
 
 # %% [markdown]
 # ## 7 System check
@@ -776,25 +787,26 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 # Before you fit, check all five:
 #
 # - [ ] **Signs:** a positive voltage gives a positive velocity, in all four tests.
-# - [ ] **Over time:** you see nothing that a motor cannot do to a mass. The rise bends from the
-#   start.
-# - [ ] **Time steps:** none is longer than 1.5 times the usual one, or you know how many are.
+# - [ ] **Over time:** you see nothing that a motor cannot do. After a step, the velocity rises
+#   along a curve from the start.
+# - [ ] **Time steps:** none is longer than 1.5 times the usual one, or you know how many are
+#   longer.
 # - [ ] **Position:** its slope is the velocity, without a delay.
 # - [ ] **The voltage** is the one applied to the motor.
 #
 # ## 8 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "Samples come late, some of them by 100 ms. Which plot shows it at a glance?",
+    "Some samples come 100 ms late. Which plot shows this best?",
     {
         "voltage over velocity": "Neither axis shows the time.",
         "time steps over time": "Every late sample is a point above the line.",
-        "the R² badge": "It may stay green although the log is wrong.",
+        "the simulated velocity R²": "It may be high although the log is wrong.",
     },
     right="time steps over time",
 )
@@ -812,7 +824,7 @@ quick
 # </details>
 #
 # **2.** In the quasistatic forward test the velocity jumps halfway through; the mechanism lurched.
-# The rest is clean. What was it, and what does it do to the gains?
+# The rest is clean. What was the cause, and what happens to the gains?
 #
 # <details><summary>Answer</summary>
 #
@@ -833,7 +845,8 @@ quick
 # pass.
 # </details>
 #
-# **4.** The end of the ramp is noisy. A teammate wants to cut it, "so that the line looks clean".
+# **4.** The end of the ramp is noisy. A teammate wants to cut it off, "so that the line looks
+# clean". Do you agree?
 #
 # <details><summary>Answer</summary>
 #
@@ -856,8 +869,8 @@ quick
 # ## 9 Practice
 #
 # **Exercise 7, Detective** ([exercises/exercise7/README.md](../exercises/exercise7/README.md)). You
-# get twelve logs, most of them damaged. Name the fault, where it is, and what to do. To look at
-# one, run `python exercises/exercise7/look.py 4 --page`: drag over a part, and copy its times.
+# get twelve logs, most of them damaged. Name the fault, where it is, and what to do. To look at log
+# 4, run `python exercises/exercise7/look.py 4 --page`. Drag over a part of a plot to get its times.
 #
 # ```
 # grade exercise7
@@ -871,7 +884,7 @@ quick
 # grade exercise8
 # ```
 #
-# Or answer from a notebook (with your own values):
+# <details><summary>Or answer from a notebook, with your own values</summary>
 #
 # ```python
 # from grader import submit
@@ -880,10 +893,12 @@ quick
 # submit("exercise8", quasistatic_forward="0 to 4.4", threshold=0.1, median=3)
 # ```
 #
-# Or write into `answers.toml` with an editor: `grade watch exercise7` grades each time you save.
-# Hints cost nothing: `grade exercise7 --hint`.
+# </details>
 #
-# **Want more logs?** `grade mystery` draws a fresh one whenever you like.
+# If you write into `answers.toml` with an editor, `grade watch exercise7` grades each time you
+# save. Hints cost nothing: `grade exercise7 --hint`.
+#
+# **Want more logs?** `grade mystery` makes a new one whenever you like.
 #
 # **On your own robot:** open an old log in AdvantageScope, and go through the list of section 7.
 # Then run `sysid inspect` on it.

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 7: Fit it yourself
 #
-# *About 50 minutes. You need lessons 1 and 3. You do not need to know what a regression is: you
+# *About 45 minutes. You need lessons 1 and 3. You do not need to know what a regression is: you
 # learn it here.*
 #
 # **At the end you can**
@@ -21,17 +21,18 @@
 # - turn a log into gains with five lines of NumPy;
 # - say why SysId puts the *acceleration* on the left side, and what happens if you do not;
 # - explain SysId's two R², compute both, and say which errors neither of them shows;
-# - explain how kS can become negative, and why a filter has a price;
+# - explain how kS can become negative, and what a filter does to kA;
 # - explain which three settings determine the suggested kP, and why it is only a first guess.
 
 # %% [markdown]
 # ## 1 Why: the analyzer is not magic
 #
-# SysId reads a log and prints gains. Often they are good. Sometimes they are nonsense that looks
-# just as good. When you have built the fit yourself, you know where it can go wrong.
+# SysId reads a log and prints gains. Often the gains are good. Sometimes they are wrong, but they
+# look just as good. When you have built the fit (the calculation that finds the gains) yourself,
+# you know where it can go wrong.
 #
-# Today's robot is our simulated drivetrain. There is some play in its gears, so its velocity
-# reading is noisy. We know its true gains.
+# Today's robot is our simulated drivetrain. Its gears rattle a little, so its velocity reading is
+# noisy. We know its true gains.
 
 # %%
 from dataclasses import replace
@@ -86,24 +87,24 @@ plot_time_series(log, dynamic_seconds=1.0)
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
-# In the slow ramp (the *quasistatic* test) the acceleration is small. Ignore it for a moment. Then
+# In the slow ramp (the *quasistatic* test) the acceleration is small. Ignore the term kA·a for now:
 #
 # > V ≈ kS + kV·v
 #
-# is a straight line. It meets velocity 0 at kS, and its slope is kV. `np.polyfit` finds the
-# straight line that fits the samples best.
+# This is a straight line: at velocity 0 its voltage is kS, and its slope is kV. `np.polyfit` finds
+# the straight line that fits the samples best.
 #
 # **Predict:**
 
 # %%
 guess_line = Prediction(
-    "Does the line meet velocity 0 at the true kS, below it, or above it?",
-    "below it",
-    "right at it",
-    "above it",
+    "Read the voltage of the line at velocity 0. Compared with the true kS, it is…",
+    "smaller",
+    "about the same",
+    "larger",
 )
 guess_ramp = Prediction(
-    "And with a ramp twice as fast, is the kS that you read off smaller, the same, or larger?",
+    "With a ramp twice as fast, the kS that you read off is…",
     "smaller",
     "the same",
     "larger",
@@ -138,13 +139,13 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider on your screen? Change the number here:
+# No slider? Change the number here:
 
 # %%
 ramp_picture(1.0)
 
 # %% [markdown]
-# Now measure all four ramps, and compare them with a rule that we explain right after:
+# The next table compares all four ramps with a rule that we explain below:
 
 # %%
 timescale = truth["kA"] / truth["kV"]
@@ -155,7 +156,7 @@ for ramp in RAMPS:
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
-print(guess_line.reveal("above it"))
+print(guess_line.reveal("larger"))
 print(guess_ramp.reveal("larger"))
 print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
 Table(
@@ -165,9 +166,10 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# A ramp never stops accelerating. When the voltage rises by `ramp` volts each second, the speed
-# rises by `ramp/kV` each second. So during the whole ramp, `kA·a = (kA/kV)·ramp` volts go into
-# acceleration. The straight line has no place for them, so it adds them to kS.
+# In a ramp the robot accelerates all the time. When the voltage rises by `ramp` volts each second,
+# the speed rises by `ramp/kV` each second. So during the whole ramp, the acceleration needs `kA·a =
+# (kA/kV)·ramp` volts. The equation of the straight line has no term for these volts, so they are
+# added to kS.
 #
 # <details><summary>Want to know why? The last column</summary>
 #
@@ -176,8 +178,8 @@ Table(
 # section 4 shows how noise bends a line.
 # </details>
 #
-# So this plot is only a good *first look*. For kS and kA we need all three terms at once. SysId
-# does not use this line either: it fits all four tests at once.
+# So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId also
+# fits all four tests together.
 #
 # <details><summary>For mentors: does SysId read an intercept?</summary>
 #
@@ -189,7 +191,7 @@ Table(
 # > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
 # > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
 # > ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -199,9 +201,10 @@ Table(
 # %% [markdown]
 # ## 3 Three unknowns, a thousand equations
 #
-# Every row of the log is one equation: V, v and a are numbers, the gains are the unknowns. Three
-# rows give three equations, and three equations have one solution. So take three rows: one slow,
-# one fast, one that accelerates. (All go forward, so sgn(v) is 1.)
+# Every row of the log gives one equation: V, v and a are numbers, and the three gains are the
+# unknowns. Three rows give three equations, which have one solution. So take three rows: a slow
+# one, a fast one, and one with a large acceleration. (In all three the robot goes forward, so
+# sgn(v) is 1.)
 #
 # The acceleration is not in the log. `np.gradient` computes it from neighboring rows.
 
@@ -225,13 +228,13 @@ Table(
 )
 
 # %% [markdown]
-# The robot is the same each time, but you get four different answers. Each row is a little wrong,
-# and three rows cannot show that. With a thousand rows, no gains fit all of them exactly, so we
-# take the gains with the **smallest total error**.
+# The robot is the same each time, but you get four different answers, because each row contains
+# some noise. With a thousand rows, no gains fit all rows exactly. So we take the gains with the
+# **smallest total error**.
 #
-# "Smallest" needs a rule. The usual rule: square each error, add the squares, and make the sum as
-# small as possible. This is called **least squares**. (To fit a model to data in this way is called
-# a *regression*.) Squares are never negative, so two errors cannot cancel each other.
+# How do you add up errors? Square each error and add the squares. Squares are never negative, so
+# two errors cannot cancel each other. The method that makes this sum as small as possible is called
+# **least squares**. (To fit a model to data in this way is called a *regression*.)
 #
 # **Try it by hand** on six samples of the ramp. Move both sliders until the sum at the bottom is as
 # small as you can make it.
@@ -264,9 +267,9 @@ show_interactive(
 by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
-# Now compare with the formula. `np.linalg.lstsq` ("least squares") needs the equations as a table:
-# one row per sample, one **column per unknown**. The column contains the factor of this unknown.
-# For a line, the columns are 1 and v.
+# Now let NumPy do it. `np.linalg.lstsq` ("least squares") needs the equations as a table: one row
+# per sample, and one **column per unknown**. A column contains the number that this unknown is
+# multiplied by. For a line, the columns are 1 and v.
 
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
@@ -274,7 +277,7 @@ columns = np.column_stack([np.ones(six_v.size), six_v])
 by_hand(float(intercept), float(slope))
 
 # %% [markdown]
-# No straight line has a smaller sum. That is all a regression does.
+# No straight line has a smaller sum. A regression finds this line.
 
 # %% [markdown]
 # ## 4 The whole fit in five lines
@@ -307,13 +310,12 @@ Table(
 )
 
 # %% [markdown]
-# kV is excellent, but kA is far from the truth. This log has no spikes, no slip, no empty battery.
-# What happened?
+# kV is very good, but kA is far from the truth. This log has no fault. What happened?
 #
 # ### Which side is noisy?
 #
-# Try a small experiment. The truth is y = 2·x. First we add noise to **y**, then, in a second data
-# set, the same noise to **x**. Each time least squares finds the slope.
+# Try a small experiment. The truth is y = 2·x. We add noise first to **y**, then, in a second data
+# set, to **x**. Least squares finds both slopes.
 #
 # **Predict:**
 
@@ -333,11 +335,12 @@ print(guess_noise.reveal("with noise in x"))
 print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2")
 
 # %% [markdown]
-# Noise on the **left** side of the equation averages out. Noise in a **column** does not: it makes
-# the slope of that column too small. More data does not help.
+# Noise on the **left** side of the equation averages out. Noise in a **column** does not average
+# out: it makes the number found for that column too small. More data does not help.
 #
-# Our noisiest signal is the acceleration, because differences make noise larger. In the five lines
-# above it was a column. So move it to the left side. Solve the model for a:
+# Our noisiest signal is the acceleration, because it is computed from differences of noisy
+# velocities. In the five lines above, the acceleration was a column. So move it to the left side:
+# solve the model for a.
 #
 # > a = −(kV/kA)·v + (1/kA)·V − (kS/kA)·sgn(v)
 #
@@ -351,9 +354,9 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 # sensor's offset.
 # [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # </details>
-
-# **Now you write it.** Replace the dots in the next cell, four places in three gaps. Run it, then
-# run the cell below it: it checks each gap.
+#
+# **Now you write it.** Replace the four `...` in the next cell. Run the cell. Then run the cell
+# below it, which checks your answers.
 
 
 # %%
@@ -391,7 +394,7 @@ print(mine.report)
 # ```
 # </details>
 #
-# The next cell fits with your lines. For a gap that is not right yet, it uses ours.
+# The next cell fits with your lines. For an answer that is not right yet, it uses ours.
 
 
 # %%
@@ -414,8 +417,8 @@ Table(
 )
 
 # %% [markdown]
-# How much noise can each method tolerate? For each noise level we make five logs and average the
-# results:
+# How much noise can each method tolerate? For each noise level we simulate five logs and average
+# the results:
 
 # %%
 NOISE = [0.0, 0.005, 0.01, 0.015, 0.02, 0.03, 0.04]
@@ -435,29 +438,33 @@ plot_curves(
 )
 
 # %% [markdown]
-# Acceleration on the left is the better choice, and SysId uses it for this reason. But it is not
-# perfect: the velocity is still a column, and it is noisy too. So α and β shrink, and kA, which is
-# 1/β, grows.
+# Acceleration on the left is the better choice, so SysId uses it. But this choice is not perfect:
+# the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA, which is
+# 1/β, becomes larger.
 #
 # <details><summary>Want to know more? What SysId's source says</summary>
 #
 # SysId's source says that least squares "performs best with the noisiest variable as the dependent
 # variable". The dependent variable is the one on the left.
+# ([FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp);
+# why noise in a column shrinks its number: Fuller, *Measurement Error Models* (1987), section 1.1)
 # </details>
 
 # %% [markdown]
 # ## 5 What SysId does before it fits
 #
-# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps. Names
-# in italics are boxes in SysId's window.
+# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps (in
+# italics: its settings).
 #
-# 1. **Threshold** (*Velocity Threshold*). SysId drops quasistatic rows slower than a threshold: at
-#    standstill, friction simply equals the voltage, so these rows contain nothing about kS.
-# 2. **Median filter** on the velocity, if you switch it on (*Window Size*, up to 15 samples). It
-#    replaces each value by the middle one of its neighbors.
-# 3. **Acceleration** from the two neighbors, divided by the **mean** time step of the test.
-# 4. **Trim the dynamic tests** (*Test Duration*): SysId keeps only the rows from the peak of the
-#    acceleration to 90 % of the top speed, unless you set the box.
+# 1. **Threshold** (*Velocity Threshold*). SysId drops quasistatic rows that are slower than a
+#    threshold: at standstill, friction holds the robot at any voltage up to kS, so these rows do
+#    not show how large kS is.
+# 2. **Median filter** of the velocity, if you switch it on (*Window Size*, up to 15 samples). It
+#    sorts each value and its neighbors by size, and keeps the middle one.
+# 3. **Acceleration**: SysId subtracts the velocity of the row before from that of the row after,
+#    and divides by two **mean** time steps of the test.
+# 4. **Trim the dynamic tests** (*Test Duration*): SysId keeps only the rows from the largest
+#    acceleration to 90 % of the top speed, unless you change the setting.
 #
 # ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 
@@ -515,8 +522,8 @@ Table(
 )
 
 # %% [markdown]
-# Your gains and SysId's are close. SysId finds its threshold from the noise, and drops a few rows
-# more. If your five lines use exactly the rows that SysId keeps, the difference is zero:
+# Your gains and SysId's gains are close. SysId finds its threshold from the noise, and drops a few
+# more rows. If your five lines use exactly the rows that SysId keeps, the gains are the same:
 
 # %%
 kept = list(prepare_rows(log).rows.values())
@@ -528,13 +535,11 @@ v, volts, a = (
 print(f"five lines: kS = {-gamma / beta:.9f}   kV = {-alpha / beta:.9f}   kA = {1 / beta:.9f}")
 print("SysId's:    " + "   ".join(f"{name} = {value:.9f}" for name, value in recipe.gains.items()))
 used = recipe.samples_used
-print(
-    f"rows used: {used['quasistatic-forward']} of the ramp, {used['dynamic-forward']} of the step"
-)
+print(f"rows used, forward: ramp {used['quasistatic-forward']}, step {used['dynamic-forward']}")
 
 # %% [markdown]
-# Look at the last line. SysId uses only a handful of rows of the whole dynamic test, because this
-# robot reaches its speed so fast. kA depends mostly on them.
+# The last line shows: SysId uses only a few rows of the dynamic test, because this robot reaches
+# its speed so fast. kA depends mostly on these few rows.
 #
 # <details><summary>For mentors: does a long test hide kA?</summary>
 #
@@ -551,15 +556,15 @@ print(
 # %% [markdown]
 # ## 6 Same data, five choices, five kA's
 #
-# A real robot program sometimes misses a loop. So in our log, too, one row in twenty is missing.
-# We fit the **same data** and change five choices, one at a time: the left side, the threshold, the
-# filter, the time step, the trim.
+# A real robot program sometimes misses a loop. So we remove one row in twenty from our log. We fit
+# the **same data** and change five choices, one at a time: the left side, the threshold, the
+# filter, the time step and the trim.
 #
 # **Predict:**
 
 # %%
 guess_choice = Prediction(
-    "Which choice changes kA the most?", "side", "threshold", "filter", "time step", "trim"
+    "Which choice can change kA the most?", "side", "threshold", "filter", "time step", "trim"
 )
 guess_choice
 
@@ -591,7 +596,7 @@ for seed in range(8):
     gappy.append(with_missed_loops(simulate(robot, routine, rng=rng), share=0.05, rng=rng))
 
 results = {way: [my_fit(one, **s)["kA"] for one in gappy] for way, s in WAYS.items()}
-print(guess_choice.reveal("side"))
+print(guess_choice.reveal("filter"))
 plot_choices(
     {way: float(np.mean(values)) for way, values in results.items()},
     spreads={way: float(np.std(values)) for way, values in results.items()},
@@ -601,8 +606,8 @@ plot_choices(
 )
 
 # %% [markdown]
-# The dots are the mean of eight logs, the bars show how much the logs differ. None of these choices
-# is a calculation error. They are decisions, and somebody made them for you. Try others:
+# Each dot is the mean of eight logs, and its bar shows how much the logs differ. None of these
+# choices is a calculation error. They are decisions that SysId makes for you. Try other choices:
 
 
 # %%
@@ -642,11 +647,11 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # %% [markdown]
 # ### Explain
 #
-# - **Side** and **filter** matter most: noise in a column shrinks its gain, and so does a filter
-#   window that is longer than the rise (section 9).
-# - **Time step.** Where rows are missing, the mean step is wrong for the rows next to the gap.
-#   SysId uses the mean, so gaps in the log make kA less accurate. kV hardly changes.
-# - **Trim.** Rows at full speed contain no acceleration, only noise.
+# - **Filter** and **side** matter most. A filter window that is longer than the rise makes kA too
+#   small (section 9), and so does noise in the column of the acceleration (section 4).
+# - **Time step.** SysId uses the mean time step, which is wrong for the rows next to a gap. So gaps
+#   in the log make kA less accurate. kV hardly changes.
+# - **Trim.** At full speed the acceleration is zero, so these rows only add noise.
 #
 # <details><summary>Want to know more? The threshold</summary>
 #
@@ -658,15 +663,15 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # %% [markdown]
 # ## 7 Two errors, two R²
 #
-# You now have gains. Are they good? There are two ways to ask, and SysId has a score for each.
+# You now have gains. Are they good? There are two kinds of error, and SysId has a score for each.
 #
-# - **Equation error:** row by row, how far is the measured acceleration from the model's? SysId's
-#   score is the **acceleration R²**.
-# - **Simulation error:** give the model only the *voltage* of a whole test, simulate, and compare
-#   the simulated velocity with the measured one. Here errors add up over time. SysId's score is the
-#   **simulated velocity R²**.
+# - **Equation error:** in each row, how far is the measured acceleration from the acceleration of
+#   the model? SysId's score is the **acceleration R²**.
+# - **Simulation error:** give the model only the *voltage* of a whole test, and simulate. How far
+#   is the simulated velocity from the measured one? Here errors add up over time. SysId's score is
+#   the **simulated velocity R²**.
 #
-# The dotted black line in the picture is the simulation with the gains of SysId's method:
+# The dotted line in the picture is the simulation with the gains of SysId's method:
 
 
 # %%
@@ -687,8 +692,8 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# so 1 is perfect, and 0 is no better than always guessing the mean. (For the velocity we take the
-# two forward tests; SysId takes all four.)
+# So 1 is perfect, and 0 is no better than guessing the mean every time. (For the simulation we take
+# the two forward tests; SysId takes all four.)
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -703,27 +708,30 @@ rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
 
-print(f"acceleration R²         by hand {acceleration_r2:.4f}")
-print(f"the same, adjusted      by hand {adjusted:.4f}   SysId {recipe.acceleration_r2:.4f}")
-print(f"simulated velocity R²   by hand {sysids:.3f}    SysId {recipe.simulated_velocity_r2:.3f}")
-print(f"the same, textbook R²   by hand {textbook:.4f}")
-print(f"RMSE, the typical error by hand {rmse:.4f} m/s")
-print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} by the textbook's formula (without the mean).")
+print(f"acceleration R²:             by hand {acceleration_r2:.4f}")
+print(f"  the same, adjusted:        by hand {adjusted:.4f}   SysId {recipe.acceleration_r2:.4f}")
+print(
+    f"simulated velocity R²:       by hand {sysids:.3f}    SysId {recipe.simulated_velocity_r2:.3f}"
+)
+print(f"  the same, textbook R²:     by hand {textbook:.4f}")
+print(f"RMSE, the typical error:     {rmse:.4f} m/s")
+print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} with squares, as in the textbook's formula.")
 
 # %% [markdown]
 #
-# <details><summary>Want to know more? What *adjusted* means</summary>
+# <details><summary>Want to know more? What “adjusted” means</summary>
 #
-# *Adjusted* means that the score is a little lower for each unknown, because every further column
-# fits some of the noise by luck. With hundreds of rows it hardly matters. ([SysId's source:
+# *Adjusted* means that the score is a little lower for each unknown, because every additional
+# column fits some of the noise by chance. With hundreds of rows it hardly matters. ([SysId's
+# source:
 # OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
 # </details>
 #
 # **Myth check.** "R² must be above 0.9." *Which one?* The *simulated velocity* R² should be above
-# 0.9. The *acceleration* R² "rarely goes above 0.5, even on very good datasets"; only below about
-# 0.2, kA is doubtful. And the first is not the textbook's R²: SysId computes 1 − RMSE / (root mean
-# square of v), so 0.9 is stricter than it looks. From now on, never write "R²" without saying
-# which.
+# 0.9. The *acceleration* R² "rarely goes above 0.5, even on very good datasets"; do not trust kA if
+# this score is below about 0.2. And the simulated velocity R² is not the textbook's R²: SysId
+# computes 1 − RMSE / (root mean square of v). (RMSE, the root mean square error, is the typical
+# error.) So SysId's 0.9 is stricter than the textbook's. Always say which R² you mean.
 #
 # <details><summary>For mentors: SysId's two R², with sources</summary>
 #
@@ -732,7 +740,7 @@ print(f"SysId's 0.9 is {1 - (1 - 0.9) ** 2:.2f} by the textbook's formula (witho
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
 # > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
 # > velocity R²*) should be above 0.9. ([Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
 # > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to. ([SysId's
 # > source:
@@ -780,19 +788,20 @@ for name, one in suspects.items():
 Table(("log", "acceleration R²", "simulated velocity R²", "kV ÷ true", "kA ÷ true"), tuple(rows))
 
 # %% [markdown]
-# - **A low R² does not mean bad gains.** Faster logging makes each difference of neighbors noisier,
-#   and the acceleration R² drops. The gains are as good as before.
-# - **A high R² does not mean good gains.** A wrong ratio or a wrong sign gives the *same* R² to the
-#   last digit: it is a perfect log of another robot. And the commanded voltage gives the highest
-#   acceleration R² in the table, with a kA that is far too large.
+# - **A low R² does not mean bad gains.** With faster logging, each computed acceleration is
+#   noisier, so the acceleration R² drops. The gains are as good as before.
+# - **A high R² does not mean good gains.** A wrong ratio or a wrong sign gives exactly the *same*
+#   R²: the log looks like a good log of another robot. And the log of the commanded voltage has the
+#   highest acceleration R² in the table, but its kA is far too large.
 #
-# To find such errors, make the checks of lesson 6.
+# So use the checks of lesson 6, not only R².
 
 # %% [markdown]
 # ## 8 How can kS be negative?
 #
-# Friction cannot push. Still, SysId sometimes prints a negative kS. To see how, we make the
-# velocity noisier and noisier, and watch kS, kA, and one more column: **kS + kA·(ramp/kV)**.
+# Friction never pushes a robot, so a true kS is never negative. But SysId sometimes prints a
+# negative kS. To see how, we add more and more noise to the velocity, and look at kS, kA, and the
+# sum **kS + kA·(ramp/kV)**.
 
 # %%
 rows = []
@@ -806,14 +815,15 @@ print(f"true kS {truth['kS']:.3f} V, true kA {truth['kA']:.3f} V·s²/m")
 Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tuple(rows))
 
 # %% [markdown]
-# The last column hardly changes while the noise is moderate. You know it from section 2: it is the
-# voltage where the straight line meets velocity 0. The ramp has many rows, and they determine this
-# **sum** well. But they do not show how much of it is kS and how much is kA. Only the few rows of
-# the step show that. So when noise makes kA too large, kS becomes too small, even negative.
+# The sum in the last column hardly changes while the noise is moderate. You know this sum from
+# section 2: it is the voltage of the straight line at velocity 0. The ramp has many rows, and they
+# determine the **sum** well. But they do not show how much of the sum comes from kS and how much
+# from kA. Only the few rows of the step show that. So when noise makes kA too large, kS becomes too
+# small, or even negative.
 #
-# So a negative kS is rarely about friction. First ask: **why is kA too large?** Possible causes are
-# noise, a log of the commanded voltage, a slipping wheel, a lurch. (For an arm or an elevator,
-# check the analysis type first: lesson 2.)
+# So if kS is negative, do not look at friction first. Ask: **why is kA too large?** Possible causes
+# are noise, a log of the commanded voltage, a slipping wheel, or a sudden jump. (With gravity,
+# first check the analysis type: lesson 2.)
 
 # %% [markdown]
 # ## 9 A filter is not free
@@ -830,7 +840,7 @@ guess_filter
 
 # %%
 WINDOWS = [1, 3, 5, 7, 9, 11, 13, 15]
-levels = {"a quiet encoder": 0.0075, "a rattling encoder": 0.06}
+levels = {"little noise": 0.0075, "much noise": 0.06}
 by_window = {name: [] for name in levels}
 for name, level in levels.items():
     logs = [simulate(shaking(level), routine, rng=np.random.default_rng(seed)) for seed in range(5)]
@@ -849,27 +859,29 @@ plot_curves(
 )
 
 # %% [markdown]
-# After a step the velocity rises with the time constant kA/kV. A window that is longer than that
-# flattens the rise itself: the filter removes what you want to measure.
+# After a step the velocity rises with the time constant kA/kV (after this time, it has nearly two
+# thirds of its new value). A window that is longer than kA/kV flattens the rise: the filter removes
+# what you want to measure.
 #
-# A window of 3 to 5 helps on a *slow* mechanism. On a fast one, log faster, or repair the encoder.
+# A window of 3 to 5 samples helps on a *slow* mechanism. On a fast mechanism, log faster, or repair
+# the encoder.
 #
 # <details><summary>Want to know more? What WPILib's docs say</summary>
 #
 # They warn about this for mechanisms that are light for their motors: the filter may "eat" the
-# acceleration data, and kA tends toward zero. ([Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# acceleration data, and kA tends toward zero. ([Viewing Diagnostics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # </details>
 
 # %% [markdown]
 # ## 10 From gains to a first kP
 #
-# SysId also suggests a feedback gain, kP. For a velocity loop, kP is the voltage to add per unit of
-# velocity error. SysId computes it from kV, kA and **three settings** that you choose (in italics:
-# their names in SysId's window):
+# SysId also suggests a feedback gain, kP. A feedback loop compares the measured velocity with the
+# wanted one; kP is the voltage that it adds per unit of velocity error. SysId computes kP from kV,
+# kA and **three settings** (in italics: their names in SysId's window):
 #
 # - **q**, the velocity error that you accept (*Max Velocity Error*);
-# - **r**, the volts that you are willing to spend on it (*Max Control Effort*);
+# - **r**, the volts that the feedback may use for it (*Max Control Effort*);
 # - the **delay** of the measurement (*Measurement Delay*).
 #
 # <details><summary>Want to know more? Gain presets</summary>
@@ -882,7 +894,8 @@ plot_curves(
 # and a large r give a large kP. A delay makes kP smaller, because late corrections make the
 # mechanism shake.
 #
-# Somebody got kP = 0.62 for kS 0.14, kV 2.68, kA 0.34. Which q did they use?
+# Somebody got kP = 0.62 with kS 0.14, kV 2.68 and kA 0.34. Move q until the star is on the dashed
+# line. Which q did they use?
 #
 # <details><summary>For mentors: the source lesson's kP</summary>
 #
@@ -910,11 +923,12 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
 
     return plot_curves(
         QS,
-        {f"{r:g} V, {delay} ms late": [suggested(float(error)) for error in QS]},
+        {f"r = {r:g} V, {delay} ms delay": [suggested(float(error)) for error in QS]},
         xlabel="q, the allowed velocity error [m/s]",
         ylabel="kP [V·s/m]",
-        levels={"the source lesson's": 0.62},
+        levels={"kP = 0.62": 0.62},
         marked=(q, suggested(q)),
+        mark="your q",
     )
 
 
@@ -927,7 +941,7 @@ show_interactive(
         min=1, max=12, step=0.5, value=7, description="r [V]", continuous_update=False
     ),
     delay=widgets.IntSlider(
-        min=0, max=120, step=10, value=0, description="late [ms]", continuous_update=False
+        min=0, max=120, step=10, value=0, description="delay [ms]", continuous_update=False
     ),
 )
 
@@ -942,7 +956,7 @@ at_load = allowed_velocity_error(ks=0.14, kv=lesson_kv)
 rows = []
 for name, q, delay in (
     ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
-    ("a quarter of the top speed, what its window sets", at_load, 0.0),
+    ("a quarter of the top speed, which SysId's window sets first", at_load, 0.0),
     ("the q that gives kP = 0.62", 3.43, 0.0),
     ("1.5 m/s, with a delay of 112 ms: SysId's number for a NEO's encoder", 1.5, 0.112),
 ):
@@ -953,9 +967,8 @@ for name, q, delay in (
 Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 
 # %% [markdown]
-# The gains and the method are the same, but the values of kP are very different. Start with one of
-# them, and tune on the robot. And if kA is wrong by a factor of two, kP is wrong too, without any
-# warning.
+# The gains are the same, but the values of kP are very different. So a suggested kP is only a first
+# guess: tune it on the robot. And if kA is wrong, kP is wrong, too, without any warning.
 #
 # <details><summary>Want to know more? Where these numbers come from</summary>
 #
@@ -969,8 +982,8 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 # %% [markdown]
 # ## 11 Your own log
 #
-# In exercise 9 you fit a log of your own mechanism. `grade start` makes the log, or the first
-# `grade exercise9`. If it exists, the next cell reads it.
+# In exercise 9 you fit a log of your own mechanism. `grade start` or `grade exercise9` makes this
+# log. If the log exists, the next cell reads it.
 
 # %%
 own_logs = sorted(Path("..", "exercises", "exercise9", "data").glob("*/log.wpilog"))
@@ -989,8 +1002,8 @@ else:
 plot_time_series(own, dynamic_seconds=1.0)
 
 # %% [markdown]
-# Fit it with SysId's method, and with your own five lines. *One standard error* is the typical
-# error from noise alone.
+# Fit this log with SysId's method, and with your own five lines. *One standard error* is the
+# typical error that noise alone causes.
 
 # %%
 best = fit(own, method="sysid").in_log_units()
@@ -1013,7 +1026,7 @@ for doubt in best.doubts:
     print(f"Warning: {doubt.message}")
 
 # %% [markdown]
-# You can do the same in a terminal:
+# In a terminal:
 #
 # ```
 # sysid fit exercises/exercise9/data/me/log.wpilog --method sysid
@@ -1024,7 +1037,7 @@ for doubt in best.doubts:
 #
 # Before you trust a fit, check all five:
 #
-# - [ ] All four tests are in the log, and you **looked** at them.
+# - [ ] All four tests are in the log, and you **looked** at the plots.
 # - [ ] kV and kA are positive, kS is not negative.
 # - [ ] kV and kA are close to the values you expect from motors, gears and mass.
 # - [ ] You know the window of the median filter, and it is shorter than kA/kV.
@@ -1032,7 +1045,7 @@ for doubt in best.doubts:
 #
 # ## 13 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -1105,8 +1118,8 @@ quick
 # ```
 #
 # If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
-# feedback says so. Hints cost nothing: `grade exercise9 --hint`. For your function in `fit.py`,
-# start `grade watch exercise9` in a terminal: it grades each time you save.
+# feedback says so. Hints cost nothing: `grade exercise9 --hint`. You also write your fit into
+# `fit.py`; `grade watch exercise9` in a terminal grades it each time you save.
 #
 # <details><summary>More, if you like</summary>
 #

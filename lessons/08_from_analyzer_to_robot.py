@@ -13,27 +13,26 @@
 # %% [markdown]
 # # Lesson 8: From the analyzer to the robot
 #
-# *About 45 minutes. You need lessons 1, 2 and 7. You need no robot today. If you have a log of one,
-# bring it.*
+# *About 45 minutes. You need lessons 1, 2 and 7. You need no robot today.*
 #
 # **At the end you can**
 #
-# - turn a fit into constants that somebody else can read, with units;
+# - turn a fit into constants with units that somebody else understands;
 # - choose the feedforward class, and pass its arguments in the right order;
 # - recognize a wrong unit or a wrong argument order from what the robot does;
 # - write the loop that uses the gains, and say what kP can and cannot fix;
-# - decide which mechanisms to characterize, and when in the season.
+# - decide which mechanisms to characterize, and when.
 
 # %% [markdown]
 # ## 1 Why: no error message
 #
-# The analyzer shows three or four numbers, and you put them into your code. Much can go wrong: the
-# gain is per rotation and the code uses radians, kG and kV are swapped, somebody uses the suggested
-# kP without a test. **Nothing crashes.** The robot just moves wrong.
+# SysId shows three or four numbers, and you put them into your code. Much can go wrong: the gain is
+# per rotation but the code uses radians, kG and kV are swapped, somebody uses the suggested kP
+# without a test. **There is no error message.** The robot just moves wrong.
 #
-# A *feedforward* is the part of a controller that computes the voltage from what you **want**: "for
-# 40 rotations per second I need 5 V". *Feedback* looks at what you **get**, and corrects. Today we
-# simulate both, and make the mistakes on purpose.
+# A *feedforward* computes the voltage from the motion that you **want**: "for 40 rotations per
+# second I need 5 V". *Feedback* measures the motion that you **get**, and corrects the voltage.
+# Today we simulate both, with mistakes.
 
 # %%
 import math
@@ -88,17 +87,17 @@ Table(
 )
 
 # %% [markdown]
-# *One standard error* shows how far noise alone may have moved a number. It does not include what
-# the model leaves out. On a robot that is far more (lesson 9): trust two or three digits.
+# *One standard error* is the typical error from noise alone. On a real robot, effects that are not
+# in the model cause larger errors (lesson 9). So trust two or three digits.
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
 #
 # Put the numbers into `Constants.java`, in a class of their own. Write the unit of each number in a
-# comment. Above them, write *when to measure again*.
+# comment. Above the numbers, write *when to measure again*.
 #
-# Do not copy somebody else's constants. Take a drivetrain with TalonFX motors, ratio 8.46, 4 inch
-# wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is this one?
+# Do not copy somebody else's constants. Example: a drivetrain with TalonFX motors, ratio 8.46, 4
+# inch wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is 2.68 above it?
 #
 # <details><summary>For mentors: the source lesson's constants</summary>
 #
@@ -108,7 +107,7 @@ Table(
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
 # > that grows with speed. So a measured kV lies *above* what the motor's free speed suggests
 # > (within a percent or two: data sheets are rounded). ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
 # > it.
@@ -124,10 +123,10 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
 Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
 
 # %% [markdown]
-# If kV is more than a few percent below the theoretical kV, a number is wrong: the ratio, the
-# wheel, or the unit.
+# For a Falcon 500 or a Kraken X60, 2.68 is too low; only the X44 fits. If kV is more than a few
+# percent below the theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
 #
-# `sysid fit` can write the constants for you, with their errors as comments. In a terminal:
+# `sysid fit` can write the constants, with their errors as comments:
 #
 # ```
 # sysid fit my_log.wpilog --paste java
@@ -139,7 +138,7 @@ Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows
 print(write_robot_code(found, language="java", season=2026, name="shooter"))
 
 # %% [markdown]
-# **Predict** what differs between 2026 and 2027:
+# **Predict:**
 
 # %%
 guess_season = Prediction(
@@ -163,17 +162,16 @@ for language in ("java", "python"):
 print(guess_season.reveal("the package and a method's name"))
 
 # %% [markdown]
-# The physics does not change with the season, but names do. (The names for 2027 come from WPILib's
-# development branch; check again after the release.)
+# The gains do not change with the season, but names in the code do. (The names for 2027 may still
+# change.)
 #
-# **Units.** `kS` and `kG` are always volts. `kV` and `kA` are per meter, per rotation or per
-# radian: *they must have the unit of the velocity that your code passes to the feedforward*. Two
-# rules:
+# **Units.** `kS` and `kG` are always in volts. `kV` and `kA` are per meter, per rotation or per
+# radian: *use the unit of the velocity that your code passes to the feedforward*. Two rules:
 #
-# - **Convert a unit in one place.** Either in the constant or at the call, never in both.
+# - **Convert a unit in one place:** in the constant or at the call, never in both.
 # - **kP belongs to its loop.** A PIDController whose output you give to `setVoltage` needs a kP in
-#   volts per unit of error. A motor controller's own loop may output a duty cycle from −1 to 1:
-#   then divide that kP by 12.
+#   volts per unit of error. The loop in a motor controller may output a duty cycle from −1 to 1
+#   instead of volts: then divide kP by 12.
 
 # %% [markdown]
 # ## 3 The class, and its arguments
@@ -186,8 +184,8 @@ print(guess_season.reveal("the package and a method's name"))
 #
 # In Python, the first is `SimpleMotorFeedforwardMeters` or `SimpleMotorFeedforwardRadians`.
 #
-# With gravity there are **four** arguments, and kG is the **second**. All four are plain numbers,
-# so the compiler accepts them in any order.
+# With gravity there are **four** arguments, and kG is the **second**. All four are numbers, so the
+# compiler accepts them in any order.
 #
 # <details><summary>For mentors: the feedforward classes, with source</summary>
 #
@@ -202,13 +200,13 @@ print(guess_season.reveal("the package and a method's name"))
 # > **Try it:** an elevator is told to hold still. Somebody learned "kS, kV, kA" and puts kG last.
 # </details>
 #
-# Now somebody remembers "kS, kV, kA" and puts kG last. The code asks the elevator to hold still.
-# **Predict:**
+# Somebody remembers "kS, kV, kA" and puts kG last. The code asks the carriage, the moving part of
+# the elevator, to hold still. **Predict:**
 
 # %%
 lift = elevator.gains
 guess_slot = Prediction(
-    "new ElevatorFeedforward(kS, kV, kA, kG), target: hold still. What does the carriage do?",
+    "new ElevatorFeedforward(kS, kV, kA, kG), target: hold still. The carriage…",
     "it holds",
     "it sinks",
     "it rises",
@@ -217,9 +215,8 @@ guess_slot = Prediction(
 guess_slot
 
 # %% [markdown]
-# Now we need something that drives. `moved` simulates a mechanism, one loop of 20 ms after another.
-# In each loop it calls the function `volts`, which gets all positions and velocities so far and
-# returns a voltage.
+# The function `moved` simulates a mechanism; every 20 ms it asks the function `volts` for a
+# voltage.
 
 
 # %%
@@ -251,7 +248,7 @@ def moved(gains: dict[str, float], volts: Volts, *, loops: int, arm: bool = Fals
 
 
 # %% [markdown]
-# At rest, the output of an elevator's feedforward is simply its second argument.
+# At rest, the output of an elevator's feedforward is its second argument.
 
 # %%
 orders = {
@@ -269,32 +266,36 @@ print(f"The carriage needs {lift['kG']:.2f} V to hold still, ± {lift['kS']:.2f}
 Table(("arguments", "volts while holding still [V]", "after one second [cm]"), tuple(rows))
 
 # %% [markdown]
-# (Our simulated elevator may move on forever; a real one hits its stop with force.)
+# (A real elevator would hit its stop with force.)
 #
 # ### `calculate`: velocities, not an acceleration
 #
-# In Java, `calculate(velocity, acceleration)` is deprecated. Use `calculateWithVelocities(velocity,
-# nextVelocity)`: the velocity now and the velocity in the next loop. Python's `calculate` takes two
-# velocities, too. If you pass an acceleration as a velocity, the voltage is wrong. ([WPILib Java
-# docs:
-# SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html);
-# some pages of WPILib's docs still show the old call.)
+# In Java, use `calculateWithVelocities(velocity, nextVelocity)`: the velocity now, and the velocity
+# in the next loop. Python's `calculate` takes two velocities, too. If you pass an acceleration
+# instead, the voltage is wrong.
 #
-# kS gets the sign of the *current* velocity. From rest that velocity is zero, so there is no kS in
-# the first loop. The profile below asks for kS at once.
+# <details><summary>Want to know more? The old call, and the first loop</summary>
+#
+# In Java, `calculate(velocity, acceleration)` is deprecated (it will be removed); some pages of
+# WPILib's docs still show it. WPILib gives kS the sign of the *current* velocity (if kA is not 0).
+# At the start this velocity is zero, so there is no kS in the first loop. (The simulation below
+# adds kS at once.)
+# ([WPILib's source:
+# SimpleMotorFeedforward.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.java))
+# </details>
 #
 # ### Gains inside the motor controller
 #
-# A motor controller can add the feedforward itself, a thousand times a second. It uses units of its
-# own, and it does not warn you if yours differ:
+# A motor controller can add the feedforward itself, a thousand times a second. It has its own
+# units, and it does not warn you if you use others:
 #
 # | where | kV is volts per | set also |
 # |---|---|---|
 # | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
 # | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
-# | YAGSL, drive motors | m/s of the wheel | `replaceSwerveModuleFeedforward` |
+# | YAGSL 2026 (a swerve library) | m/s of a wheel | `replaceSwerveModuleFeedforward` |
 #
-# `sysid fit` writes each of them and converts the units. A log in meters needs the radius as well:
+# `sysid fit` writes each of them and converts the units. If your log is in meters, add the radius:
 #
 # ```
 # sysid fit my_log.wpilog --paste phoenix6 --radius 0.0508
@@ -304,28 +305,39 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 print(write_controller_code(found, target="phoenix6", name="shooter"))
 foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
 share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
-print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
+print("FOC is a mode of CTRE's motors. With it, the same wheel has", end=" ")
+print(f"kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
 
 # %% [markdown]
-# So the gains are volts per rotation of the *mechanism*, if the ratio is set. Use **one place
-# only.** If your code sends the volts of a feedforward class, too, the motor controller adds its
-# own: a *double feedforward*. And use **FOC as in the tests.** FOC is a mode of CTRE's motors that
-# needs a Phoenix Pro license. With the license, `setVoltage` and `VoltageOut` turn it on unless you
-# say otherwise. Gains that were measured with it are wrong without it.
-# ([CTRE API: VelocityVoltage](https://api.ctr-electronics.com/phoenix6/release/java/src-html/com/ctre/phoenix6/controls/VelocityVoltage.html),
-# [CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
-# [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# If `SensorToMechanismRatio` is set, the gains are in volts per rotation of the *mechanism*. Put
+# them into **one place only.** If your code also sends the volts of a feedforward class, the motor
+# controller adds its own volts: a *double feedforward*.
+#
+# <details><summary>If your motors are CTRE's: FOC, and sources</summary>
+#
+# Use **FOC as in the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With
+# the license, `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were
+# measured with FOC are wrong without it. (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6,
+# release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
+# FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# </details>
+#
+# <details><summary>If your swerve drive uses a newer YAGSL</summary>
+#
+# YAGSL's newer pages say that `replaceSwerveModuleFeedforward` is gone. There, kS, kV and kA are
+# the numbers `s`, `v` and `a` in the file `pidfproperties.json`.
+# </details>
 
 # %% [markdown]
 # ## 4 A profile follower, and wrong units
 #
-# The shooter should spin up smoothly, hold its speed, and spin down. This is a **profile**: a
-# target velocity for each moment. Each loop applies
+# The shooter should spin up smoothly, hold its speed, and spin down. A **profile** is such a plan:
+# a target velocity v for each moment. Each loop of the robot program applies
 #
 # > kS·sgn(v) + kV·v + kA·(v_next − v)/0.02 s &nbsp; + &nbsp; kP·(v − measured)
 #
-# The first part is the feedforward; kP is 0 at first. (WPILib computes the kA term a bit more
-# exactly, with the time constant of the mechanism.)
+# The first three terms are the feedforward. The last term is the feedback; kP is 0 at first.
+#
 
 # %%
 TIME = np.arange(0.0, 4.0, LOOP)
@@ -372,13 +384,13 @@ GAINS = {
 
 # %%
 guess_radian = Prediction(
-    "kV is per radian, the target is in rotations. How fast does the wheel turn?",
+    "kV is per radian, but the target is in rotations. How fast does the wheel turn?",
     "about 6 times too fast",
     "about a sixth of the target",
     "the target, but later",
 )
 guess_rotation = Prediction(
-    "kV is per rotation, the target is in radians: a number 6.28 times as large. The wheel…",
+    "kV is per rotation, but the target is in radians, a number 6.28 times as large. The wheel…",
     "stands still",
     "runs as fast as 12 V can make it",
     "follows, a bit too fast",
@@ -413,7 +425,7 @@ show_interactive(
 follower("per radian, gets rotations", 0.0)
 
 # %% [markdown]
-# The next table shows all of them, without and with feedback:
+# All sets of gains, without and with feedback:
 
 # %%
 SOME = 0.2  # [V per rot/s]
@@ -426,8 +438,8 @@ Table(
          measure_tracking_error(TARGET, follow(one, SOME)).typical)
         for name, one in GAINS.items()
     ),
-    caption=f"The profile's top is {TARGET.max():.0f} rot/s; 12 V make "
-    f"{(12 - wheel['kS']) / wheel['kV']:.0f} rot/s.",
+    caption=f"The profile's top is {TARGET.max():.0f} rot/s; with 12 V the wheel "
+    f"reaches {(12 - wheel['kS']) / wheel['kV']:.0f} rot/s.",
 )  # fmt: skip
 
 # %% [markdown]
@@ -436,34 +448,41 @@ Table(
 # - **Per radian, but the code passes rotations:** the voltage is 2π times too small. The wheel is
 #   very slow.
 # - **Per rotation, but the code passes radians:** the voltage is 2π times too large. There are only
-#   12 V, so the wheel runs as fast as it can. On a drivetrain or an arm this is dangerous.
-# - **Swapped:** far too much voltage where the wheel speeds up, far too little where it holds its
-#   speed.
-# - **Without kA:** good where the target is steady, late where it changes. For many mechanisms that
-#   is enough: WPILib's docs say that you may leave out kA, and AdvantageKit's swerve template calls
-#   the drive's kA "unnecessary in most cases". ([WPILib docs: Feedforward Control in
-#   WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
-#   [AdvantageKit docs: TalonFX Swerve
-#   Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
-# - **kP hides the mistake.** Look at the right column. With feedback, wrong units only give a
-#   smaller error: it "works", but badly, and everybody changes kP. If a good kP does not help,
-#   check the unit.
+#   12 V, so the wheel runs as fast as it can. With a drivetrain or an arm this is dangerous.
+# - **kV and kA swapped:** there is far too much voltage while the wheel speeds up, and far too
+#   little while it holds its speed.
+# - **Without kA:** the wheel is right while the target is constant, and late while it changes. For
+#   many mechanisms that is enough.
+# - **kP hides the mistake.** Look at the table's right column. With feedback, wrong units give a
+#   smaller error: the robot "works", but badly. So if feedback does not help enough, check the
+#   units before you change kP.
 #
-# The easiest check: compute one voltage by hand. `kS + kV · (a speed you know)` must be plausible,
-# between 0 and 12 V.
+# The easiest check is to compute one voltage by hand: `kS + kV · (a speed you know)` must be
+# between 0 and 12 V, and it must make sense.
+#
+# <details><summary>Want to know more? When you may leave out kA</summary>
+#
+# WPILib computes the kA term a bit more exactly, with the time constant of the mechanism.
+#
+# WPILib's docs say that you may leave out kA, and AdvantageKit's swerve template calls the drive's
+# kA "unnecessary in most cases". ([WPILib docs: Feedforward Control in
+# WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html),
+# [AdvantageKit docs: TalonFX Swerve
+# Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
+# </details>
 
 # %% [markdown]
 # ## 5 Droop: what kP can do, and what not
 #
-# A shooter has good gains. Its target is 4000 rpm, and it reaches 3900. Here we know the reason:
-# the code calls `set(volts / 12)`, and the battery has 11.7 V, so the motor gets 2.5 % less
-# voltage.
+# A shooter has good gains. Its target is 4000 rpm (rotations per minute), but it reaches 3900. Here
+# we know the reason: the code calls `set(volts / 12)`, and the battery has only 11.7 V, so the
+# motor gets 2.5 % less voltage.
 #
 # Now add kP, and change nothing else. **Predict:**
 
 # %%
 guess_kp = Prediction(
-    "With kP as large as kV, how much of the 100 rpm is left?",
+    "With kP as large as kV, how much of the error of 100 rpm remains?",
     "all of it",
     "half of it",
     "a tenth of it",
@@ -497,6 +516,7 @@ def droop(kp: float) -> Picture:
         xlabel="kP [V per rot/s]",
         ylabel="rpm below the target",
         marked=(kp, left_over(kp)),
+        mark="your kP",
     )
 
 
@@ -525,8 +545,9 @@ Table(
 )  # fmt: skip
 
 # %% [markdown]
-# P feedback only acts when there is an error. So it never removes the whole error: about **error ÷
-# (1 + kP/kV)** remains. This is called *droop*. A larger kP leaves less. So why not use a huge kP?
+# Feedback with kP only acts when there is an error. So it never removes the whole error: about
+# **error ÷ (1 + kP/kV)** remains. This remaining error is called *droop*. With a larger kP, less
+# remains. So why not use a very large kP?
 
 # %%
 late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms late"}
@@ -551,12 +572,16 @@ away = [
 Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error [rot/s]")
 
 # %% [markdown]
-# A late measurement makes a late correction: it corrects an error that is already gone. Then a
-# large kP makes things worse, until the speed oscillates. Motor controllers differ: in SysId's
-# presets the velocity of Phoenix 6 is 1 ms late, that of a NEO's own encoder 112 ms. ([SysId's
-# source:
+# If the measurement is late, the feedback corrects an error that is already gone. Then a large kP
+# makes the error larger, until the speed oscillates (swings up and down). So choose SysId's *Gain
+# Preset* for your motor controller, and start from the suggested kP.
+#
+# <details><summary>Want to know more? How late motor controllers are</summary>
+#
+# In SysId's presets the velocity of Phoenix 6 is 1 ms late, and the velocity of a NEO's own encoder
+# 112 ms. ([SysId's source:
 # FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
-# So choose the preset of your motor controller, and use the suggested kP only as a starting point.
+# </details>
 #
 # <details><summary>For mentors: is the suggested kP final?</summary>
 #
@@ -570,25 +595,26 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # > **Try it:** choose the preset of your motor controller, and see whether kP changes.
 # </details>
 #
-# For the 3900 rpm that means: **keep the gains**, fix the missing voltage (`setVoltage` instead of
-# `set(volts / 12)`), then add feedback for the rest. Do *not* raise kV until the display shows
-# 4000: kV would then be right for one speed and one battery only.
+# So for the 3900 rpm: **keep the gains**, use `setVoltage` instead of `set(volts / 12)`, then add
+# feedback for the rest. Do *not* make kV larger: it would be right for one speed and one battery
+# only.
 
 # %% [markdown]
 # ## 6 Use the gains: one loop, one move
 #
-# A *setpoint* is what the profile wants at one moment. Every 20 ms the robot program asks for two
-# of them, *now* and *in the next loop*, and applies **feedforward + feedback**. For a velocity, in
-# Java:
+# A *setpoint* is the target of the profile at one moment. In each loop, the robot program uses two
+# setpoints, *now* and *in the next loop*, and applies **feedforward + feedback**. For a velocity,
+# in Java:
 #
 # ```java
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
 # ```
 #
-# Our elevator should rise by one meter. Its feedforward takes velocities, its feedback positions.
+# Our elevator should rise by one meter. Its feedforward uses velocities, and its feedback uses
+# positions.
 #
 # **Now you write it.** `one.now` and `one.after` are the two setpoints; each has a `position` and a
-# `velocity`. `one.position` is measured. Replace the dots, then run the cell below.
+# `velocity`. `one.position` is measured. Replace the `...`, then run the cell below.
 
 
 # %%
@@ -611,11 +637,11 @@ print(mine.report)
 # ```
 # </details>
 #
-# The model does not know that a rubber tube pulls at this elevator, and that it sticks a little. We
-# have three sets of gains:
+# A rubber tube pulls at this elevator, and the elevator's friction is larger at very low speed. The
+# model contains neither. We have three sets of gains:
 #
-# - **guessed:** kV from the motor's free speed, kA and kG from the mass in CAD (17 kg; it is
-#   20), no kS;
+# - **guessed:** kV from the motor's free speed, kA and kG from the mass in CAD (17 kg; the true
+#   mass is 20 kg), no kS;
 # - **measured:** `fit` of four tests;
 # - **reconciled:** `reconcile` of the same tests. It finds the tube, too (lesson 9 shows how).
 #
@@ -623,10 +649,10 @@ print(mine.report)
 
 # %%
 guess_move = Prediction(
-    "By how much is the worst error smaller with measured gains than with guessed ones?",
+    "Compared with guessed gains, the worst error with measured gains is…",
     "about the same",
-    "about three times smaller",
-    "zero with measured gains",
+    "about a third",
+    "zero",
 )
 guess_move
 
@@ -656,9 +682,9 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 
 
 moves = {name: rise(gains) for name, gains in SETS.items()}
-moves["reconciled + tube"] = rise(SETS["reconciled"], with_tube=True)
+moves["+ tube"] = rise(SETS["reconciled"], with_tube=True)
 some = next(iter(moves.values()))
-print(guess_move.reveal("about three times smaller"))
+print(guess_move.reveal("about a third"))
 target = Motion("target", position=some.target, velocity=np.gradient(some.target, LOOP), asked=True)
 animate_mechanism(
     "elevator",
@@ -703,25 +729,30 @@ Table(
 
 # %% [markdown]
 # - **Guessed:** kG and kA are too small, kS is missing.
-# - **Measured:** about three times better. But kS is nearly zero! The model has no tube, so the fit
-#   wrongly put the tube's pull into the gains.
-# - **Reconciled:** kS is right again. But the tube still pulls. Add **one more term**, the volts
-#   that balance it. Then an error of two millimeters remains: `+ kTubeRate * position +
-#   kTubePreload`.
+# - **Measured:** the worst error is about a third. But kS is nearly zero! The model has no tube, so
+#   the fit put the force of the tube into the gains.
+# - **Reconciled:** kS is right again. But the tube still pulls. So add **one more term** ("+
+#   tube"), the volts that balance the tube: `+ kTubeRate * position + kTubePreload`. Then the worst
+#   error is only two millimeters.
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` makes the profile itself; the feedforward is still yours. Its `calculate`
-# first moves the setpoint one loop ahead, so keep the velocity from before:
+# `ProfiledPIDController` makes the profile itself; you only add the feedforward.
+#
+# <details><summary>The code in Java</summary>
+#
+# Its `calculate` first moves the setpoint one loop ahead, so store the velocity before you call it:
 #
 # ```java
 # double v = pid.getSetpoint().velocity;
 # double feedback = pid.calculate(measured, goal);
 # setVoltage(ff.calculateWithVelocities(v, pid.getSetpoint().velocity) + feedback);
 # ```
+# </details>
 #
 # **Motion Magic** does all of it inside the motor controller, a thousand times a second, with the
-# gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum.
+# gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum that winds up the
+# rope.
 
 # %%
 DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
@@ -759,7 +790,7 @@ on_drum, on_rotor = magic(per_drum), magic(per_rotor)
 Table(
     ("what follows the profile", "kV", "worst error [cm]"),
     (
-        ("your loop, 20 ms", ff.kV, 100 * moves["reconciled + tube"].worst_error),
+        ("your loop, 20 ms", ff.kV, 100 * moves["+ tube"].worst_error),
         ("ProfiledPIDController, 20 ms", ff.kV, 100 * with_pid.worst_error),
         ("Motion Magic, gains per turn of the drum", per_drum["kV"], on_drum.worst_error * 100),
         ("Motion Magic, gains per turn of the rotor", per_rotor["kV"], on_rotor.worst_error * 100),
@@ -767,18 +798,25 @@ Table(
 )
 
 # %% [markdown]
-# ProfiledPIDController leads by about a centimeter, because its feedback aims one loop ahead. The
-# last row is the classic mistake: `SensorToMechanismRatio` is set, but the gains are per
-# rotation of the *rotor*. They are too small by the gear ratio. ([WPILib docs:
+# With ProfiledPIDController the elevator is about a centimeter ahead, because the feedback uses the
+# setpoint of the next loop. The last row is a common mistake: `SensorToMechanismRatio` is set, but
+# the gains are per rotation of the *rotor* (the motor's shaft). So they are too small by the gear
+# ratio.
+#
+# <details><summary>Sources</summary>
+#
+# [WPILib docs:
 # ProfiledPIDController](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/profiled-pidcontroller.html),
-# [CTRE docs: Motion Magic](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/device-specific/talonfx/motion-magic.html))
+# [CTRE docs: Motion
+# Magic](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/e52e9b2f106db9b3322ce72ed4f57f3aa49003eb/source/docs/api-reference/device-specific/talonfx/motion-magic.rst)
+# </details>
 
 # %% [markdown]
 # ## 7 An arm that droops
 #
-# The same happens with gravity. Somebody characterized an arm **empty**. Now the arm is level and
-# holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for each radian
-# of error.
+# Droop also happens with gravity. Somebody measured the gains of an **empty** arm. Now the arm is
+# level and holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for
+# each radian of error.
 #
 # **Predict:**
 
@@ -831,13 +869,12 @@ Table(
 )
 
 # %% [markdown]
-# The arm hangs at most (missing kG)/kP below level; friction carries a part of it. A larger kP
+# The arm hangs at most (missing kG)/kP below level, or less because friction helps. A larger kP
 # makes the droop smaller, but never zero. The right kG removes it. So measure **with and without**
-# the piece (or compute the second kG from mass and distance), and switch the gains when a sensor
-# sees the piece.
+# the piece (or compute the second kG), and switch the gains when a sensor detects the piece.
 #
-# **Myth check.** "kA and kV change with the load." *Half true:* kA and kG grow with the mass. kV
-# does not: it is the motor's back-EMF, seen through the gears. The next cell loads our elevator.
+# With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF and
+# the gears. The table shows our elevator with three loads:
 #
 # <details><summary>For mentors: which gains change with the load?</summary>
 #
@@ -846,7 +883,7 @@ Table(
 # >
 # > **Source says:** kA and kG grow with the mass. kV is the motor's back-EMF, seen through gears
 # > and drum; mass is not in it.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell loads our simulated elevator.
 # </details>
@@ -861,9 +898,9 @@ Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(ro
 # %% [markdown]
 # ## 8 Place three gain sets
 #
-# You find three sets of gains, and somebody forgot to write down which mechanism they belong to.
-# One is from a **drivetrain**, one from an **elevator** and one from a **shooter**. kV and kA are
-# per meter or per radian; the table does not say which. Match each set with its mechanism.
+# Here are three sets of gains without names. One is from a **drivetrain**, one from an **elevator**
+# and one from a **shooter**. kV and kA are per meter or per radian. Match each set with its
+# mechanism.
 
 # %%
 sets = {"set 1": "retoohs", "set 2": "niartevird", "set 3": "rotavele"}  # read it backward
@@ -902,7 +939,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # %% [markdown]
 # The clues: if there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract
 # kG as well): a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly
-# the mechanism reacts: a heavy wheel is slow.
+# the mechanism reacts: a heavy wheel reacts slowly.
 
 # %% [markdown]
 # ## 9 Which mechanisms, and when
@@ -911,9 +948,9 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # | mechanism | characterize? | because |
 # |---|---|---|
-# | drivetrain | **always** | with a wrong voltage it leaves its path |
+# | drivetrain | **always** | with a wrong voltage the robot leaves its path |
 # | shooter wheel | **always** | its speed at one moment decides the shot |
-# | arm, pivot | **recommended** | gravity changes with the angle; a single guess cannot fit |
+# | arm, pivot | **recommended** | gravity changes with the angle; no single voltage fits |
 # | elevator | **recommended** | gravity pulls all the time, and the load changes kG and kA |
 # | intake rollers | optional | only if their *speed* is controlled |
 # | climber | optional | only if it must follow a profile; otherwise a high kP is enough |
@@ -930,8 +967,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   give the reason.
 # </details>
 #
-# For each row of the table, say what your robot would do worse. If you find nothing, do not test
-# it. Without room or time you can compute kG, kV and kA; kS must be measured.
+# If nothing would be worse, do not test. Without room or time you can compute kG, kV and kA; you
+# must measure kS.
 #
 # <details><summary>For mentors: does every team characterize everything?</summary>
 #
@@ -949,10 +986,9 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # ### PathPlanner, Choreo, AdvantageKit: where the gains are used
 #
-# PathPlanner does not ask for kS or kV. It asks for mass, moment of inertia, wheels, motors and
-# true top speed. From these it plans speeds, and your drive code has to reach them. For that your
-# code needs the feedforward: a robot that is late whenever its speed changes leaves its path in
-# every curve.
+# PathPlanner does not ask for kS or kV, but for mass, moment of inertia, wheels, motors and top
+# speed. From these it plans speeds, and your drive code needs the feedforward to reach them. If the
+# robot is late, it leaves its path in every curve.
 #
 # <details><summary>For mentors: what PathPlanner needs, with source</summary>
 #
@@ -976,8 +1012,12 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   > I = mass · r · kA_angular / kA_linear
 #
 #   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
-#   **tank** that is half the trackwidth, r = trackwidth/2; the same page says so. The modules of a
-#   **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
+#   **tank** that is half the trackwidth, r = trackwidth/2. The modules of a **square swerve** stand
+#   in the corners and push across the diagonal: r = trackwidth/√2. Both planners' pages give
+#   trackwidth/2 for every robot.
+#   ([PathPlanner](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
+#   [Choreo](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md),
+#   each at one commit)
 #
 # - **Choreo** computes time-optimal paths from what you tell it about your robot. Here too, a path
 #   is only as good as the drive code that follows it. ([WPILib docs:
@@ -992,8 +1032,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # values is the ratio of the loads.
 # </details>
 #
-# The moment of inertia follows from two kA values. Check the formula with the modules of a square
-# swerve:
+# The moment of inertia (how hard it is to turn the robot) follows from two kA values, I = mass · r
+# · kA_angular / kA_linear. The next cell checks which lever r is right for a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
@@ -1008,12 +1048,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # %% [markdown]
 # ### When
 #
-# Plan the tests for the last two weeks of build season: the robot is mechanically finished, and you
-# are still writing software. A pit is too small to drive. Write two evenings into the calendar
-# before your first competition: one to measure, one to measure again.
-#
-# Measure again when mass changed (kA, kG), gears or wheels changed (kV, kA), something rubs or was
-# repaired (kS). Keep the old log: the comparison shows what broke.
+# Plan two evenings in the last two weeks of build season: one to measure, one to measure again.
+# Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or if something
+# rubs (kS). Keep the old log and compare.
 #
 # <details><summary>For mentors: the schedule, with source</summary>
 #
@@ -1056,21 +1093,27 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #    sysid fit my_log.wpilog --paste python --season 2027
 #    ```
 #
-# 4. Record the four tests three times, each into its own log, and fit all three:
-#
-#    ```
-#    sysid fit monday_1.wpilog monday_2.wpilog monday_3.wpilog
-#    ```
-#
-#    The command fits each log alone, compares them, and averages. Compare the spread with the error
-#    bars. If it is larger, something changes between the recordings: the battery, the heat of the
-#    motors, a bearing.
-# 5. Compute one voltage by hand before you enable. Then use small targets, with the robot on the
+# 4. Compute one voltage by hand before you enable. Then use small targets, with the robot on the
 #    floor and a hand on Disable. Start with kP = 0, and check that the mechanism *nearly* follows.
 #    Then add kP.
 #
+# If the gains cannot be right, the command writes no code and explains why.
+#
+# <details><summary>Want to know more? Three logs, and an arm's angle</summary>
+#
+# Record the four tests three times, each into its own log, and fit all three:
+#
+# ```
+# sysid fit monday_1.wpilog monday_2.wpilog monday_3.wpilog
+# ```
+#
+# The command fits each log alone, compares the gains, and averages them. Compare the spread with
+# the error bars. If the spread is larger, something changes between the recordings: the battery,
+# the heat of the motors, a bearing.
+#
 # For an arm the code is per radian, with the offset that turns your sensor's reading into the angle
-# from horizontal. If the gains cannot be right, the command writes no code and explains why.
+# from horizontal.
+# </details>
 
 # %% [markdown]
 # ## 11 System check
@@ -1086,7 +1129,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # ## 12 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -1108,9 +1151,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. A model
-# without feedback may well be 2.5 % too slow. Keep the gains; check the units, and that the motor
-# gets the full voltage (`set(volts / 12)` on an 11.7 V battery causes exactly this error); then add
+# No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. Without
+# feedback, an error of 2.5 % is normal. Keep the gains; check the units, and that the motor gets
+# the full voltage (`set(volts / 12)` on an 11.7 V battery causes exactly this error); then add
 # feedback. kP alone does not remove the whole error.
 # </details>
 #
@@ -1154,8 +1197,8 @@ quick
 #
 # **Exercise 10: from the analyzer to the robot**
 # ([exercises/exercise10/README.md](../exercises/exercise10/README.md)). You get the gains of your
-# own mechanism, and a code file to fill in: in the roboRIO or inside the motor controller, as your
-# robot has it. Sections 2 to 4 and 6 help. `grade watch exercise10` grades each time you save.
+# own mechanism, and a code file to fill in. Sections 2 to 4 and 6 help. `grade watch exercise10`
+# grades each time you save.
 #
 # ```
 # grade exercise10
@@ -1169,13 +1212,14 @@ quick
 # grade exercise11
 # ```
 #
-# Or answer from a notebook:
+# <details><summary>Or answer from a notebook</summary>
 #
 # ```python
 # from grader import submit
 #
 # submit("exercise11", intake="optional", intake_reason="…", schedule="…")
 # ```
+# </details>
 #
 # <details><summary>More, if you like</summary>
 #

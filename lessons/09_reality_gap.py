@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Lesson 9: The reality gap
 #
-# *About 50 minutes. You need lessons 1 and 7. In this lesson you find out what your model does not
-# know.*
+# *About 45 minutes. You need lessons 1 and 7. In this lesson you find out what is missing in your
+# model.*
 #
 # **At the end you can**
 #
@@ -23,20 +23,19 @@
 # - add an effect to the model, and decide with *other* data whether to keep it;
 # - explain how a slow sensor makes a robot look heavy;
 # - say when your data cannot decide, and which test would;
-# - let `sysid reconcile` do it, and judge its answer.
+# - use `sysid reconcile`, which does all this, and judge its answer.
 
 # %% [markdown]
 # ## 1 Why: a good fit of the wrong model
 #
 # You have gains. You put them into a simulation and give it exactly the voltages that the robot
-# had. But the simulation moves differently. Then something is missing in the model
+# had. If the simulation moves differently, something is missing in the model
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# It contains dry friction, back-EMF and inertia, and nothing else. A real robot also has a battery
-# whose voltage drops, grease that sticks, a sensor that is late. Each of these is called an
-# **effect**. WPILib's docs say the same of this model: it "is not perfect", but usually good
-# enough.
+# This model contains dry friction, back-EMF and inertia, and nothing else. On a real robot, the
+# battery voltage drops, grease sticks, or a sensor is late. Each of these is called an **effect**.
+# WPILib's docs say of this model that it "is not perfect", but usually good enough.
 #
 # <details><summary>For mentors: how true are the gains?</summary>
 #
@@ -49,8 +48,8 @@
 # > **Try it:** today's robot has two hidden effects. See what the gains are worth.
 # </details>
 #
-# You work in five steps, and so does the program at the end: **fit, simulate, look at the remaining
-# error, name it, add it**. Then you repeat, until only noise remains.
+# You work in five steps: **fit, simulate, look at the remaining error, name the effect, add it to
+# the model**. You repeat this until only noise remains. At the end, a program does the same.
 
 # %%
 from collections.abc import Sequence
@@ -101,10 +100,10 @@ held_out = simulate(
 print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
-# Today's robot contains two of them. Its team does not know which. They have four Kraken X60, 60
-# kg, and a drivetrain that does not follow its paths.
+# Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain
+# with four Kraken X60 and 60 kg, and it does not follow its paths.
 #
-# They recorded **three logs**, and each has one job:
+# The team recorded **three logs**, and each has one job:
 #
 # | log | what it is | its job |
 # |---|---|---|
@@ -112,18 +111,18 @@ print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 9
 # | `validation` | the four tests, 2 V step | it decides which effects we **keep** |
 # | `held_out` | other motions | we look at it **once**, at the end |
 #
-# Why three? On the data that you fitted, a model with more parameters always looks better. Only new
-# data can show whether you learned something about the robot or only about the log. Section 4 shows
-# this.
+# Why three? On the data that you fitted, a model with more parameters always looks better. (A
+# *parameter* is a number in the model, such as kS.) Only new data can show whether the model
+# describes the robot or just this one log.
 
 # %% [markdown]
 # ## 2 Measure the gap
 #
-# **Simulate:** give the model the voltages of the log and let it run from the first sample of a
-# test to the last. It never sees the measured velocity. `replay_log` does that.
+# **Simulate:** give the model the voltages of the log, and simulate each test from its first sample
+# to its last. The simulation never uses the measured velocity. `replay_log` does that.
 #
 # **Fit:** change kS, kV and kA until the simulated velocity is as close as possible to the measured
-# one. In lesson 7 you fitted accelerations row by row; this fit uses the whole run.
+# one. In lesson 7 you fitted accelerations row by row; this fit compares whole tests.
 
 
 # %%
@@ -170,9 +169,9 @@ base = fitted((), Model("simple", truth), log)
 
 # %% [markdown]
 # (`fitted` is long, but one line does the work, `least_squares`: it changes all parameters a
-# little, finds the direction in which the sum of squared errors falls, goes there, and repeats.)
+# little, sees which changes make the sum of squared errors smaller, and repeats.)
 #
-# We know the true kA of the team's robot; the team does not. **Predict:**
+# **Predict:**
 
 # %%
 guess_ka = Prediction(
@@ -226,15 +225,16 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The solid robot is the log, the dashed one is the model. Play the step: the two curves have
-# different *shapes*. Move the sliders. No kA makes them agree.
+# The solid robot shows the log, the dashed one shows the model. The two curves have different
+# *shapes*. Move the sliders: no kS, kV or kA makes the curves agree.
 #
-# (SysId's kA looks good here, but that is luck: its kS is wrong instead.)
+# (SysId's kA is right by luck: its kS is twice the true one, and its kV is too small.)
 #
 # ### How large is that?
 #
-# A gap in meters per second is hard to judge. So we divide it by the **noise** of the sensor. Then
-# a gap of 1 means: only noise is left, and the model is complete.
+# The **gap** is the typical error of the simulated velocity. A gap in meters per second is hard to
+# judge. So we divide it by the **noise** of the sensor. Then a gap of 1 means: only noise is left,
+# and the model explains all of this log.
 #
 # <details><summary>Want to know how we measure the noise?</summary>
 #
@@ -272,24 +272,26 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # %% [markdown]
 # ## 3 The residual microscope
 #
-# If you subtract the simulation from the log, you get the **residual**. A large residual shows
-# *that* something is missing. To see *what* is missing, look where the residual is large.
+# Subtract the simulation from the log: the rest is called the **residual**. If the residual is
+# large, something is missing in the model. *Where* the residual is large shows you *what* is
+# missing.
 #
-# We convert the residual into **missing volts**: how many volts would you have to add to the
-# simulation, at this moment, so that it moves like the robot? If the number is negative, the robot
-# got less than the model says. We plot the missing volts in four ways:
+# We convert the residual into a **voltage residual**: the volts that you would have to add to the
+# simulation so that it moves like the robot. Below zero, the robot moves as if it got too few
+# volts: volts are *missing*. Above zero, it moves as if it got too many. We plot the voltage
+# residual in four ways:
 #
 # | plotted over | an effect that you see there |
 # |---|---|
 # | speed | friction that changes with speed |
 # | time since the voltage jumped | something late: a delay, a filter |
-# | battery voltage | volts that never reached the motor |
+# | battery voltage | volts that did not reach the motor |
 # | direction | something that pulls in one direction only |
 #
-# (A fifth plot is over the position: a spring, a bump in the gears. The maps of section 7 show it.)
+# (Over the position you would see a spring, or a bump in the gears: section 7.)
 #
-# First practice on four robots with **one** effect each. Here we use the true gains, so you see
-# only the effect.
+# First practice on four robots with **one** effect each. Here we use the true gains, so you only
+# see the effect.
 
 
 # %%
@@ -321,10 +323,11 @@ suspects = {
 # %% [markdown]
 # The four hidden effects are, in no particular order:
 #
-# - **friction that differs forward and reverse**;
-# - **a velocity that is averaged** over the last tenth of a second or so;
+# - **friction that differs forward and reverse** (*one-way friction*);
+# - **a velocity that is averaged** over the last tenth of a second;
 # - **a weak battery**, and a log of the commanded voltage;
-# - **breakaway friction**, larger at very low speed (its name is *Stribeck*).
+# - **breakaway friction**: the friction is larger at very low speed (also called *Stribeck*
+#   friction).
 #
 # Look at each robot below, then match robots and effects.
 
@@ -339,7 +342,7 @@ display(guess_a, guess_b, guess_c, guess_d)
 
 # %%
 def under_the_microscope(which: str) -> Picture:
-    """The missing volts of one of the four robots, in four plots."""
+    """The voltage residual of one of the four robots, in four plots."""
     one = suspects[which]
     return plot_voltage_residual(one, simulated(true_model, one), truth)
 
@@ -349,14 +352,14 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu on your screen? Change the name here:
+# No menu? Change the name here:
 
 # %%
 under_the_microscope("robot B")
 
 # %% [markdown]
-# The percentage above each plot shows how much of the (squared) missing volts this quantity
-# explains. Here are all sixteen:
+# The line shows the mean of nearby samples. The percentage above each plot says how much of the
+# (squared) voltage residual this line explains. The next table shows all sixteen percentages:
 
 # %%
 rows = []
@@ -369,44 +372,44 @@ print("A.", guess_a.reveal("one-way friction"))
 print("B.", guess_b.reveal("averaged velocity"))
 print("C.", guess_c.reveal("battery"))
 print("D.", guess_d.reveal("breakaway friction"))
-Table(("robot", *sides), tuple(rows), caption="Share of the missing volts that each plot explains")
+Table(
+    ("robot", *sides), tuple(rows), caption="Share of the voltage residual that each plot explains"
+)
 
 # %% [markdown]
 # ### Explain
 #
-# - **A, direction.** Forward lacks volts and reverse has too many, at every speed. (A sloping floor
-#   looks the same. To separate them, turn the robot around.)
-# - **B, time since the jump.** The mean of the last velocities is *late*. Right after a jump the
-#   robot seems to get far too few volts, and a moment later nothing is missing.
+# - **A, direction.** Forward, volts are missing; in reverse, there are too many. (A sloping floor
+#   looks the same. To find out which it is, turn the robot around.)
+# - **B, time since the jump.** An averaged velocity is *late*. Right after a jump of the voltage,
+#   many volts seem to be missing. A moment later, none are missing.
 # - **C, battery.** The lower the battery voltage, the more volts are missing. The plot over time
-#   shows it too, because the battery voltage is lowest just after a jump. Two plots can show the
-#   same effect. Take the stronger one, and think of a test that changes one quantity and not the
-#   other.
-# - **D, speed.** Volts are missing at very low speed and nowhere else. (The straight row of points
-#   is the start of the ramp: the simulation already moves while the robot still stands.)
+#   shows this, too, because the battery voltage is lowest just after a jump. If two plots show an
+#   effect, take the plot with the higher percentage.
+# - **D, speed.** Volts are missing at very low speed and nowhere else. (The points in a straight
+#   row are the start of the ramp: the simulation already moves, but the robot still stands.)
 #
-# None of them explains 100 %. The rest is noise, because changes from sample to sample make noise
-# larger.
+# No plot explains 100 %. The rest is noise.
 
 # %% [markdown]
 # ## 4 Doing it: name, add, fit again
 #
-# Now look at the team's robot. Its gains were **fitted**. The fit changed them until they hid a
-# part of the effects, so the pattern is less clear. A real robot has the same problem.
+# Now look at the team's robot. Its gains were **fitted**: they hide a part of the effects, so the
+# pattern is less clear. On a real robot it is the same.
 
 # %%
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
-# The time since the jump explains most. And look at the shape: first volts are missing, then there
-# are too many. A late sensor looks like that; a weak battery does not. At very low speed a little
-# is missing, too.
+# The plot over the time since the jump explains most. Look at its shape, too: first volts are
+# missing, then there are too many. A late sensor looks like that; a weak battery does not. At very
+# low speed, about 0.1 V is missing, too.
 #
 # **Predict** the first effect to add:
 
 # %%
 guess_first = Prediction(
-    "Which one closes most of the gap?",
+    "Which effect makes the gap smallest?",
     "drag",
     "stribeck",
     "velocity-filter",
@@ -416,8 +419,9 @@ guess_first = Prediction(
 guess_first
 
 # %% [markdown]
-# Now try seven effects, each alone, and fit all gains again each time. Compare two numbers: the gap
-# of the `log`, which was fitted, and the gap of the `validation`, which the fit never used.
+# The next cell adds one of seven effects at a time, and fits all gains again each time. Compare two
+# numbers: the gap of the `log`, which was fitted, and the gap of the `validation`, which the fit
+# never used.
 
 # %%
 TRIED = (
@@ -444,25 +448,28 @@ plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 # %% [markdown]
 # **Read the bars.**
 #
-# - The gap of the *log* became smaller, or stayed the same, with every effect. It must: another
-#   parameter never makes the fit worse. If you judge by this gap, everything is an improvement.
-# - The gap of the *validation* shows which models are really better. Compare `current-limit` there
-#   with the base model: on the log it looks like a success.
-# - `delay` is almost as good as the best. It also makes the velocity late, so the two look alike
-#   (section 6).
+# - The gap of the *log* is smaller, or the same, with every effect, because another parameter never
+#   makes the fit worse. If you judge by this gap, every effect looks like an improvement.
+# - The gap of the *validation* shows which models are really better. `current-limit` makes the gap
+#   of the log smaller, but the gap of the validation larger. So do not keep it.
+# - `delay` is almost as good as `velocity-filter`, because it also makes the velocity late (section
+#   6).
 #
-# Look at the missing volts with any of them in the model:
+# Choose a model, and look at its voltage residual:
 
 
 # %%
 def with_it(model: str) -> list[Picture]:
-    """The missing volts of a model, and its gaps next to those of gains alone."""
+    """The voltage residual of a model, and its gaps next to those of gains alone."""
     chosen = models[model]
     shown = {"gains alone": both_gaps(base), model: both_gaps(chosen)}
     return [plot_voltage_residual(log, simulated(chosen, log), chosen.gains), plot_gap_bars(shown)]
 
 
-show_interactive(with_it, model=widgets.Dropdown(options=list(models), description="model"))
+show_interactive(
+    with_it,
+    model=widgets.Dropdown(options=list(models), value="+ velocity-filter", description="model"),
+)
 
 # %% [markdown]
 # No menu? Change the name:
@@ -471,8 +478,8 @@ show_interactive(with_it, model=widgets.Dropdown(options=list(models), descripti
 display(*with_it("+ velocity-filter"))
 
 # %% [markdown]
-# With the filter in the model, the error right after the jumps is gone. Now you see something that
-# it had hidden: missing volts at very low speed. So add a second effect:
+# With the filter in the model, the error right after the jumps is gone. Now the plot over the speed
+# shows something else: missing volts at very low speed. So add a second effect:
 
 # %%
 first = models["+ velocity-filter"]
@@ -487,8 +494,8 @@ models["+ velocity-filter, stribeck"] = second
 plot_voltage_residual(log, simulated(second, log), second.gains)
 
 # %% [markdown]
-# Now no plot shows a pattern, and the gap is about 1 on both logs. **Stop here.** A third effect
-# could only fit the noise.
+# Now no plot shows a pattern, and the gap is about 1 for both logs. **Stop here.** A third effect
+# would only describe the noise.
 #
 # ### What the sensor did to the inertia
 
@@ -517,27 +524,25 @@ Table(
 )
 
 # %% [markdown]
-# Read the column *kA ÷ true* from the top. With gains alone the robot seems to have far more
-# inertia than it has. Nothing is heavy: the **sensor is slow**, and a slow answer looks like a
-# heavy robot. kA is the only parameter that can make the model slow, so the fit made kA too large.
+# Look at the column *kA ÷ true*. With gains alone, kA is far too large: the robot seems heavier
+# than it is. But the **sensor is slow**, and then the robot looks heavy. In the model, only kA can
+# make the robot react slowly, so the fit made kA too large.
 #
-# The **position** confirms this. These fits never used it, and the filter does not change it. The
-# model with the heavy robot has a much larger position error than the others.
+# The **position** confirms this. The fits did not use the position, and the filter does not change
+# it. With gains alone, the position error is much larger than with the filter.
 #
-# Remember this when a kA is too large. Before you look for mass, look for filters: a motor
-# controller that averages its velocity, or a log that is late.
-#
-# kS also became smaller when the model got breakaway friction.
+# So if a kA is too large, look for filters first: a motor controller that averages its velocity, or
+# a log that is late. (kS also became right when the model got breakaway friction.)
 
 # %% [markdown]
 # ## 5 The held-out log, once
 #
-# Until now you have not looked at `held_out`. It contains other motions: a triangle, and jumps of
-# many sizes. **Predict:**
+# Until now you have not looked at `held_out`. In this log the voltage follows a triangle, and jumps
+# of many sizes. **Predict:**
 
 # %%
 guess_held = Prediction(
-    "How large is the gap of the held-out log with gains alone, compared with the fitted log?",
+    "With gains alone, the gap of the held-out log, compared with the fitted log, is…",
     "about the same",
     "twice as large or more",
     "smaller",
@@ -557,21 +562,18 @@ plot_gap_bars(
 )
 
 # %% [markdown]
-# The gap shrinks with each effect, on motions that you never fitted. So these effects are in the
-# robot. The model with a current limit looked good on the log, but here it is worse than no effect
-# at all. It learned the log, not the robot.
-#
-# (Why is the last bar a little above 1? The parameters have small errors, and a log with many jumps
-# shows each of them many times.)
+# The gap becomes smaller with the filter, and again with breakaway friction, on motions that you
+# never fitted. So these two effects are in the robot. The current limit looked good on the log, but
+# here it is worse than no effect at all: that model describes the log, not the robot.
 
 # %% [markdown]
 # ## 6 When your data cannot decide
 #
-# Another team has a drivetrain that *does* have a current limit: its motors cannot push harder than
-# a certain force. (The model gives this limit in volts: the voltage minus the back-EMF.) They
-# record a gentle log, with a 2.5 V step. Later they drive a 6 V step.
+# The drivetrain of another team *does* have a current limit: its motors cannot push harder than a
+# certain force. (In the model, this limit is in volts: the voltage minus the back-EMF.) The team
+# records a gentle log with a 2.5 V step. Later it records a 6 V step.
 #
-# We give the model limits from very low to very high, and plot the gap of both logs.
+# The next cell tries limits from very low to very high, and plots the gap of both logs.
 #
 # **Predict:**
 
@@ -606,19 +608,21 @@ plot_curves(
     xlabel="limit in the model [V that drive the current]",
     ylabel="gap [times the noise]",
     levels={"the noise": 1.0},
+    log_scale=True,
 )
 
 # %% [markdown]
-# Follow the curve of the gentle log to the right: from some point on it is **flat**. A limit that
-# was never reached leaves no trace, so every higher limit is equally good. The data do not contain
-# the answer, and no program can find it. We say: the parameter is *not identifiable* from these
-# data.
+# Follow the curve of the gentle log to the right: above about 2 V it is **flat**. The gentle test
+# never reached the limit, so every higher limit is equally good. The data do not contain the
+# answer, and no program can find it. We say: the parameter is *not identifiable* from these data.
+# (About experiments that do contain it: Ljung, *System Identification*, 2nd edition (1999), chapter
+# 13.)
 #
-# The curve of the hard log has a sharp minimum at the true value. You do not need a better method;
-# you need **another test.** (On your robot you know the limit, because you set it. Choose the limit
-# first, then measure: lesson 3. With another limit, the hard step is another test.)
+# The curve of the 6 V step has a clear minimum at the true limit, 3 V. You do not need a better
+# method; you need **another test.** (On your robot you know the limit, because you set it. Choose
+# the limit first, then measure: lesson 3.)
 #
-# Many pairs of effects look alike. The catalogue says for each pair which test separates them:
+# Many pairs of effects look alike. For each pair, a test can separate them:
 
 # %%
 some = ("battery-sag", "stribeck", "velocity-filter", "asymmetric-friction")
@@ -630,21 +634,21 @@ Table(
 # %% [markdown]
 # ## 7 Let the program do it
 #
-# `sim.reconcile` does what you did, with all effects of the catalogue: fit, simulate, try every
-# effect, keep the one that the *validation* confirms, and repeat until none passes. It uses the
-# position as well as the velocity. (It takes a few seconds.)
+# `sim.reconcile` does what you did, with all effects that it knows: fit, simulate, try every
+# effect, keep the effect that the *validation* confirms, and repeat until no further effect helps.
+# It uses the position as well as the velocity. In the next table, the last column is the gap
+# without this effect, and with it.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
-print(f"Verdict: {story.verdict}.")
 make_findings_table(story)
 
 # %%
 plot_gap_by_round(story)
 
 # %% [markdown]
-# Here you see where simulation and log disagree, before (left) and after (right): blue where the
-# robot is slower than the model, orange where it is faster.
+# These maps show where simulation and log disagree, with gains alone (left) and with both effects
+# (right). Blue: the robot is slower than the model. Orange: it is faster.
 
 # %%
 plot_residual_maps(story)
@@ -673,29 +677,28 @@ rows += [
 Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 
 # %% [markdown]
-# Both ways give nearly the same numbers. There is one difference: the base model of reconcile
-# starts with a *larger* gap than yours. Reconcile also fits the position, and the position is not
-# averaged and not late. A large kA would make the velocity fit better and the position fit worse.
-# So reconcile notices a slow sensor.
+# Both ways give nearly the same numbers. One thing differs: the base model of reconcile (gains
+# alone) has a *larger* gap than yours. Reconcile also fits the position, which the filter does not
+# change, so kA cannot hide the slow sensor.
 #
 # **How to read its verdict**
 #
 # | verdict | what it means | what you do |
 # |---|---|---|
-# | nothing-missing | gains alone explain the log | nothing |
-# | explained | it names effects, and other runs confirm them | look at that part of the robot |
+# | nothing-missing | the gains alone explain the log | nothing |
+# | explained | the named effects explain the log and other runs | look at that part of the robot |
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
-# | unexplained | a gap remains that no effect in the catalogue explains | look at the robot |
+# | unexplained | a gap remains that no known effect explains | look at the robot |
 #
 # Reconcile can be wrong. So it says how likely each effect is: of ten effects with "90 % likely",
-# about nine are real. (This was counted on hundreds of logs whose hidden effects are known.) Still
-# ask: does the gap of other data shrink (section 4)? And can you find the cause on the robot?
+# about nine are real. (This was counted on hundreds of simulated logs with known effects.) So ask:
+# does the gap of other data become smaller (section 4)? And can you find the cause on the robot?
 
 # %% [markdown]
 # ## 8 Your own robot
 #
 # Run the four tests **twice, with two step voltages**. This separates most effects that look alike.
-# Drive some other motion for a third log. Log the **applied** voltage (lesson 4). Then, in a
+# Record a third log with another ramp. Log the **applied** voltage (lesson 4). Then type in a
 # terminal:
 #
 # ```
@@ -703,48 +706,47 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # sysid reconcile monday.wpilog --validation faster.wpilog --held-out other.wpilog --html gap.html
 # ```
 #
-# The first line looks for damage in the log (lesson 6): an encoder that slipped is not an effect of
-# the model. `gap.html` contains every picture of section 7 and works offline. For an arm or an
-# elevator, add `--type arm` or `--type elevator`.
+# The first line looks for damage in the log (lesson 6). `gap.html` contains every picture of
+# section 7 and works offline. For an arm or an elevator, add `--type arm` or `--type elevator`.
 #
-# You can also do it here. Fill in the names of your files; otherwise the cell uses the log of
-# exercise 12, if you have it. (If the log has no battery voltage, that plot is missing.)
+# The next cell plots the voltage residual of your log of exercise 12. To use another log, write its
+# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, that plot is
+# missing.)
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
 if mine:
     own = sim.read(mine[0])
     print(f"Read {mine[0]}: {len(own.runs)} runs, in {own.units}.")
+    start = fit(own, type="simple", method="sysid").gains
+    own_base = fitted((), Model("simple", start), own)
+    display(plot_voltage_residual(own, simulated(own_base, own), own_base.gains))
 else:
-    own = log
     print("No log of your own yet. Make it in a terminal, in the course's folder:  grade start")
-    print("Until then, here is the team's log again.")
-start = fit(own, type="simple", method="sysid").gains
-own_base = fitted((), Model("simple", start), own)
-plot_voltage_residual(own, simulated(own_base, own), own_base.gains)
 
 # %% [markdown]
 # ## 9 System check
 #
 # Before you believe an effect, check all five:
 #
-# - [ ] The log is good: `sysid inspect` found no damage, or you cut it out.
+# - [ ] The log is good: `sysid inspect` found no damage, or you cut off the damaged part.
 # - [ ] The effect makes the gap smaller for data that it was **not** fitted to.
-# - [ ] No parameter is at its limit, and none has an error as large as itself.
+# - [ ] No parameter is at the end of its range, and each standard error is smaller than its
+#   parameter.
 # - [ ] You know which effects look alike, and you ran the test that separates them.
 # - [ ] You looked at that part of the robot.
 #
 # ## 10 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
 
 quick = QuickCheck(
     (
-        "What is missing shows only in the first tenths of a second after the voltage "
-        "jumps. Which family is that?"
+        "Volts are missing only in the first tenths of a second after the voltage jumps. "
+        "What is the cause?"
     ),
     {
         "drag": "Drag grows with speed, and acts at a steady speed, too.",
@@ -756,8 +758,8 @@ quick = QuickCheck(
 quick
 
 # %% [markdown]
-# **1.** The missing volts are near zero everywhere, except in the first tenth of a second after
-# each jump. Which family of effects?
+# **1.** The voltage residual is near zero everywhere, except in the first tenth of a second after
+# each jump. Which effects look like this?
 #
 # <details><summary>Answer</summary>
 #
@@ -775,7 +777,7 @@ quick
 # </details>
 #
 # **3.** You add "cogging" and the gap of your log falls from 1.3 to 1.1. The gap of the validation
-# rises from 1.4 to 1.6. Keep it?
+# rises from 1.4 to 1.6. Do you keep this effect?
 #
 # <details><summary>Answer</summary>
 #
@@ -783,7 +785,7 @@ quick
 # nothing.
 # </details>
 #
-# **4.** reconcile says "battery-sag or drag". Your log has one step voltage. What now?
+# **4.** Reconcile says "battery-sag or drag". Your log has one step voltage. What do you do?
 #
 # <details><summary>Answer</summary>
 #
@@ -813,22 +815,22 @@ quick
 # grade exercise12
 # ```
 #
-# Or answer from a notebook:
+# <details><summary>Or answer from a notebook</summary>
 #
 # ```python
 # from grader import submit
 #
 # submit("exercise12", effects=["delay"], delay={"lag": 0.03}, gap_before=6.5, gap_after=1.2)
 # ```
+# </details>
 #
-# With an editor, use `grade watch exercise12`: it grades each time you save. And `grade mystery`
-# draws a fresh log with a hidden trouble whenever you like.
+# If you use an editor, `grade watch exercise12` grades each time you save. `grade mystery` makes a
+# new log with a hidden problem whenever you like.
 #
 # **Practice: characterize one mechanism**
 # ([exercises/practice/README.md](../exercises/practice/README.md), `grade practice`). Do everything
-# once, from the first line of code to the final gains. If you can, use your own robot and
-# `.wpilog`. Without a robot, use the drivetrain in that folder; you get the same points. Then
-# reconcile it.
+# once, from the first line of code to the final gains. Use your own robot, or the drivetrain in
+# that folder: you get the same points.
 #
 # <details><summary>More, if you like</summary>
 #
@@ -836,6 +838,6 @@ quick
 # speed. Can you separate them with a 1 V step?
 # </details>
 #
-# You can measure gains, say how far to trust them, and find out what your robot does that your
-# model does not. `grade` in a terminal shows which exercises are left. **Next:** [Lesson 10,
+# Now you can measure gains, say how far to trust them, and find out what is missing in your model.
+# `grade` in a terminal shows which exercises are left. **Next:** [Lesson 10,
 # swerve](10_swerve.ipynb), if your robot has a swerve drive.

@@ -1,6 +1,8 @@
 """Fixtures everybody uses."""
 
+import itertools
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -92,6 +94,35 @@ def shared() -> Path:
     if not (folder / "data").is_dir():
         pytest.skip(f"reference data not found at {folder} (set SYSID_SHARED to its folder)")
     return folder
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A Chromium without a window."""
+    from chromium import launched  # noqa: PLC0415 - only where a browser is asked for
+
+    with launched() as chromium:
+        yield chromium
+
+
+@pytest.fixture
+def reads(request, tmp_path):
+    """Asserts that a text is the one that was kept for this test in ``tests/snapshots``.
+
+    The test's own folder stands there as FOLDER.
+    """
+    from wording import compare_part  # noqa: PLC0415 - as above
+
+    count = itertools.count(1)
+
+    def same(text):
+        number = next(count)
+        title = request.node.name if number == 1 else f"{request.node.name}, {number}"
+        text = str(text).replace(str(tmp_path), "FOLDER")
+        text = re.sub(r"FOLDER[\\\w./-]*", lambda path: path[0].replace("\\", "/"), text)  # Windows
+        compare_part(request.path.stem, title, text)
+
+    return same
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,9 @@ RIGHT = (ROOT / "solutions" / "exercise4" / "example_subsystem.py").read_text("u
 def needs_robot(test):
     """Skip a test, with the reason, where RobotPy is not installed."""
     reason = "RobotPy (extra `robot`) is not installed"
-    return pytest.mark.robot(pytest.mark.skipif(not bench.installed(), reason=reason)(test))
+    return pytest.mark.robot(
+        pytest.mark.skipif(not bench.is_robotpy_installed(), reason=reason)(test)
+    )
 
 
 def changed(*changes):

@@ -11,15 +11,15 @@ from pathlib import Path
 from robotcode_mutants import FOLDERS, Mutant
 
 from grader.robotcode import read
-from grader.robotcode.bindings import bindings_of
+from grader.robotcode.bindings import read_bindings
 from grader.robotcode.facts import Certainty, RoutineFacts
-from grader.robotcode.gain_constants import gains_of
+from grader.robotcode.gain_constants import read_gains
 from sim.core.errors import Refusal
 
 READERS: dict[str, Callable[[Path], object]] = {
     "routine": read,
-    "bindings": bindings_of,
-    "gains": gains_of,
+    "bindings": read_bindings,
+    "gains": read_gains,
 }
 
 

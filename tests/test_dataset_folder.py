@@ -4,7 +4,7 @@ import json
 import shutil
 
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
 
 from sim.bench.dataset.folder import DatasetFolder
 from sim.core.errors import BadRequest
@@ -25,29 +25,29 @@ def refused(capsys, *arguments):
     return shown.err
 
 
-def test_what_is_finished_is_kept(tmp_path, capsys):
+def test_what_is_finished_is_kept(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     before = {one: one.stat().st_ino for one in folder.rglob("*")}
     capsys.readouterr()
 
-    make(path)
+    make_dataset(path)
 
     assert {one: one.stat().st_ino for one in folder.rglob("*")} == before
-    assert "8 logs, 8 of them made earlier" in capsys.readouterr().out
+    reads(capsys.readouterr().out)
 
 
 def test_a_file_that_went_missing_is_made_again(tmp_path):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     before = files(folder)
     (folder / "ann" / "log-02.csv").unlink()
     shutil.rmtree(folder / "bo")
 
-    assert files(make(path)) == before
+    assert files(make_dataset(path)) == before
 
 
-def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
+def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     path = spec(tmp_path)
     (tmp_path / "data").mkdir()
     (tmp_path / "data" / "log-02.wpilog").write_bytes(b"a robot's own log")
@@ -55,12 +55,12 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
 
     said = refused(capsys, path, "-o", tmp_path / "data")
 
-    assert "log-02.wpilog: there already, and not of this spec and secret. Name another" in said
+    reads(said)
     assert files(tmp_path / "data") == {"log-02.wpilog": b"a robot's own log", "notes.txt": b"mine"}
     assert not (tmp_path / "data.key.json").exists()
-    made = files(make(path, "data", "--overwrite"))
+    made = files(make_dataset(path, "data", "--overwrite"))
     assert made.pop("notes.txt") == b"mine"
-    assert made == files(make(path, "other"))
+    assert made == files(make_dataset(path, "other"))
 
 
 @pytest.mark.parametrize(
@@ -70,43 +70,43 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys):
         pytest.param(PLAIN.replace("3.0", "3.1"), id="step"),
     ],
 )
-def test_files_of_another_spec_are_foreign(tmp_path, capsys, other):
-    before = files(make(spec(tmp_path)))
+def test_files_of_another_spec_are_foreign(tmp_path, capsys, other, reads):
+    before = files(make_dataset(spec(tmp_path)))
 
     said = refused(capsys, spec(tmp_path, other), "-o", tmp_path / "data")
 
-    assert "ame another folder with -o" in said
+    reads(said)
     assert files(tmp_path / "data") == before
 
 
-def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path):
+def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
     shelf = DatasetFolder(tmp_path / "data", mine=())
     shelf.write_files({"log-01.csv": b"ours"})
     (tmp_path / "data" / "log-02.csv").write_bytes(b"somebody else's")
 
-    with pytest.raises(BadRequest, match="log-02.csv: has come there meanwhile. Let the other"):
+    with pytest.raises(BadRequest) as refused:
         shelf.write_files({"log-02.csv": b"ours"})
+    reads(refused.value)
 
     assert files(tmp_path / "data") == {"log-01.csv": b"ours", "log-02.csv": b"somebody else's"}
 
 
-def test_a_changed_file_is_foreign_too(tmp_path, capsys):
+def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
     path = spec(tmp_path)
-    (make(path) / "log-01.wpilog").write_bytes(b"changed by a student")
+    (make_dataset(path) / "log-01.wpilog").write_bytes(b"changed by a student")
 
-    assert "log-01.wpilog: there already" in refused(capsys, path, "-o", tmp_path / "data")
+    reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys):
-    folder = make(spec(tmp_path, DAMAGED))
+def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys, reads):
+    folder = make_dataset(spec(tmp_path, DAMAGED))
     fewer = spec(tmp_path, DAMAGED.replace('"ann", ', ""))
 
     said = refused(capsys, fewer, "-o", folder)
 
-    assert "ann/log-01.wpilog, ann/log-01.csv, " in said
-    assert "and 5 more: of this dataset once, and no longer in the spec." in said
+    reads(said)
     assert {log["student"] for log in key(folder)["logs"]} == {"ann", "Bo"}
-    make(fewer, "data", "--overwrite")
+    make_dataset(fewer, "data", "--overwrite")
     assert {log["student"] for log in key(folder)["logs"]} == {"Bo"}
 
 
@@ -157,16 +157,14 @@ def test_the_truth_never_lies_among_the_data(tmp_path, monkeypatch, capsys, argu
     assert not (tmp_path / "data").exists()
 
 
-def test_the_secret_never_lies_among_the_data(tmp_path, capsys):
+def test_the_secret_never_lies_among_the_data(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED.replace("class.secret", "data/class.secret"), secret="")
 
-    assert "class.secret: the secret lies in the folder" in refused(
-        capsys, path, "-o", tmp_path / "data"
-    )
+    reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
-def test_a_folder_is_needed(tmp_path, capsys):
-    assert "Missing option '-o': a folder for the logs." in refused(capsys, spec(tmp_path))
+def test_a_folder_is_needed(tmp_path, capsys, reads):
+    reads(refused(capsys, spec(tmp_path)))
 
 
 def check(path, folder, capsys):
@@ -179,7 +177,7 @@ def check(path, folder, capsys):
 
 def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
 
     assert check(path, folder, capsys) == (
         0,
@@ -189,7 +187,7 @@ def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
 
 def test_every_change_to_the_data_is_noticed(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     changed = folder / "ann" / "log-01.csv"
     changed.write_bytes(changed.read_bytes().replace(b"1", b"2", 1))
     (folder / "bo" / "log-02.wpilog").unlink()
@@ -201,14 +199,14 @@ def test_every_change_to_the_data_is_noticed(tmp_path, capsys):
     )
 
 
-def test_another_spec_is_noticed(tmp_path, capsys):
-    folder = make(spec(tmp_path, DAMAGED))
+def test_another_spec_is_noticed(tmp_path, capsys, reads):
+    folder = make_dataset(spec(tmp_path, DAMAGED))
     more = DAMAGED.replace('["ann"', '["zoe", "ann"').replace("1.5]", "1.6]")
 
     code, lines = check(spec(tmp_path, more), folder, capsys)
 
     assert code == 1
-    assert "not made yet: zoe/log-01.wpilog" in lines
+    reads(lines)
     assert sum(line.startswith("of another spec: ann/") for line in lines) == 4  # two logs twice
 
 
@@ -221,57 +219,55 @@ def test_another_spec_is_noticed(tmp_path, capsys):
         pytest.param(lambda logs: logs[0].update(student="Bo"), id="another student"),
     ],
 )
-def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change):
+def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change, reads):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     content = key(folder)
     change(content["logs"])
     (tmp_path / "data.key.json").write_text(json.dumps(content), encoding="utf-8")
 
-    assert "data.key.json: the seal of the key is broken" in refused(
-        capsys, path, "-o", folder, "--check"
-    )
-    assert "the seal of the key is broken" in refused(capsys, path, "-o", folder)
+    reads(refused(capsys, path, "-o", folder, "--check"))
+    reads(refused(capsys, path, "-o", folder))
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", "{}", '{"logs": [], "seal": 7}'])
-def test_a_key_that_is_none_is_refused(tmp_path, capsys, content):
+def test_a_key_that_is_none_is_refused(tmp_path, capsys, content, reads):
     path = spec(tmp_path)
-    folder = make(path)
+    folder = make_dataset(path)
     (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
 
-    assert "the seal of the key is broken" in refused(capsys, path, "-o", folder, "--check")
+    reads(refused(capsys, path, "-o", folder, "--check"))
 
 
 def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     content = json.dumps(key(folder), indent=4, sort_keys=True)
     (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
 
     assert check(path, folder, capsys)[0] == 0
 
 
-def test_another_secret_does_not_open_the_seal(tmp_path, capsys):
+def test_another_secret_does_not_open_the_seal(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     (tmp_path / "class.secret").write_text(SECRET + "!", encoding="utf-8")
 
-    assert "made with another secret" in refused(capsys, path, "-o", folder, "--check")
+    reads(refused(capsys, path, "-o", folder, "--check"))
     (tmp_path / "class.secret").unlink()
-    assert "made with another secret" in refused(capsys, path, "-o", folder)
+    reads(refused(capsys, path, "-o", folder))
     assert not (tmp_path / "class.secret").exists()  # none is made in place of the lost one
-    assert "there is no such file with a secret" in refused(capsys, path, "-o", folder, "--check")
+    reads(refused(capsys, path, "-o", folder, "--check"))
 
 
-def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys):
+def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys, reads):
     said = refused(capsys, spec(tmp_path), "-o", tmp_path / "data", "--check")
 
-    assert "data.key.json: there is no key. Make the dataset to its end" in said
+    reads(said)
 
 
 def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
-    make(spec(tmp_path, DAMAGED, secret=""))
+    make_dataset(spec(tmp_path, DAMAGED, secret=""))
 
     for name in ("data.key.json", "class.secret"):
         path = tmp_path / name

@@ -2,7 +2,6 @@
 
 import nbformat
 import pytest
-from lab import BROWSERS, FLAGS, installed_browser
 
 from grader.edition import build_pages
 
@@ -11,21 +10,6 @@ pytestmark = pytest.mark.browser
 PHONE = {"width": 390, "height": 844}
 PROJECTOR = {"width": 1366, "height": 768}
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """A Chromium without a window."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
-    )
-    found = installed_browser()
-    if found is None:
-        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
-        yield chromium
-        chromium.close()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

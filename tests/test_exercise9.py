@@ -47,7 +47,7 @@ def solution():
     return module.fit
 
 
-def graded(folder, text, student="ann"):
+def grade_answer(folder, text, student="ann"):
     """What the check of the function says of a text."""
     (folder / "fit.py").write_text(text, "utf-8")
     result = Exercise("exercise9", folder).grade(None, student=student)
@@ -60,7 +60,7 @@ def test_fifty_students_get_five_logs_each_that_the_authored_function_fits():
         for log in logs_of(f"student {number}"):
             found = fit(**log.data)
             for name, asked in log.key.asked.items():
-                assert asked.right(found[name]), f"{number}, {log.recipe.kind}: {name}"
+                assert asked.is_right(found[name]), f"{number}, {log.recipe.kind}: {name}"
 
 
 def test_the_tests_of_a_log_stand_one_after_another_with_pauses_between():
@@ -131,13 +131,13 @@ def test_every_log_that_is_right_earns_a_point(copy, most, points):
     expected = float(sum(length <= most for length in lengths))
     text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
     early = f"    if len(time) > {most}:\n        raise ValueError('too long')\n"
-    check = graded(copy.folder, text.replace("    ks = kv = ka = None\n", early))
+    check = grade_answer(copy.folder, text.replace("    ks = kv = ka = None\n", early))
 
     assert check.points == expected == points
 
 
 def test_what_a_function_prints_is_shown_in_one_line(copy):
-    check = graded(copy.folder, "def fit(**columns):\n    print('one', 'two\\nthree')\n")
+    check = grade_answer(copy.folder, "def fit(**columns):\n    print('one', 'two\\nthree')\n")
 
     assert "It printed: one two three one two three" in check.hint
 
@@ -145,7 +145,7 @@ def test_what_a_function_prints_is_shown_in_one_line(copy):
 def test_one_log_that_goes_wrong_is_told_by_what_is_special_about_it(copy):
     text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
     wrong = "    if len(set(test)) == 3:\n        ka *= 1.4\n    return {"
-    check = graded(copy.folder, text.replace("    return {", wrong))
+    check = grade_answer(copy.folder, text.replace("    return {", wrong))
 
     assert check.points == 4.0
     assert "The other three are enough" in check.hint
@@ -158,7 +158,7 @@ def test_fifty_students_get_mechanisms_that_can_be_fitted():
     assert {variant.mechanism.name for variant in variants} == set(OWN.module.KINDS)
     for variant in variants:
         for name, asked in variant.asked.items():
-            assert asked.right(variant.fit.gains[name])
+            assert asked.is_right(variant.fit.gains[name])
 
 
 def test_a_student_gets_the_same_mechanism_every_time_and_nobody_elses():
@@ -224,7 +224,7 @@ def test_explaining_the_voltage_is_recognized(copy):
         lookalike = OWN.module.read(
             OWN.folder / "answers.toml", student=student
         ).key.scene.lookalikes["kA"][0]
-        if variant.asked["kA"].right(lookalike.value):
+        if variant.asked["kA"].is_right(lookalike.value):
             continue
         text = f"kA = {lookalike.value}"
         (copy.folder / "answers.toml").write_text(text, "utf-8")

@@ -82,7 +82,7 @@ def test_a_package_of_ones_own_is_graded(course, tmp_path):
     issue(course, "ann")
     (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=SECRET)
 
-    assert (one.problem, one.numbers_of) == ("", "ann")
+    assert (one.problem, one.numbers_owner) == ("", "ann")
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_who_never_gave_a_name_is_graded_on_the_numbers_they_had(course, tmp_pat
     (course / ".course" / "progress.toml").write_text('student = "me"\n', encoding="utf-8")
     (one,) = check_identities(hand_in(course, tmp_path / "in", "ann"), secret=None)
 
-    assert (one.problem, one.student, one.numbers_of) == ("", "ann", "me")
+    assert (one.problem, one.student, one.numbers_owner) == ("", "ann", "me")
     assert run_command(["class", str(tmp_path / "in")]) == 0
     assert "worked without a name, and are graded on those numbers: ann" in capsys.readouterr().err
 
@@ -125,7 +125,7 @@ def test_a_folder_of_data_tells_it_too(course, tmp_path):
         find_submissions(tmp_path / "in", list_exercises(course)), secret=None
     )
 
-    assert one.numbers_of == "me"
+    assert one.numbers_owner == "me"
 
 
 def test_a_course_started_as_somebody_else_is_told(course, tmp_path):
@@ -146,5 +146,5 @@ def test_a_served_home_is_its_students_whatever_its_folder_is_called(course, tmp
     there = hand_in(course, tmp_path / "in", make_folder_name(name))
     (one,) = check_identities(there, secret=SECRET if issued else None)
 
-    assert (one.problem, one.student, one.numbers_of) == ("", name, name)
+    assert (one.problem, one.student, one.numbers_owner) == ("", name, name)
     assert Identities({name: {}}).find(SubmissionName(make_folder_name(name))) == name

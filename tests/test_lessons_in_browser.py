@@ -5,14 +5,12 @@ from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
+from chromium import LEAST_CONTRAST, least_contrast
 from lab import (
-    BROWSERS,
-    FLAGS,
     LESSONS,
     OFTEN,
     PATIENCE,
     SCREEN,
-    installed_browser,
     knobs,
     outputs,
     panels,
@@ -21,25 +19,13 @@ from lab import (
 )
 from matplotlib.image import imread
 
+TEXTS = (
+    ".jp-OutputArea td, .jp-OutputArea th, .jp-OutputArea caption, .jp-OutputArea summary, "
+    ".jp-OutputArea .widget-label, .jp-RenderedMarkdown p"
+)
 HOME = {"127.0.0.1", "localhost"}
-LEAST_CONTRAST = 4.5  # of text against its ground: WCAG 2.2, level AA
 
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """A Chromium without a window."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
-    )
-    found = installed_browser()
-    if found is None:
-        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture
@@ -106,28 +92,7 @@ def _use_theme(page, theme):
 
 def _faintest(page):
     """The smallest contrast of any text that our pictures and tables put into the page."""
-    return page.evaluate(
-        """() => {
-            const channels = color => color.match(/[\\d.]+/g).map(Number);
-            const light = ([r, g, b]) => [r, g, b].map(c => c / 255)
-                .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
-                .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-            const ground = node => {
-                for (; node; node = node.parentElement) {
-                    const color = channels(getComputedStyle(node).backgroundColor);
-                    if (color.length < 4 || color[3] === 1) return color;
-                }
-                return [255, 255, 255];
-            };
-            const texts = document.querySelectorAll(
-                '.jp-OutputArea td, .jp-OutputArea th, .jp-OutputArea caption, ' +
-                '.jp-OutputArea summary, .jp-OutputArea .widget-label, .jp-RenderedMarkdown p');
-            return Math.min(...[...texts].map(node => {
-                const [a, b] = [light(channels(getComputedStyle(node).color)), light(ground(node))];
-                return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-            }));
-        }"""
-    )
+    return least_contrast(page, TEXTS)
 
 
 def _colors(png):

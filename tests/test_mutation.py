@@ -12,7 +12,7 @@ from mutation import robot_code
 from mutation.report import all_mutants, legal_variants, survey
 
 from grader.exercise import find_exercise
-from grader.robotcode.compiling import compile_errors
+from grader.robotcode.compiling import find_compile_errors
 from grader.robotcode.files import Files
 from grader.robotcode.symbol_table import SymbolTable
 
@@ -51,7 +51,7 @@ def test_the_grader_refuses_no_mutant_of_a_right_answer_that_javac_takes(tmp_pat
     refused = {
         (one.file, one.operator, one.line): graders
         for one, program, javac in zip(made, programs, errors, strict=True)
-        if not javac and (graders := compile_errors(SymbolTable(Files(program.files[0]))))
+        if not javac and (graders := find_compile_errors(SymbolTable(Files(program.files[0]))))
     }
     assert {
         mutant: graders

@@ -11,7 +11,7 @@ from grader.mystery import (
     HIGHEST,
     MysteryState,
     draw_mystery,
-    find_folder,
+    find_mystery_folder,
     grade_mystery,
     load_state,
 )
@@ -37,7 +37,7 @@ def drawn(number, seed, level=1):
     return draw_mystery(ROOT, MysteryState(number, level, seed))
 
 
-def graded(mystery, answer):
+def grade_answer(mystery, answer):
     return grade_mystery(mystery, answer, student="ann")
 
 
@@ -47,10 +47,10 @@ def test_the_right_answer_to_twenty_mysteries_earns_everything_and_a_wrong_one_n
         mystery = drawn(number, seed, level=1 + seed % HIGHEST)
         wrong = "sign-flip, whole, rerun" if number == FAULTS else "hysteresis"
 
-        assert graded(mystery, mystery.solution).status == "passed", (seed, mystery.solution)
-        assert graded(mystery, wrong).status == "failed", seed
-        assert graded(mystery, "").score == 0.0
-        assert graded(mystery, "no idea at all").score == 0.0
+        assert grade_answer(mystery, mystery.solution).status == "passed", (seed, mystery.solution)
+        assert grade_answer(mystery, wrong).status == "failed", seed
+        assert grade_answer(mystery, "").score == 0.0
+        assert grade_answer(mystery, "no idea at all").score == 0.0
 
 
 def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
@@ -80,7 +80,7 @@ def test_levels_get_harder():
 def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
     mystery = next(one for one in (drawn(FAULTS, seed) for seed in SEEDS) if " to " in one.solution)
     fault, test, _, action = mystery.solution.split(", ")
-    result = graded(mystery, f"{fault}, {test}, 0 to 0.02, {action}")
+    result = grade_answer(mystery, f"{fault}, {test}, 0 to 0.02, {action}")
 
     assert 0.0 < result.score < result.max_score
     assert "not the place" in result.checks[0].hint
@@ -89,13 +89,13 @@ def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
 def test_two_effects_in_the_wrong_order_keep_the_points_for_the_names():
     mystery = drawn(EFFECTS, 1, level=3)
     first, second = mystery.solution.split(", ")
-    result = graded(mystery, f"{second} {first}")
+    result = grade_answer(mystery, f"{second} {first}")
 
     assert [one.status for one in result.checks] == ["failed", "passed"]
 
 
 def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
-    folder = find_folder(course, "ann")
+    folder = find_mystery_folder(course, "ann")
     assert run_command(["mystery", "--student", "ann"]) == 0
     task = capsys.readouterr().out
     state = load_state(folder)
@@ -117,7 +117,7 @@ def test_a_mystery_is_drawn_answered_and_the_next_one_is_harder(course, capsys):
 
 
 def test_giving_up_shows_the_answer_and_the_next_one_is_easier(course, capsys):
-    folder = find_folder(course, "me")
+    folder = find_mystery_folder(course, "me")
     run_command(["mystery"])
     (folder / "mystery.toml").write_text("number = 7\nlevel = 3\nseed = 5\n", "utf-8")
     mystery = draw_mystery(course, load_state(folder))

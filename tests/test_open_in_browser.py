@@ -2,12 +2,12 @@
 
 import base64
 import re
-import shutil
 import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from chromium import LEAST_CONTRAST
 from open_page import BROKEN, drive_log, served, slipped_log, write_log, write_old_json
 
 from sim.bench.mechanisms import MECHANISMS
@@ -19,8 +19,6 @@ from sim.fit.replay import replay_fit
 from sim.io import read
 from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-FLAGS = ["--no-sandbox", "--disable-gpu"]  # a container runs as root, where no sandbox can start
 DESKTOP, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 PATIENCE = 30_000  # [ms]
 DROP = """(files) => {
@@ -65,7 +63,6 @@ SET = """(slider, value) => {
 }"""
 CURVE = "[...sysid.logs.values()][0].simulated.map(one => one && [...one.velocity])"
 
-LEAST_CONTRAST = 4.5  # of text against its ground: WCAG 2.2, level AA
 FAINTEST = """() => {
     const canvas = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});
     const light = ground => color => {
@@ -94,21 +91,6 @@ FAINTEST = """() => {
     }));
 }"""
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """A Chromium without a window."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
-    )
-    found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if found is None:
-        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture

@@ -113,3 +113,14 @@ def test_a_change_says_what_grew_and_what_shrank():
 def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
     with pytest.raises(BadRequest, match=advice):
         draw()
+
+
+def test_the_band_above_the_good_one_looks_alike_with_and_without_one_below():
+    def look(bands):
+        (axes,) = plot_gauge({"x": 1.0}, bands, label="kV [V]", good="fine").figure.axes
+        return {bars.get_label(): bars[0].get_facecolor() for bars in axes.containers}
+
+    below = look({"low": 0.5, "fine": 2.0, "watch": 3.0, "stop": 4.0})
+    none_below = look({"fine": 2.0, "watch": 3.0, "stop": 4.0})
+    assert none_below == {name: below[name] for name in none_below}
+    assert len(set(below.values())) == 4

@@ -90,7 +90,7 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    told = simplify_effects(SelectionData(problem, parts), done, log)
+    told = simplify_effects(SelectionData(log, problem, parts), done)
 
     assert [one.candidate.effect for one in told] == ["", "constant-load"]
     assert told[-1].candidate.estimate.structure.effects == ("constant-load",)
@@ -107,4 +107,4 @@ def test_an_effect_that_needs_its_parameters_keeps_them():
     gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
-    assert simplify_effects(SelectionData(problem, parts), done, log) == done
+    assert simplify_effects(SelectionData(log, problem, parts), done) == done

@@ -1,13 +1,12 @@
 """The page of a story in a real browser: alone, legible in both themes, on every screen."""
 
 import pytest
+from chromium import LEAST_CONTRAST, least_contrast
 from story_made import STORIES
-from test_report_in_browser import FAINTEST, LEAST_CONTRAST, browser
+from test_report_in_browser import TEXTS
 
 from sim.reconcile.story_text import write_headline
 from sim.report.story import write_story
-
-__all__ = ["browser"]  # the fixture is that of the other page
 
 pytestmark = pytest.mark.browser
 SCREENS = {"phone": {"width": 400, "height": 800}, "desk": {"width": 1100, "height": 900}}
@@ -26,7 +25,7 @@ def test_a_story_is_alone_and_legible_on_every_screen(browser, tmp_path, name):
             page.on("console", lambda message, all_=complaints: all_.append(message.text))
             page.goto(path.as_uri())
 
-            assert page.evaluate(FAINTEST) >= LEAST_CONTRAST, (theme, screen)
+            assert least_contrast(page, TEXTS) >= LEAST_CONTRAST, (theme, screen)
             assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
             assert page.get_by_text(write_headline(STORIES[name])).is_visible()
             assert page.locator("#overlays img").last.is_visible()  # open without a click

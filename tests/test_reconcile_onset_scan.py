@@ -216,9 +216,8 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
     monkeypatch.setattr(model_selection, "validation_gap", lambda *_: Gap(0.9, 0.9))
 
     (one,) = model_selection.weigh_candidates(
-        SelectionData(problem, make_folds([0, 0, 0, 0])),
+        SelectionData(log, problem, make_folds([0, 0, 0, 0])),
         SelectionRound(base, gap, gap),
-        log,
     )
 
     assert one.report.admitted is admitted
@@ -243,9 +242,8 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
     monkeypatch.setattr(model_selection, "validation_gap", lambda *_: gap)
 
     inertia, drag = model_selection.weigh_candidates(
-        SelectionData(problem, make_folds([0, 0, 0, 0])),
+        SelectionData(log, problem, make_folds([0, 0, 0, 0])),
         SelectionRound(base, gap, gap),
-        log,
     )
 
     assert inertia.report.admitted

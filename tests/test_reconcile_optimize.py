@@ -188,7 +188,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     ):
         monkeypatch.setattr(room, name, lambda _, done, *__: done)
 
-    done = select_effects(SelectionData(problem, []), base, log)
+    done = select_effects(SelectionData(log, problem, []), base)
 
     assert len(calls) == asked
     assert len(done) == 1 + min(asked, len(sizes) - 1)

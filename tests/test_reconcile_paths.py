@@ -113,7 +113,7 @@ def test_another_path_is_taken_where_the_first_strays_and_it_does_not(
     path = [done[0], model("delay", score, gap=gap)]
     monkeypatch.setattr(sys.modules[choose_path.__module__], "_continue_search", lambda *_: path)
 
-    found = choose_path(SelectionData(ONE_NOISE, ()), done, None)
+    found = choose_path(SelectionData(None, ONE_NOISE, ()), done)
 
     assert (found is path) is taken
 
@@ -151,7 +151,7 @@ def test_two_effects_that_mask_each_other_are_tried_as_a_pair(monkeypatch, other
     room = sys.modules[choose_path.__module__]
     monkeypatch.setattr(room, "_continue_search", gone_on)
 
-    found = add_pair(SelectionData(ONE_NOISE, ()), done, None)
+    found = add_pair(SelectionData(None, ONE_NOISE, ()), done)
 
     assert (found is not done) is taken
     assert set(asked) <= {"compliance"}
@@ -171,7 +171,7 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
     room = sys.modules[choose_path.__module__]
     monkeypatch.setattr(room, "_continue_search", lambda *_: path)
 
-    found = add_pair(SelectionData(ONE_NOISE, ()), done, None)
+    found = add_pair(SelectionData(None, ONE_NOISE, ()), done)
 
     assert found == (path if taken else done)
 
@@ -249,14 +249,14 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     last = SelectionRound(Candidate("stribeck", point, 500.0), one_gap, one_gap)
     done = [base, model("battery-sag", 600.0, gap=1.1), last]
     path = sys.modules["sim.reconcile.backward_elimination"]
-    monkeypatch.setattr(path, "voltage_residual_at", lambda *_: None)
+    monkeypatch.setattr(SelectionData, "voltage_residual", lambda *_: None)
     monkeypatch.setattr(path, "refit_without", lambda *_: Candidate("", point, 900.0))
     monkeypatch.setattr(
         path, "rank_candidates", lambda *_, **__: [Candidate(other, point, 500.0 - gains)]
     )
     monkeypatch.setattr(path, "validation_gap", lambda *_: one_gap)
 
-    found = replace_effects(SelectionData(ONE_NOISE, ()), done, None)
+    found = replace_effects(SelectionData(None, ONE_NOISE, ()), done)
 
     assert [one.candidate.effect for one in found] == ["", taken, "stribeck"]
 

@@ -12,7 +12,8 @@ from sim.core.errors import BadRequest, NotIdentifiable, Refusal
 from sim.core.log import Log
 from sim.reconcile import reconcile
 from sim.reconcile.dropout_intervals import dropout_intervals
-from sim.reconcile.input_checks import check_logs, count_repeated_runs
+from sim.reconcile.input_checks import check_logs
+from sim.reconcile.recordings import Recordings
 from sim.support.command_line import run_command
 
 DRIVE = logs("drivetrain")
@@ -164,7 +165,7 @@ def test_a_wrong_word_about_a_log_is_refused(type_, travel, said):
 
 @pytest.mark.parametrize("other", [OTHER, DRIVE["held_out"], short(OTHER, count=10**6, runs=1)])
 def test_other_runs_of_the_same_mechanism_are_welcome(other):
-    check_logs(LOG, other, other, type="simple", travel=None)
+    check_logs(Recordings(LOG, other, other, type="simple"), travel=None)
 
 
 def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s():
@@ -172,13 +173,16 @@ def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s()
     rng = np.random.default_rng(1)
     mixed = changed(LOG, voltage=lambda one: rng.permutation(one.voltage))
 
-    check_logs(mixed, OTHER, OTHER, type="simple", travel=None)
+    check_logs(Recordings(mixed, OTHER, OTHER, type="simple"), travel=None)
 
 
 def test_runs_that_were_recorded_once_are_counted_once():
-    assert count_repeated_runs(OTHER, (LOG, None)) == 0
-    assert count_repeated_runs(LOG, (OTHER, LOG)) == 4
-    assert count_repeated_runs(replace(OTHER, runs=(*OTHER.runs, LOG.runs[2])), (LOG,)) == 1
+    repeats = replace(OTHER, runs=(*OTHER.runs, LOG.runs[2]))
+    recordings = Recordings(LOG, repeats, LOG, type="simple")
+
+    assert Recordings(LOG, None, OTHER, type="simple").count_repeated_runs("held_out") == 0
+    assert recordings.count_repeated_runs("validation") == 1
+    assert recordings.count_repeated_runs("held_out") == 4
 
 
 # -- drop-outs -----------------------------------------------------------------------------------

@@ -1,9 +1,8 @@
 """The page of a fit in a real browser: alone, legible in both themes, nothing beside the screen."""
 
-import shutil
-
 import numpy as np
 import pytest
+from chromium import LEAST_CONTRAST, least_contrast
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -13,47 +12,11 @@ from sim.fit import fit
 from sim.fit.feedback_trial import try_feedback_gains
 from sim.report import Report, write_page
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-FLAGS = ["--no-sandbox", "--disable-gpu"]  # a container runs as root, where no sandbox can start
-LEAST_CONTRAST = 4.5  # of text against its ground: WCAG 2.2, level AA
 PHONE = {"width": 390, "height": 800}
 
 pytestmark = pytest.mark.browser
 
-FAINTEST = """() => {
-    const channels = color => color.match(/[\\d.]+/g).map(Number);
-    const light = ([r, g, b]) => [r, g, b].map(c => c / 255)
-        .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
-        .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-    const ground = node => {
-        for (; node; node = node.parentElement) {
-            const color = channels(getComputedStyle(node).backgroundColor);
-            if (color.length < 4 || color[3] === 1) return color;
-        }
-        return [255, 255, 255];
-    };
-    const texts = document.querySelectorAll(
-        'h1, h2, h3, p, li, b, a, td, th, caption, summary, pre');
-    return Math.min(...[...texts].map(node => {
-        const [a, b] = [light(channels(getComputedStyle(node).color)), light(ground(node))];
-        return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
-    }));
-}"""
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """A Chromium without a window."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
-    )
-    found = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if found is None:
-        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
-        yield chromium
-        chromium.close()
+TEXTS = "h1, h2, h3, p, li, b, a, td, th, caption, summary, pre"
 
 
 def test_a_page_is_alone_and_legible_on_every_screen(browser, tmp_path):
@@ -69,7 +32,7 @@ def test_a_page_is_alone_and_legible_on_every_screen(browser, tmp_path):
         page.on("console", lambda message, all_=complaints: all_.append(message.text))
         page.goto(path.as_uri())
 
-        assert page.evaluate(FAINTEST) >= LEAST_CONTRAST, theme
+        assert least_contrast(page, TEXTS) >= LEAST_CONTRAST, theme
         assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
         for picture in page.locator("img").all():
             assert picture.evaluate("image => image.decode().then(() => image.naturalWidth)") > 0

@@ -21,7 +21,7 @@ from test_robot_code_snippet import found
 
 from grader.robotcode import bench
 from grader.robotcode.bench import RunOutcome
-from grader.robotcode.compiling import compile_errors
+from grader.robotcode.compiling import find_compile_errors
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.symbol_table import SymbolTable
@@ -258,7 +258,13 @@ OUT_OF_SIGHT = {
     "wpilib/ThirdPartyFactory.java": "swervelib",
     "wpilib/WrongSubsystem.java": "frc.robot.subsystems",  # a class of the same robot
 }
-TOGETHER = ("advantagekit", "swerve/advantagekit", "team", "teams", "wpilib/split")
+TOGETHER = (
+    "advantagekit",
+    *(f"swerve/{one.name}" for one in sorted((CORPUS / "swerve").glob("advantagekit*"))),
+    "team",
+    "teams",
+    "wpilib/split",
+)
 
 
 @pytest.fixture(scope="module")
@@ -370,7 +376,7 @@ def test_javac_and_the_grader_refuse_a_planted_mistake(compiled, mistake):
 
 def graders_errors(path: Path) -> tuple[ParseProblem, ...]:
     """What the grader's own compile check says of a file, whatever the file holds."""
-    return compile_errors(SymbolTable(Files(path)))
+    return find_compile_errors(SymbolTable(Files(path)))
 
 
 @needs_robot
@@ -381,7 +387,7 @@ def test_the_python_of_the_answer_to_practice_runs_in_simulation(tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
 
     ran = bench.run(tmp_path / "example_subsystem.py", "ExampleSubsystem")
-    pressed = bench.press(tmp_path / "robotcontainer.py", "RobotContainer")
+    pressed = bench.press_buttons(tmp_path / "robotcontainer.py", "RobotContainer")
 
     assert ran.outcome is RunOutcome.RAN, ran.said
     assert pressed.outcome is RunOutcome.RAN, pressed.said

@@ -5,7 +5,7 @@ import pytest
 from grader.robotcode import bench, read
 from grader.robotcode.bench.season import explain_other_season
 from grader.robotcode.facts import Output, Source
-from grader.robotcode.vocabulary import other_season
+from grader.robotcode.vocabulary import find_season_of
 
 JAVA = """
 package first.robot;
@@ -136,12 +136,12 @@ public class Lift {{
     ],
 )
 def test_a_name_tells_its_season(name, season):
-    assert other_season(name) == season
+    assert find_season_of(name) == season
 
 
 def test_an_import_of_another_season_is_known_by_the_names_beside_it():
     error = "ImportError: cannot import name 'PIDController' from 'wpimath'"
-    season = "2027" if bench.installed() else ""
+    season = "2027" if bench.is_robotpy_installed() else ""
 
     assert season in explain_other_season(error, "self.motor.set_voltage(3)")
     assert explain_other_season(error, "self.motor.go(3)") == ""

@@ -1,19 +1,17 @@
 """What a person reads of each command, word for word, in one file a command: ``tests/snapshots/``.
 
-Where a sentence was improved, SYSID_SNAPSHOTS=write pytest tests/test_sentences.py writes the files
-anew, and their difference is read as any other. What a command finds, and its numbers, are tested
+How to write them anew stands in ``wording.py``. What a command finds, and its numbers, are tested
 elsewhere: digits count here only where a story was made by hand.
 """
 
 import io
-import os
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from rich.console import Console
 from story_made import DRAG, PLACE, REMAINS, SAG, SLIP, STORIES, story
+from wording import FOLDER, compare, read_parts
 
 import sim
 from sim.bench.mechanisms import MECHANISMS
@@ -26,18 +24,7 @@ from sim.reconcile.story_text import list_inspections, list_next_tests, write_he
 from sim.report.story_terminal import show_story
 from sim.support.command_line import run_command
 
-FOLDER = Path(__file__).parent / "snapshots"
 NUMBER = re.compile(r"\d[\d.,]*(?:e[+-]?\d+)?")
-
-
-def compare(name, parts):
-    """The parts, each under its title, are those of the file."""
-    text = "\n\n".join(f"## {title}\n\n{said.strip()}" for title, said in parts.items()) + "\n"
-    path = FOLDER / f"{name}.txt"
-    if os.environ.get("SYSID_SNAPSHOTS") == "write":
-        path.write_text(text, encoding="utf-8", newline="\n")
-
-    assert text.splitlines() == path.read_text(encoding="utf-8").splitlines()
 
 
 def told(one):
@@ -110,3 +97,13 @@ def test_fit_tells_of_gains_in_these_words(tmp_path, monkeypatch, capsys):
         parts[name] = run(capsys, "fit", "log.csv", "--type", MECHANISMS[name].type)
 
     compare("fit", parts)
+
+
+def test_every_kept_sentence_belongs_to_a_test():
+    for path in sorted(FOLDER.glob("test_*.txt")):
+        source = path.parents[1] / f"{path.stem}.py"
+        tests = re.findall(r"^def (test_\w+)", source.read_text(encoding="utf-8"), re.MULTILINE)
+        titles = read_parts(path.stem)
+
+        assert titles, path
+        assert {re.split(r"[\[,]", title)[0] for title in titles} <= set(tests), path

@@ -151,6 +151,16 @@ def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step,
     assert (step > slip_voltage(KRAKEN.translation)) == bool(found)
 
 
+def test_the_rotation_step_of_ctres_generator_slips_too_and_two_radians_a_second_do_not():
+    """Phoenix 6 26.3.0 turns a rate into rate · lever / top speed · 12 V."""
+    top = KRAKEN.motor.free_speed / KRAKEN.ratio * KRAKEN.wheel_radius
+    theirs, gentle = (rate * KRAKEN.lever / top * 12.0 for rate in (math.pi, 2.0))
+
+    assert theirs == pytest.approx(3.4, abs=0.05)
+    assert gentle < slip_voltage(KRAKEN.rotation) < theirs
+    assert slip_voltage(KRAKEN.rotation) == pytest.approx(2.4, abs=0.05)
+
+
 def test_slip_makes_ka_too_large_and_leaves_kv():
     log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=4.0), rng=rng())
     gains, true = fit(log, method="sysid").gains, KRAKEN.translation.gains
@@ -159,8 +169,8 @@ def test_slip_makes_ka_too_large_and_leaves_kv():
     assert gains["kA"] > 1.2 * true["kA"]
 
 
-def test_slip_beside_a_hidden_effect_is_left_out_and_it_is_said():
-    robot = KRAKEN.translation.hide("drag")
+def test_slip_beside_a_hidden_joint_is_left_out_and_it_is_said():
+    robot = KRAKEN.translation.hide("backlash")
 
     (doubt,) = simulate(robot, Routine(ramp=0.5, step=3.5), rng=rng()).doubts
 
@@ -182,7 +192,7 @@ def test_below_the_slip_nothing_changes_by_a_digit():
 
 def own_share(drive):
     """[kg·m²] the formula's own answer: rotors and wheels are in both kA."""
-    rotors, lever = drive.wheel_mass, drive.lever
+    rotors, lever = drive.wheel_mass, drive.lever_arm
     return drive.mass * (drive.inertia + rotors * lever**2) / (drive.mass + rotors)
 
 
@@ -200,11 +210,11 @@ def test_two_tests_tell_the_moment_of_inertia(mass, inertia, trackwidth, wheel, 
     )
     step = Routine(ramp=0.5, step=0.9 * slip_voltage(drive.translation))
 
-    found = moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever)
+    found = moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever_arm)
 
     assert found.value == pytest.approx(own_share(drive), rel=0.01)
     assert found.error < 0.02 * found.value
-    assert found.lever_seen == pytest.approx(drive.lever, rel=0.005)
+    assert found.lever_seen == pytest.approx(drive.lever_arm, rel=0.005)
     assert found.doubts == ()
     if 0.03 < drive.wheel_mass / mass < 0.10:
         least, most = found.without_rotors
@@ -216,7 +226,7 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
     light = replace(KRAKEN, wheel_inertia=0.0)
     turning, straight = both(light)
 
-    right = moment_of_inertia(turning, straight, mass=60.0, lever=light.lever)
+    right = moment_of_inertia(turning, straight, mass=60.0, lever=light.lever_arm)
     wrong = moment_of_inertia(turning, straight, mass=60.0, lever=0.3)
 
     assert (right.value, right.doubts) == (pytest.approx(5.0, rel=0.01), ())
@@ -238,7 +248,7 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
 def test_a_wrong_lever_is_named(times, says):
     turning, straight = both(KRAKEN)
 
-    found = moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever * times)
+    found = moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever_arm * times)
 
     assert [doubt.code for doubt in found.doubts] == ["lever"]
     assert says in found.doubts[0].message
@@ -247,7 +257,7 @@ def test_a_wrong_lever_is_named(times, says):
 def test_without_a_lever_the_speeds_tell_it():
     found = moment_of_inertia(*both(KRAKEN), mass=60.0)
 
-    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever, rel=1e-3)
+    assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)
     assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
 
 
@@ -331,7 +341,7 @@ TURNED = ("--voltage", VOLTS.format(1), *GYRO)
 def test_the_command_prints_the_moment_of_inertia(logs, capsys):
     code, said, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", logs / "straight.wpilog",
-        "--mass", 60, "--lever", KRAKEN.lever,
+        "--mass", 60, "--lever", KRAKEN.lever_arm,
     )  # fmt: skip
 
     assert code == 0
@@ -384,7 +394,7 @@ def test_ctres_own_log_of_going_straight_in_rotations_of_a_motor_will_do(tmp_pat
 
     code, said, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
-        "--lever", KRAKEN.lever,
+        "--lever", KRAKEN.lever_arm,
     )  # fmt: skip
     refused, _, why = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60
@@ -418,7 +428,7 @@ def test_advantagekits_log_of_going_straight_is_read_module_by_module(tmp_path, 
     code, said, _ = run(capsys, "fit", path)
     _, turned, _ = run(
         capsys, "fit", logs / "turning.wpilog", *TURNED, "--straight", path, "--mass", 60,
-        "--lever", KRAKEN.lever,
+        "--lever", KRAKEN.lever_arm,
     )  # fmt: skip
 
     assert code == 0
@@ -477,7 +487,7 @@ def test_a_slow_spin_tells_the_radius_of_the_wheels(radius, turns, seed):
     spin = record_spin(drive, turns=turns, rng=rng(seed))
     mean = np.mean(list(spin.motor_turns.values()))
 
-    assert spin.turned * drive.lever * drive.ratio / (2 * math.pi * mean) == pytest.approx(
+    assert spin.turned * drive.lever_arm * drive.ratio / (2 * math.pi * mean) == pytest.approx(
         radius, rel=2e-3
     )
 

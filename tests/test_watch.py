@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from hypothesis import strategies as st
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import read_file_parts
+from sim.cli.options import PartReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.recordings import FileSource
 from sim.core.errors import UnreadableFile
@@ -29,9 +28,7 @@ from sim.io.entries.state import FOREVER
 from sim.io.formats.wpilog.growing import GrowingLog
 from sim.report.next_test import ENOUGH, advise_next, find_voltage_limit, settled_step
 
-READ = partial(
-    read_file_parts, units=None, type=None, motor=None, entries={}, velocity=1.0, pick=None
-)
+READ = PartReader().read_file
 SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
 
 
@@ -83,7 +80,7 @@ def test_each_test_is_reported_once_and_the_gains_are_those_of_the_file(tmp_path
     reported = []
     for share in np.linspace(0.0, 1.0, 41):
         grow(path, content, share)
-        update = live.look()
+        update = live.poll()
         reported += [] if update is None else [(update.tests, update.advice)]
 
     assert [tests for tests, _ in reported] == [(test,) for test in FOUR_TESTS]
@@ -91,7 +88,7 @@ def test_each_test_is_reported_once_and_the_gains_are_those_of_the_file(tmp_path
     assert reported[2][1] == "dynamic-reverse is missing."
     assert reported[3][1] == ENOUGH
     assert live.last.pooled.found.gains == fit(read(path)).in_log_units().gains
-    assert live.look() is None
+    assert live.poll() is None
 
 
 def test_a_test_that_still_runs_is_left_out(tmp_path, content):
@@ -100,7 +97,7 @@ def test_a_test_that_still_runs_is_left_out(tmp_path, content):
     path = tmp_path / "drive.wpilog"
     grow(path, content, 0.9)  # in the middle of the last test
     live = LiveFit(FileSource(path), READ)
-    update = live.look()
+    update = live.poll()
 
     assert [run.test for run in update.log.runs] == list(FOUR_TESTS[:3])
     assert not {one.code for one in update.log.doubts} & {"truncated", "unfinished-run"}
@@ -113,11 +110,11 @@ def test_a_file_that_is_renamed_goes_on(tmp_path, content):
     path = tmp_path / "FRC_TBD_1.wpilog"
     grow(path, content, 0.6)
     live = LiveFit(FileSource(path), READ)
-    first = live.look()
+    first = live.poll()
     path = path.rename(tmp_path / "FRC_20260214_153000.wpilog")
     with path.open("ab") as stream:
         stream.write(content[path.stat().st_size :])
-    second = live.look()
+    second = live.poll()
 
     assert len(first.tests) + len(second.tests) == 4
     assert second.paths == (path,)
@@ -128,15 +125,15 @@ def test_a_file_that_begins_anew_adds_to_what_was_complete(tmp_path, content):
     path = tmp_path / "robot.wpilog"
     grow(path, content, 0.6)
     live = LiveFit(FileSource(path), READ)
-    done = live.look().tests
+    done = live.poll().tests
     other = tmp_path / "other" / "robot.wpilog"
     other.parent.mkdir()
     log = drive_log(seed=2)
     write(replace(log, runs=log.runs[2:]), other)
     grow(path, b"", 0.0)
-    assert live.look() is None
+    assert live.poll() is None
     path.write_bytes(other.read_bytes())
-    update = live.look()
+    update = live.poll()
 
     assert update.tests == FOUR_TESTS[2:]
     assert [run.test for run in update.log.runs] == [*done, *FOUR_TESTS[2:]]
@@ -146,14 +143,14 @@ def test_in_a_folder_logs_of_another_day_do_not_count(tmp_path, content):
     old = tmp_path / "old.wpilog"
     old.write_bytes(content)
     live = LiveFit(FileSource(tmp_path), READ)
-    assert live.look() is None
+    assert live.poll() is None
     assert live.source.status == f"waiting for a log that grows in the folder {tmp_path}"
     new = tmp_path / "new.wpilog"
     grow(new, content, 0.6)
-    first = live.look()
+    first = live.poll()
     restarted = tmp_path / "restarted.wpilog"
     restarted.write_bytes(content)
-    second = live.look()
+    second = live.poll()
 
     assert (first.paths, second.paths) == ((new,), (new, restarted))
     assert second.tests == FOUR_TESTS
@@ -166,7 +163,7 @@ def test_what_is_not_there_or_is_no_log_is_refused(tmp_path):
     foreign = tmp_path / "foreign.wpilog"
     foreign.write_text("this is a text and no log at all", encoding="utf-8")
     with pytest.raises(UnreadableFile, match="does not begin with WPILOG"):
-        LiveFit(FileSource(foreign), READ).look()
+        LiveFit(FileSource(foreign), READ).poll()
 
 
 # ---- what to do next

@@ -5,7 +5,6 @@ import socket
 import subprocess
 import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,7 @@ import pytest
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.cli.options import read_file_parts
+from sim.cli.options import PartReader
 from sim.cli.watch.live_fit import LiveFit
 from sim.cli.watch.network_tables import CUT, NetworkTablesSource
 from sim.core.errors import BadRequest
@@ -26,9 +25,7 @@ from sim.report.next_test import ENOUGH
 pytestmark = pytest.mark.robot
 pytest.importorskip("ntcore", reason="pyntcore is not installed")
 
-READ = partial(
-    read_file_parts, units=None, type=None, motor=None, entries={}, velocity=1.0, pick=None
-)
+READ = PartReader().read_file
 PATIENCE = 60.0  # [s] for what takes a moment
 SEVERAL = 3  # values of a topic, of which the first may have been there before
 
@@ -108,11 +105,11 @@ def wait_for(condition, look):
     return found
 
 
-def connect(live, *, times=1):
+def wait_for_values(live, *, times=1):
     """Wait until values come in one by one, for the first time or again."""
 
     def beats(_):
-        recordings = live.source.look()
+        recordings = live.source.poll()
         if len(recordings) < times:
             return False
         entries = {one.name: len(one) for one in list_entries(recordings[-1].path)}
@@ -123,16 +120,16 @@ def connect(live, *, times=1):
 
 def disconnect(live):
     """Wait until the source knows that it is not connected any more."""
-    wait_for(lambda _: live.source.status.startswith("waiting"), live.look)
+    wait_for(lambda _: live.source.status.startswith("waiting"), live.poll)
 
 
 def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(drive, start, watched):
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     said = []
     for number in range(4):
         robot.publish(number)
-        update = wait_for(lambda one: one, watched.look)
+        update = wait_for(lambda one: one, watched.poll)
         said.append((update.tests, update.advice))
 
     (kept,) = watched.last.paths
@@ -149,9 +146,9 @@ def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(dri
 
 def test_a_step_alone_is_found_by_the_voltage_that_was_there_before_it(start, watched):
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     robot.publish(2)
-    update = wait_for(lambda one: one, watched.look)
+    update = wait_for(lambda one: one, watched.poll)
 
     assert [run.test for run in update.log.runs] == ["dynamic-forward"]
     assert set(update.log.runs[0].voltage) == {3.5}
@@ -162,19 +159,19 @@ def test_a_step_alone_is_found_by_the_voltage_that_was_there_before_it(start, wa
 
 def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(start, watched):
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     robot.publish(0)
-    wait_for(lambda one: one, watched.look)
+    wait_for(lambda one: one, watched.poll)
     robot.publish(1, share=0.5, ends=False)
-    running = watched.source.look()[0].growing.list_tests
-    wait_for(lambda _: len(running()) > 1, watched.look)
+    running = watched.source.poll()[0].growing.list_tests
+    wait_for(lambda _: len(running()) > 1, watched.poll)
     robot.stop()
     disconnect(watched)
     robot = start()
-    connect(watched, times=2)
+    wait_for_values(watched, times=2)
     for number in (1, 2, 3):
         robot.publish(number)
-        update = wait_for(lambda one: one, watched.look)
+        update = wait_for(lambda one: one, watched.poll)
 
     first, second = update.paths
     assert [run.test for run in read(first).runs] == ["quasistatic-forward"]
@@ -191,10 +188,10 @@ def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
     robot.publish(0, share=0.5, ends=False)
     source = NetworkTablesSource(f"127.0.0.1:{port}", folder=tmp_path / "late")
     live = LiveFit(source, READ)
-    connect(live)
+    wait_for_values(live)
     robot.clock = 60.0
     robot.publish(1)
-    update = wait_for(lambda one: one, live.look)
+    update = wait_for(lambda one: one, live.poll)
     source.close()
 
     assert update.tests == ("quasistatic-reverse",)
@@ -211,9 +208,9 @@ def test_a_recording_never_replaces_a_file(start, watched, tmp_path):
     kept = tmp_path / "kept" / "networktables-1.wpilog"
     kept.write_text("mine", encoding="utf-8")
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     robot.publish(0)
-    update = wait_for(lambda one: one, watched.look)
+    update = wait_for(lambda one: one, watched.poll)
 
     assert [path.name for path in update.paths] == ["networktables-2.wpilog"]
     assert kept.read_text(encoding="utf-8") == "mine"

@@ -48,7 +48,7 @@ def outcome(given: Mapping[str, object], variant: Variant) -> Consequence | None
             value = read_answer_number(given.get(name), asked)
         except WrongAnswer:
             continue
-        if not asked.right(value):
+        if not asked.is_right(value):
             motions.append(_moved(name, value, variant))
     if not motions:
         return None

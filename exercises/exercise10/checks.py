@@ -7,18 +7,18 @@ from pathlib import Path
 
 from grader.check import NotReachedError, WrongAnswer, check
 from grader.consequence import Consequence
-from grader.robotcode.gain_constants import DeployFacts, Feedforward, GainConstant, gains_of
+from grader.robotcode.gain_constants import DeployFacts, Feedforward, GainConstant, read_gains
 from grader.student_files import write_student_files
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import check_compiles
 from sim.core.errors import UnreadableFile
 
+from .comment_units import find_commented_units, judge_comment
 from .drawn import draw
 from .handed import check_choices, check_one_place, check_order, feedforward_of, place_of
 from .key import FEED_FORWARD, FULL, PLACES, SLOT0, Variant, near
 from .outcome import outcome
-from .said import judged
 from .slips import constant_slip, feedback_slip, handed_slip
 
 FILES = ("ExampleMechanism.java", "example_mechanism.py")
@@ -105,7 +105,7 @@ def read(path: Path, *, student: str) -> Code:
         UnreadableFile: it cannot be read, or does not parse.
     """
     read_text(path)
-    facts = gains_of(path)
+    facts = read_gains(path)
     if facts.problems:
         first = facts.problems[0]
         raise UnreadableFile(
@@ -125,7 +125,7 @@ def consequence(code: Code) -> Consequence | None:
 def named(code: Code) -> None:
     """A class CharacterizationConstants holds every gain under its own name."""
     wanted = (*code.variant.gains, "kP")
-    there = [one for one in wanted if code.facts.constant(one)]
+    there = [one for one in wanted if code.facts.find_constant(one)]
     if not there:
         raise WrongAnswer(
             "no gain in this file",
@@ -183,7 +183,7 @@ def _right(constant: GainConstant, variant: Variant) -> bool:
 
 
 def _constant(gain: str, code: Code) -> GainConstant:
-    found = code.facts.constant(gain)
+    found = code.facts.find_constant(gain)
     if found is None:
         raise NotReachedError(f"checked after you write a constant {gain}")
     return found
@@ -212,6 +212,13 @@ def units(code: Code) -> None:
     for one in found:
         verdict = _unit_told(one, code)
         shown = f'"{one.comment[:50]}" next to {one.name}' if one.comment else f"{one.name} alone"
+        if verdict is False and any(find_commented_units(one.comment)):
+            raise WrongAnswer(
+                f"{shown}, line {one.line}",
+                hint=f"That is a unit of something else than {one.name}. Each gain times what it "
+                "is multiplied by gives volts.",
+                misconception="M-UNITS",
+            )
         if verdict is False:
             raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",
@@ -227,12 +234,15 @@ def units(code: Code) -> None:
 
 def _unit_told(one: GainConstant, code: Code) -> bool | None:
     """Whether a gain's unit is told; where the number itself is not right, either will do."""
-    units_ = code.variant.units_of(one.gain, one.value)
-    beside = {judged(one.comment, unit, name=one.name) for unit in units_}
-    if True in beside or (beside == {False} and any(judged(code.facts.general, u) for u in units_)):
+    units_ = code.variant.list_matching_units(one.gain, one.value)
+    beside = {judge_comment(one.comment, unit, name=one.name) for unit in units_}
+    if True in beside or (
+        beside == {False} and any(judge_comment(code.facts.general, u) for u in units_)
+    ):
         return True
-    elsewhere = code.variant.units_of(one.gain, None)  # per meter, where per rotation is right
-    if any(judged(one.comment, unit, name=one.name) for unit in elsewhere):
+    # per meter, where per rotation is right
+    elsewhere = code.variant.list_matching_units(one.gain, None)
+    if any(judge_comment(one.comment, unit, name=one.name) for unit in elsewhere):
         return None
     return None if None in beside else False
 
@@ -285,7 +295,7 @@ def _converted(gain: str, one: Feedforward, code: Code) -> None:
     given = next(
         (arg for arg in one.arguments.values() if arg.gain == gain), one.arguments.get(gain)
     )
-    constant = code.facts.constant(gain)
+    constant = code.facts.find_constant(gain)
     if given is None and one.spread:
         hint = "Write the arguments one by one."
         raise WrongAnswer(f"the grader cannot see by reading what {gain} it gets", hint=hint)

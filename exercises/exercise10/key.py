@@ -145,7 +145,7 @@ class Variant:
         """The unit of a gain, of the robot's kind or as the analyzer shows it."""
         return self._unit(gain, self.used_in if used else self.shown_in)
 
-    def units_of(self, gain: str, value: float | None) -> list[str]:
+    def list_matching_units(self, gain: str, value: float | None) -> list[str]:
         """The units that a gain of this value may have; any of this robot's if it is none of it.
 
         Args:

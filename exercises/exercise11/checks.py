@@ -110,7 +110,7 @@ def kc2_volts(answers: Answers) -> str | None:
     """KC2: the voltage that the feedforward gives."""
     asked, raw = answers.variant.volts, answers.given.get("kc2_volts")
     value = read_answer_number(raw, asked)
-    if not asked.right(value):
+    if not asked.is_right(value):
         for slipped, says, code in answers.variant.slips:
             if abs(value - slipped) <= ROUNDED * slipped:
                 raise WrongAnswer(f"{value:.4g} V", hint=says, misconception=code)

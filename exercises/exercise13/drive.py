@@ -85,27 +85,27 @@ class Variant:
         return math.floor(8.0 * slip_voltage(self.drive.translation)) / 10.0
 
     @property
-    def volts_per_rate(self) -> float:
+    def volts_per_angular_speed(self) -> float:
         """[V·s/rad] by which the program turns a rate into a voltage."""
         from sim.physics.motors import theoretical_kv  # noqa: PLC0415 - the same
 
         drive = self.drive
         paper = theoretical_kv(drive.motor, ratio=drive.ratio, radius=drive.wheel_radius)
-        return paper * drive.lever
+        return paper * drive.lever_arm
 
     @property
     def asked(self) -> dict[str, AskedNumber]:
         """The numbers that are asked for, by name."""
         drive = self.drive
         straight, turning = drive.translation.gains, drive.rotation.gains
-        inertia = self.mass * drive.lever * turning["kA"] / straight["kA"]
+        inertia = self.mass * drive.lever_arm * turning["kA"] / straight["kA"]
         torque = drive.motor.torque_constant * drive.slip_current
         numbers = (
             ("kS", straight["kS"], "V", BANDS["kS"]),
             ("kV", straight["kV"], "V·s/m", BANDS["kV"]),
             ("kA", straight["kA"], "V·s²/m", BANDS["kA"]),
             ("worn_radius", self.worn_radius, "m", Band(0.01, 0.02)),
-            ("lever", drive.lever, "m", Band(0.01, 0.01)),
+            ("lever", drive.lever_arm, "m", Band(0.01, 0.01)),
             ("kA_turning", turning["kA"], "V·s²/rad", _ka_band(turning)),
             ("inertia", inertia, "kg·m²", Band(0.08, 0.16)),
             ("slip_current", drive.slip_current, "A", Band(0.06, 0.12)),

@@ -69,6 +69,6 @@ def _readings(tilt: float, rng: "np.random.Generator") -> list[int]:
 def _solvable(variant: Variant) -> bool:
     """Whether two rows of the table are enough."""
     found = variant.found
-    return variant.offset.right(found["arm_offset"]) and all(
-        one.right(found[name]) for name, one in variant.asked.items()
+    return variant.offset.is_right(found["arm_offset"]) and all(
+        one.is_right(found[name]) for name, one in variant.asked.items()
     )

@@ -41,7 +41,7 @@ def _numbers(
         values = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
     except WrongAnswer:
         return None
-    return None if all(one.right(values[name]) for name, one in asked.items()) else values
+    return None if all(one.is_right(values[name]) for name, one in asked.items()) else values
 
 
 def _elevator(given: Mapping[str, object], variant: Variant) -> "Iterator[FollowedProfile]":

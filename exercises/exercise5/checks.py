@@ -7,7 +7,7 @@ from grader.robotcode import bench
 from grader.robotcode.bench import RunFacts, findings
 from grader.robotcode.bench.findings import RunFault, find_stop
 from grader.robotcode.binding_facts import BindingFacts
-from grader.robotcode.bindings import bindings_of
+from grader.robotcode.bindings import read_bindings
 from grader.submission import read_text
 from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import check_compiles, check_spelling
@@ -36,7 +36,7 @@ def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa
         UnreadableFile: it cannot be read, or does not parse.
     """
     read_text(path)
-    facts = bindings_of(path)
+    facts = read_bindings(path)
     if facts.problems:
         first = facts.problems[0]
         raise UnreadableFile(
@@ -46,7 +46,7 @@ def read(path: Path, *, student: str, run: bool = True) -> BindingFacts:  # noqa
         )
     if facts.language == "python":
         bench.refuse_tampering(path)
-    if not run or facts.language != "python" or not bench.installed():
+    if not run or facts.language != "python" or not bench.is_robotpy_installed():
         return facts
     right = run_checks((factories, held, each_once, guard), facts)
     return press(path, facts) if all(one.status is Status.PASSED for one in right) else facts
@@ -104,7 +104,7 @@ def held(facts: BindingFacts) -> str | None:
         check_hold(one, facts, earned=earned)
     if len(facts.bindings) >= len(TESTS):
         check_compiles(facts.compile_errors, language=facts.language, earned=1)
-        if facts.language == "java" or not bench.installed():
+        if facts.language == "java" or not bench.is_robotpy_installed():
             return READ_ONLY[facts.language]
         return agreed(facts, _stops, points=3)
     check_spelling(facts.compile_errors, language=facts.language, earned=earned)

@@ -27,7 +27,7 @@ class Pressed(BindingFacts):
 
 def press(path: Path, facts: BindingFacts) -> Pressed:
     """Press every button of the program."""
-    return Pressed(**vars(facts), ran=bench.press(path, CONTAINER))
+    return Pressed(**vars(facts), ran=bench.press_buttons(path, CONTAINER))
 
 
 def agreed(

@@ -144,7 +144,7 @@ def fitted(log: "Log", preparation: Preparation) -> "Fit":
 
 def earned(value: float, asked: AskedNumber) -> float:
     """Points for one gain: all of them, half, or none."""
-    if asked.right(value):
+    if asked.is_right(value):
         return POINTS
     near = abs(value - asked.expected) <= asked.band.widths(asked.expected)[1]
     return HALF * POINTS if near else 0.0

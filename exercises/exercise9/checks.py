@@ -107,7 +107,7 @@ def draw_solvable(
         per = find_unit(mechanism.units)
         gains = gains_per(mechanism.gains, factor=per.si)
         asked = ask_gains(gains, position=per.symbol)
-        found_all = all(one.right(found.gains[name]) for name, one in asked.items())
+        found_all = all(one.is_right(found.gains[name]) for name, one in asked.items())
         if found_all and not _alike(asked):
             return Variant(mechanism, log, found, asked)
     raise RuntimeError(f"no solvable mechanism for {student!r}")
@@ -116,7 +116,7 @@ def draw_solvable(
 def _alike(asked: Mapping[str, AskedNumber]) -> bool:
     """Whether two gains could change places unseen."""
     return any(
-        one.right(other.expected)
+        one.is_right(other.expected)
         for one in asked.values()
         for other in asked.values()
         if one is not other
@@ -204,7 +204,7 @@ def function(answers: Answers) -> str | None:
 
 def is_measured_r2(value: float, asked: AskedNumber) -> bool:
     """Whether an R² is right: near the expected one, and 1 only where two digits make it 1."""
-    return asked.right(value) and (value < 1 or round(asked.expected, 2) >= 1)
+    return asked.is_right(value) and (value < 1 or round(asked.expected, 2) >= 1)
 
 
 def _metric(name: str, answers: Answers) -> None:
@@ -221,7 +221,7 @@ def _metric(name: str, answers: Answers) -> None:
         hint = "R² is at most 1: write a fraction, not percent."
     elif value == 1:
         hint = PERFECT
-    elif asked[other].right(value):
+    elif asked[other].is_right(value):
         hint = f"That is the {other}. Did you swap the two?"
     else:
         hint = "sysid fit --method sysid prints both; its R² are SysId's own."
@@ -256,7 +256,7 @@ def _missed(answers: Answers) -> str:
         mine, best = (
             float(np.sqrt(np.mean((voltage - known @ np.array(g)) ** 2))) for g in (gains, good)
         )
-    if not np.isfinite(mine):
+    if not np.isfinite(mine) or mine <= best:  # noise: it says nothing about these gains
         return ""
     return (
         f". With your three gains, the voltage error in the log is {_volts(mine)} (RMS); with a "

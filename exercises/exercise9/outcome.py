@@ -28,7 +28,7 @@ def outcome(
         gains = {name: read_answer_number(given.get(name), one) for name, one in asked.items()}
     except WrongAnswer:
         return None
-    if all(one.right(gains[name]) for name, one in asked.items()):
+    if all(one.is_right(gains[name]) for name, one in asked.items()):
         return None
     plant = Plant("simple", {name: one.expected for name, one in asked.items()})
     place = "" if kind in SPINS else "way"

@@ -140,7 +140,7 @@ def _fair(log: "Log", asked: Mapping[str, AskedNumber], *, si: float, noisy: boo
         abs(value - one.expected) <= ROOM * one.band.widths(one.expected)[0]
         for value, one in zip(honest, asked.values(), strict=True)
     )
-    caught = not all(map(AskedNumber.right, asked.values(), naive.tolist()))
+    caught = not all(map(AskedNumber.is_right, asked.values(), naive.tolist()))
     return room and (caught or not noisy)
 
 
@@ -264,11 +264,13 @@ def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
 
 def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
     if name in answer.refused:
-        hint = f"Return one number for {name}: float(...) makes one, if there is one"
+        hint = f"Return one number for {name}: float(...) makes one of a single value"
+        if answer.refused[name] == "None":
+            hint = f"Your function does not find {name} yet: it returns None"
         return Miss(log, WrongAnswer(f"{name} = {answer.refused[name]}", hint=hint))
     one, value, period = log.key.asked[name], answer.numbers.get(name), log.recipe.period
     # a kA of 0.02 s is too large by as much as samples are closer
-    if value and name == "kA" and period != USUAL and one.right(value * period / USUAL):
+    if value and name == "kA" and period != USUAL and one.is_right(value * period / USUAL):
         why = WrongAnswer(f"{name} = {value:.4g} {one.unit}", hint=ASSUMED.says)
         return Miss(log, why, judged=True, slips=frozenset({ASSUMED.code}))
     try:

@@ -1,4 +1,4 @@
-"""A class graded: what is known is kept, the rest is done, and one never stops the others."""
+"""Grade a class: known results are reused, and one student's failure never stops the others."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from sim.support.work.cluster import run_jobs_on_cluster
 
 @dataclass(frozen=True)
 class GradedClass:
-    """What is graded, and by what.
+    """The submissions of a class, and the course that grades them.
 
     Args:
         handed_in: by whom, and what.
@@ -48,7 +48,7 @@ class GradedClass:
                 digest_job(one, names=names, made_by=made_by, secret=self.secret),
                 one.files,
                 one.problems,
-                one.numbers_of,
+                one.numbers_owner,
                 names,
                 course,
                 self.secret,
@@ -74,7 +74,7 @@ def _find_robotpy_version() -> str:
 
 @dataclass(frozen=True)
 class GradingPlan:
-    """What is left to do.
+    """Which submissions have results already, and which are still to be graded.
 
     Args:
         kept: results from before that still hold.
@@ -88,7 +88,7 @@ class GradingPlan:
 def plan_grading(
     asked: GradedClass, store: ResultStore, *, travel: bool, again: bool
 ) -> GradingPlan:
-    """Look what is known already.
+    """Split submissions into those with stored results and those to be graded.
 
     Args:
         asked: the class.
@@ -116,7 +116,7 @@ def grade_class(
     say: Callable[[], None],
     stop_if_asked: Callable[[], None] = lambda: None,
 ) -> tuple[GradedStudent, ...]:
-    """Grade what is left, keep it, and give back all results in order of the students' names.
+    """Grade what is left, store it, and return all results sorted by student.
 
     Args:
         asked: the class.

@@ -35,7 +35,7 @@ HERE_ONLY = frozenset({"engine", "image", "output"})  # options that the command
 
 
 def grade_in_container(context: click.Context, *, course: Path, output: Path) -> int:
-    """Run this ``grade class`` once more in a container; its exit code.
+    """Run the same ``grade class`` command in a container; its exit code.
 
     Args:
         context: of the command, with its options; ``engine`` and ``image`` are among them.

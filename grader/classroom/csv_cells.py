@@ -6,7 +6,7 @@ FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def escape_formula(text: str) -> str:
-    """A name that stays a name: one that begins as a formula does gets an apostrophe first.
+    """The text of a cell, with an apostrophe in front if a spreadsheet would take it for a formula.
 
     Source: OWASP, "CSV Injection".
     """

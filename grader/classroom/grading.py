@@ -31,7 +31,7 @@ class GradingJob:
         digest: of everything the results depend on.
         files: exercise -> file name -> content.
         problems: exercise -> why it cannot be graded.
-        numbers_of: whose numbers it is graded on; the student's own but for who studied as nobody.
+        numbers_owner: whose numbers it is graded on: the student's, unless they studied as nobody.
         names: the exercises to grade.
         course: the course folder, or all of it that grading needs, for another machine.
         secret: of the class; None where everybody's numbers are those of self-study.
@@ -42,7 +42,7 @@ class GradingJob:
     digest: str
     files: Mapping[str, Files]
     problems: Mapping[str, str]
-    numbers_of: str
+    numbers_owner: str
     names: tuple[str, ...]
     course: "Path | CourseBundle"
     secret: bytes | None
@@ -91,7 +91,7 @@ def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        grade = exercise.grade(folder, student=job.numbers_of, run=job.run)
+        grade = exercise.grade(folder, student=job.numbers_owner, run=job.run)
         return make_grade_record(replace(grade, student=student))
     except MemoryError:
         reason = "grading it needed more memory than this computer has"

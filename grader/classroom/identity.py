@@ -16,7 +16,7 @@ from sim.core.errors import BadRequest, Refusal
 def check_identities(
     handed_in: Sequence[Submission], *, secret: bytes | None
 ) -> tuple[Submission, ...]:
-    """Find who handed in another student's package, and who worked without a name.
+    """The submissions, marked where a student handed in another's package or worked without a name.
 
     Args:
         handed_in: by everybody.

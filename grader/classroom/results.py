@@ -9,7 +9,7 @@ from grader.classroom.grading import GradedStudent
 
 @dataclass(frozen=True)
 class ClassResults:
-    """A class, graded.
+    """The results of a class.
 
     Args:
         name: of the class.

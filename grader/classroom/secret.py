@@ -1,4 +1,4 @@
-"""What a class's numbers are drawn from, and its data sealed with: only its instructor holds it."""
+"""The secret of a class: its numbers are drawn from it, and its data are sealed with it."""
 
 import hashlib
 import hmac
@@ -44,13 +44,13 @@ def find_secret(path: Path | None, *, make: bool) -> Secret | None:
 
 
 def seal_file(secret: bytes, *, student: str, content: bytes) -> str:
-    """A text that only the holder of the secret can find for this student's file."""
+    """The seal (HMAC) of one student's file, which only the holder of the secret can compute."""
     message = student.casefold().encode() + b"\0" + hashlib.sha256(content).digest()
     return hmac.digest(secret, b"seal\0" + message, hashlib.sha256).hex()
 
 
 def seal_identity(secret: bytes, *, student: str, name: str) -> str:
-    """A text that only the class itself can find for whom it issued a package to.
+    """The seal (HMAC) of the student that a package was issued to.
 
     Args:
         secret: of the class.

@@ -18,7 +18,7 @@ RESULTS = "results"
 def digest_job(
     one: Submission, *, names: tuple[str, ...], made_by: str, secret: bytes | None
 ) -> str:
-    """A text that changes with whatever a student's results depend on.
+    """A digest of everything that a student's results depend on.
 
     Args:
         one: what the student handed in.
@@ -27,7 +27,7 @@ def digest_job(
         secret: of the class.
     """
     found = hmac.new(secret or b"alone", digestmod=hashlib.sha256)
-    about = [one.student, one.numbers_of, sorted(one.problems.items()), names, made_by]
+    about = [one.student, one.numbers_owner, sorted(one.problems.items()), names, made_by]
     found.update(json.dumps(about).encode())
     for exercise, those in sorted(one.files.items()):
         for name, content in sorted(those.items()):

@@ -37,7 +37,7 @@ MOST_LIKELY = 3  # so many are proposed
 
 @dataclass(frozen=True)
 class SubmissionName:
-    """What the name of a file or folder says.
+    """Student and exercise, as the name of a file or folder tells them.
 
     Args:
         student: the name in it, as the platform writes it.
@@ -97,7 +97,7 @@ class Identities:
         self._canvas_ids.pop("", None)
 
     def find(self, name: SubmissionName) -> str | None:
-        """The only student on the roster that is meant; None if there is none, or several."""
+        """The student on the roster that a name means; None if it means none, or several."""
         try:
             exact = self._students.get(normalize_name(name.student))
         except Refusal:

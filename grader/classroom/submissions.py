@@ -71,8 +71,8 @@ class Submission:
     worked_as: str = ""
 
     @property
-    def numbers_of(self) -> str:
-        """Whose numbers it is graded on."""
+    def numbers_owner(self) -> str:
+        """The student whose numbers it is graded on."""
         return self.worked_as or self.student
 
 
@@ -180,7 +180,7 @@ def read_submission(
     asked: Sequence[Exercise] | None = None,
     student: str | None = None,
 ) -> Submission:
-    """What one student handed in; what cannot be read is said, and stops nobody.
+    """What one student handed in; files that cannot be read are noted in it.
 
     Args:
         place: a folder or a zip file.

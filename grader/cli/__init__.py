@@ -42,7 +42,7 @@ class ExerciseOrCommand(click.Group):
     """A group whose first word may be the name of an exercise; commands are imported when asked."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Those of this file, and those in modules of their own."""
+        """The names of all commands: those of this file, and those in modules of their own."""
         return sorted([*super().list_commands(ctx), *MODULES])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:

@@ -30,7 +30,7 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     from grader.cli import locate_course  # noqa: PLC0415 - which imports this module
     from grader.mystery import (  # noqa: PLC0415 - --help has to start at once
         draw_mystery,
-        find_folder,
+        find_mystery_folder,
         grade_mystery,
         load_state,
         open_mystery,
@@ -39,7 +39,7 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     from grader.report import format_checks  # noqa: PLC0415 - the same
 
     course, _, who = locate_course(student)
-    folder = find_folder(course, who)
+    folder = find_mystery_folder(course, who)
     state = load_state(folder)
     place = folder.relative_to(course)
     if state.seed is None:

@@ -21,7 +21,7 @@ MADE_FROM = "made_from"  # in a kept notebook's metadata: the digest of what its
 def execute_notebook(
     path: Path, *, environment: Mapping[str, str] | None = None, allow_errors: bool = False
 ) -> Any:  # noqa: ANN401 - nbformat has no types
-    """Run a notebook; what it shows, and the state of its widgets, is in what comes back.
+    """Execute a notebook; the result holds its outputs and the state of its widgets.
 
     Args:
         path: of the notebook, in the folder ``lessons`` of a course.
@@ -68,7 +68,7 @@ def execute_notebook(
 
 
 def keep_notebook(notebook: Any, path: Path, *, folder: Path) -> None:  # noqa: ANN401 - nbformat has no types
-    """Keep an executed notebook, so that `find_kept_notebook` spares running it again.
+    """Store an executed notebook for ``find_kept_notebook``.
 
     Args:
         notebook: as `execute_notebook` returns it.

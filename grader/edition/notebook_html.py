@@ -15,7 +15,7 @@ NOTE = (
 
 @dataclass(frozen=True)
 class LessonPart:
-    """What stands under one heading.
+    """One section of a lesson: a heading and the cells under it.
 
     Args:
         heading: its text; the first part's is the title.
@@ -29,12 +29,12 @@ class LessonPart:
 
     @property
     def anchor(self) -> str:
-        """What a link to it ends with."""
+        """The anchor of the section in links."""
         return re.sub(r"[^a-z0-9]+", "-", self.heading.lower()).strip("-")
 
 
 def split_notebook(notebook: Any) -> tuple[LessonPart, ...]:  # noqa: ANN401 - nbformat has no types
-    """An executed notebook, cut at its title and its sections."""
+    """Split an executed notebook at its title and its sections."""
     found: list[tuple[str, int, list[str]]] = []
     for is_markdown, text in render_cells(notebook):
         if not is_markdown:

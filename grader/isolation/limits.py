@@ -12,7 +12,7 @@ PARENT_DEATH_SIGNAL = 1  # prctl's number of it: <linux/prctl.h>
 
 
 def end_with_parent() -> None:
-    """On Linux, be ended when the process that keeps the time is: else nobody would keep it."""
+    """On Linux, end with the parent process, which keeps the time limit."""
     if sys.platform.startswith("linux"):
         ctypes.CDLL(None).prctl(PARENT_DEATH_SIGNAL, int(signal.SIGKILL), 0, 0, 0)
 

@@ -1,4 +1,4 @@
-"""What a child said, judged outside: nothing in it is believed but numbers."""
+"""Parse the output of the child process; only numbers in it are trusted."""
 
 import json
 import math
@@ -11,7 +11,7 @@ NO_NUMBERS = {"nan": "nan", "inf": "infinity"}
 
 @dataclass(frozen=True)
 class CallResult:
-    """What one call gave.
+    """The result of one call of a learner's function.
 
     Args:
         numbers: name -> value; finite, of type float.
@@ -26,7 +26,7 @@ class CallResult:
 
 @dataclass(frozen=True)
 class ParsedResults:
-    """Everything a child said.
+    """The parsed output of a child process.
 
     Args:
         force: what confined it, by its own word before it read the learner's file; None if it never

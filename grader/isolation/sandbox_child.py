@@ -26,7 +26,7 @@ LONGEST = 200  # [characters] of what is said about anything
 
 
 def main() -> None:
-    """Do what standard input asks for."""
+    """Carry out the orders on standard input."""
     orders = json.load(sys.stdin)
     say = _open_result_stream(orders["nonce"])
     sys.path[:] = [path for path in sys.path if Path(path) != Path(orders["root"])]
@@ -67,7 +67,7 @@ def _open_result_stream(nonce: str) -> Callable[[Mapping[str, object]], None]:
 
 
 def close_input() -> None:
-    """Leave nothing to read where the orders came from."""
+    """Replace standard input by an empty file: the learner's code must not read the orders."""
     empty = os.open(os.devnull, os.O_RDONLY)
     os.dup2(empty, 0)
     os.close(empty)
@@ -99,7 +99,7 @@ class PackageFinder:
 
 
 def confine_process(orders: Mapping[str, Any]) -> dict[str, object]:
-    """Give up what the learner's code does not need, and say what that was."""
+    """Confine this process, and return which restrictions took effect."""
     end_with_parent()
     readable = [Path(orders["given"])]
     for folder in map(Path, orders["packages"].values()):
@@ -122,7 +122,7 @@ def confine_process(orders: Mapping[str, Any]) -> dict[str, object]:
 
 
 def unload_course_modules() -> None:
-    """Leave nothing of the course among the modules that are loaded."""
+    """Remove the course's modules from ``sys.modules``."""
     for name in [name for name in sys.modules if name.partition(".")[0] == "grader"]:
         del sys.modules[name]
 

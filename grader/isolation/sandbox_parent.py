@@ -1,4 +1,4 @@
-"""From outside: start the child, hand it the data, keep the time, take what it says, end it."""
+"""The parent's side: start the child, send it the data, limit its time, read its output, end it."""
 
 import contextlib
 import importlib.util
@@ -55,7 +55,7 @@ class FunctionCall:
 
 @dataclass(frozen=True)
 class Limits:
-    """How much a child may take.
+    """Limits of a child process: time, memory, output.
 
     Args:
         seconds: [s] for all calls together, by the clock on the wall and of the processor.
@@ -72,13 +72,13 @@ class Limits:
     numbers: int = 64 * 1024
 
     def for_child(self) -> dict[str, int]:
-        """What the child sets for itself: seconds of the processor, bytes."""
+        """The limits that the child sets for itself: processor time [s] and memory [bytes]."""
         return {"seconds": int(self.seconds) + 1, "memory": self.memory, "file": self.file}
 
 
 @dataclass(frozen=True)
 class SandboxOutcome:
-    """What became of a learner's code.
+    """The outcome of running a learner's code.
 
     Args:
         answers: one for each call, in order; those before an untimely end are kept.

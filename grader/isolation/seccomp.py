@@ -77,7 +77,7 @@ TABLES = {
 
 
 def forbid_syscalls() -> bool:
-    """Give the calls up; whether this system and processor could."""
+    """Forbid the system calls; False where this system or processor cannot."""
     table = TABLES.get(platform.machine())
     if table is None or not sys.platform.startswith("linux") or sys.maxsize < 2**32:
         return False

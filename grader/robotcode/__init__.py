@@ -32,6 +32,6 @@ def read(path: "Path") -> "RoutineFacts":
     Raises:
         UnreadableFile: it is missing, empty, too large, not text, or neither Java nor Python.
     """
-    from grader.robotcode.routine import facts_of  # noqa: PLC0415 - a command's start stays quick
+    from grader.robotcode.routine import read_routine_facts  # noqa: PLC0415 - a command's start stays quick
 
-    return facts_of(path)
+    return read_routine_facts(path)

@@ -13,7 +13,7 @@ CHANGED = math.nan  # a factor that is not one, and no constant either: 1 / batt
 
 
 class Mark(Enum):
-    """A source that has a part in a value."""
+    """A source that a value depends on."""
 
     APPLIED = "applied"  # a voltage the motor controller reports
     DUTY = "duty"  # the share of the bus voltage it reports
@@ -32,7 +32,7 @@ class MotorLog:
 
 @dataclass(frozen=True)
 class Value:
-    """A value as far as the text tells.
+    """An abstract value: what the program text tells about it.
 
     Args:
         origin: the node it comes from, variables followed.
@@ -63,15 +63,15 @@ class Value:
     captured: "dict[str, Value]" = field(default_factory=dict)
 
     @property
-    def scaled(self) -> bool | None:
+    def is_scaled(self) -> bool | None:
         """Whether the parameter is changed in it, a sign apart; None if it cannot be told."""
         if not self.carries:
             return self.carries
         return None if self.factor is None else not math.isclose(abs(self.factor), 1.0)
 
     @property
-    def telling(self) -> bool:
-        """Whether there is anything to remember about it."""
+    def is_informative(self) -> bool:
+        """Whether anything is known about it."""
         return self.carries is not False or bool(self.marks) or self.closed or self.log is not None
 
     def times(self, factor: float | None) -> "Value":

@@ -21,25 +21,25 @@ from grader.robotcode.button_vocabulary import CHOOSERS, HOLDS, LOOPS, SCHEDULER
 from grader.robotcode.closure import (
     BoundNode,
     enter_call,
-    functions_named,
-    functions_of,
+    list_called_functions,
     resolve_bound,
+    resolve_call,
 )
-from grader.robotcode.commands import Commands, Runs
-from grader.robotcode.comments import comments, comments_near
-from grader.robotcode.compiling import compile_errors
-from grader.robotcode.compiling.season import import_season
+from grader.robotcode.commands import CommandReader, TestsRun
+from grader.robotcode.comments import find_comments_near, list_comments
+from grader.robotcode.compiling import find_compile_errors
+from grader.robotcode.compiling.season import find_season
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
-from grader.robotcode.controllers import controllers
-from grader.robotcode.factories import factories, is_private
+from grader.robotcode.controllers import find_controllers
+from grader.robotcode.factories import find_factories, is_private
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Member, Node, SourceSpan
 from grader.robotcode.name_resolution import last_name
-from grader.robotcode.scope import Scope, walk
+from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.triggers import Asks, TriggerPart, Triggers
+from grader.robotcode.triggers import TriggerKind, TriggerPart, Triggers
 from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 120  # pieces of code one inside the other
@@ -53,10 +53,10 @@ OPPOSED = re.compile(  # ... and of one that does not hold in test mode
     rf"not\({MODE}\)|(is)?(teleop|autonomous)(enabled)?", re.IGNORECASE
 )
 _GUARDS = {
-    Asks.TEST_MODE: Guard.TEST_MODE,
-    Asks.SWITCH: Guard.TOGGLE,
-    Asks.OTHER_MODE: Guard.OTHER_MODE,
-    Asks.ONCE: Guard.ASKED_ONCE,
+    TriggerKind.TEST_MODE: Guard.TEST_MODE,
+    TriggerKind.SWITCH: Guard.TOGGLE,
+    TriggerKind.OTHER_MODE: Guard.OTHER_MODE,
+    TriggerKind.ONCE: Guard.ASKED_ONCE,
 }
 
 
@@ -77,8 +77,8 @@ class _Way:
     depth: int = 0
 
 
-def bindings_of(path: Path) -> BindingFacts:
-    """Read what a robot program says about starting its tests, without running any of it.
+def read_bindings(path: Path) -> BindingFacts:
+    """Read which buttons of a robot program start its SysId tests, without running it.
 
     Args:
         path: a ``.java`` or ``.py`` file: the RobotContainer, say.
@@ -98,10 +98,10 @@ class _Reader:
     def __init__(self, names: SymbolTable) -> None:
         measures = ConstantFolder(names)
         self._names = names
-        self._commands = Commands(names, measures)
+        self._commands = CommandReader(names, measures)
         self._triggers = Triggers(names, measures)
         self._truth = TruthFolder(names, measures)
-        self._comments = comments(names.main)
+        self._comments = list_comments(names.main)
         self._bindings: list[Binding] = []
         self._start = 0  # how many bindings there were before the method that is gone through
         self._disabled: Hindrance | None = None  # the call that turned the scheduler off
@@ -113,8 +113,10 @@ class _Reader:
     def facts(self) -> BindingFacts:
         """All facts of the file."""
         main = self._names.main
-        every = list(walk(main.body, Scope(main)))
-        called_ = {f for node, scope in every for f in functions_named(node, scope, self._names)}
+        every = list(walk_with_scopes(main.body, Scope(main)))
+        called_ = {
+            f for node, scope in every for f in list_called_functions(node, scope, self._names)
+        }
         uncalled = []
         for node, scope in every:
             if isinstance(node, Class):
@@ -134,14 +136,14 @@ class _Reader:
             self._hinder_all(hindrance)
         return BindingFacts(
             main.language,
-            factories=tuple(factories(every, self._names, self._commands)),
+            factories=tuple(find_factories(every, self._names, self._commands)),
             bindings=tuple(dict.fromkeys(self._bindings)),
-            controllers=controllers(every, self._names, self._triggers),
+            controllers=find_controllers(every, self._names, self._triggers),
             elsewhere=tuple(self._elsewhere.items()),
             uncalled=tuple(uncalled),
             unread=tuple(dict.fromkeys(self._unread)),
-            compile_errors=compile_errors(self._names),
-            season=import_season(main.imports),
+            compile_errors=find_compile_errors(self._names),
+            season=find_season(main.imports),
         )
 
     def _several(
@@ -152,7 +154,7 @@ class _Reader:
     ) -> None:
         for node in nodes:
             if around is not None:
-                self._through(around.at(node), way)
+                self._through(around.with_node(node), way)
             if isinstance(node, Branch) and LEAVES.match(node.place.text):
                 return
 
@@ -172,8 +174,8 @@ class _Reader:
             return
         inner = replace(way, depth=way.depth + 1)
         if isinstance(node, Branch) and node.inside and node.place.text.startswith(("if", "elif")):
-            condition = seen.at(node.inside[0])
-            if self._truth.of(condition) is False:
+            condition = seen.with_node(node.inside[0])
+            if self._truth.fold(condition) is False:
                 return
             inner = replace(inner, conditions=(*way.conditions, condition))
         self._several(node.parts, seen, inner)
@@ -182,15 +184,15 @@ class _Reader:
 
     def _loop(self, seen: BoundNode, loop: Loop, way: _Way) -> None:
         """Go through a loop's body for each element, where they are written out."""
-        several = resolve_bound(seen.at(loop.collection), self._names)
+        several = resolve_bound(seen.with_node(loop.collection), self._names)
         items = self._items(several)
         inner = replace(way, depth=way.depth + 1)
         if not items:
             self._several(loop.body, seen, inner)
         for item in items:
-            element = several.at(item)
+            element = several.with_node(item)
             parts = item.items if isinstance(item, Items) else (item,)
-            named = dict(zip(loop.variables, map(several.at, parts), strict=False))
+            named = dict(zip(loop.variables, map(several.with_node, parts), strict=False))
             if len(loop.variables) == 1:
                 named = {loop.variables[0]: element}
             given = {**seen.given, **named}
@@ -206,7 +208,7 @@ class _Reader:
             return ()
         if last_name(node.target) == "zip":
             columns = [
-                self._items(resolve_bound(several.at(arg), self._names)) for arg in node.args
+                self._items(resolve_bound(several.with_node(arg), self._names)) for arg in node.args
             ]
             return tuple(Items(row[0].place, row) for row in zip(*columns, strict=False))
         return node.args if last_name(node.target) in {"of", "asList"} else ()
@@ -214,7 +216,7 @@ class _Reader:
     def _call(self, seen: BoundNode, call: Call, way: _Way) -> None:
         name = java_spelling(last_name(call.target))
         args = [*call.args, *(node for _, node in call.named)]
-        functions = functions_of(seen, self._names)
+        functions = resolve_call(seen, self._names)
         if name == "clear" and isinstance(call.target, Member) and not functions:
             self._cleared(seen, call, call.target.owner)
         elif name in SWITCHES and isinstance(call.target, Member) and not functions:
@@ -222,7 +224,7 @@ class _Reader:
         elif name == "cancelAll" and isinstance(call.target, Member) and not functions:
             self._cancelled(seen, call, call.target.owner, way)
         elif name in HOLDS and isinstance(call.target, Member) and args and not functions:
-            self._bound(seen, call, seen.at(args[-1]), way)
+            self._bound(seen, call, seen.with_node(args[-1]), way)
         elif name in CHOOSERS and not functions:
             self._chosen(seen, call, args)
         elif len(functions) == 1 and functions[0][1].module is self._names.main:
@@ -256,7 +258,7 @@ class _Reader:
 
     def _call_at_start(self, seen: BoundNode, owner: Node) -> str:
         """The method that a node calls while the program starts; empty in a lambda."""
-        found = resolve_bound(seen.at(owner), self._names).node
+        found = resolve_bound(seen.with_node(owner), self._names).node
         later = any(not one.name for one in seen.scope.functions)
         return (
             "" if later or not isinstance(found, Call) else java_spelling(last_name(found.target))
@@ -272,25 +274,25 @@ class _Reader:
     def _chosen(self, seen: BoundNode, call: Call, args: list[Node]) -> None:
         """A test that somebody chooses instead of holding a button."""
         owner = [call.target.owner] if isinstance(call.target, Member) else []
-        runs = [self._commands.of(seen.at(node)) for node in [*args, *owner]]
+        runs = [self._commands.find_tests(seen.with_node(node)) for node in [*args, *owner]]
         if any(one.tests for one in runs):
             self._elsewhere.setdefault(call.place.text, call.target.place.line)
 
     def _bound(self, seen: BoundNode, call: Call, command: BoundNode, way: _Way) -> None:
-        runs = self._commands.of(command)
+        runs = self._commands.find_tests(command)
         line = call.target.place.line
         said = f"{last_name(call.target)}({command.node.place.text})"
         if runs.either or (runs.unclear is not None and not runs.tests):
             self._unread.append(ParseProblem(f"the grader cannot see which test {said} runs", line))
         if runs.either or not runs.tests or not isinstance(call.target, Member):
             return
-        parts = self._triggers.parts(seen.at(call.target.owner))
-        silent = {Asks.NOTHING, Asks.DELAYED}
+        parts = self._triggers.find_parts(seen.with_node(call.target.owner))
+        silent = {TriggerKind.NOTHING, TriggerKind.DELAYED}
         keys = sorted({part.key for part in parts if part.asks not in silent})
-        unknown = any(part.asks is Asks.UNKNOWN for part in parts)
+        unknown = any(part.asks is TriggerKind.UNKNOWN for part in parts)
         hold = HOLDS[java_spelling(last_name(call.target))]
         kinds = {part.asks for part in parts}
-        if Asks.RELEASED in kinds and Asks.BUTTON not in kinds:
+        if TriggerKind.RELEASED in kinds and TriggerKind.BUTTON not in kinds:
             hold = Hold.RELEASED
         controllers = (part.controller for part in parts if part.controller)
         self._bindings.append(
@@ -305,49 +307,51 @@ class _Reader:
                 self._said((*way.places, call.place)),
                 said,
                 way.places[-1].line if seen.given and way.places else line,
-                (*runs.hindrances, *self._hindered(seen.at(call.target.owner), parts, runs)),
+                (*runs.hindrances, *self._hindered(seen.with_node(call.target.owner), parts, runs)),
             )
         )
 
     def _hindered(
-        self, trigger: BoundNode, parts: tuple[TriggerPart, ...], runs: Runs
+        self, trigger: BoundNode, parts: tuple[TriggerPart, ...], runs: TestsRun
     ) -> Iterator[Hindrance]:
         """Why a trigger never becomes true, alone or with its command's condition, or only late."""
         keys = [part.key for part in self._asked(parts, runs)]
-        never = self._truth.of(trigger) is False
+        never = self._truth.fold(trigger) is False
         if never or (any(map(OPPOSED.fullmatch, keys)) and any(map(ASKED.fullmatch, keys))):
             yield Hindrance(HindranceKind.CLOSED, trigger.node.place.text)
         for part in parts:
-            if part.asks is Asks.DELAYED:
+            if part.asks is TriggerKind.DELAYED:
                 yield Hindrance(HindranceKind.DELAYED, part.key)
 
-    def _guards(self, parts: tuple[TriggerPart, ...], runs: Runs, way: _Way) -> tuple[Guard, ...]:
+    def _guards(
+        self, parts: tuple[TriggerPart, ...], runs: TestsRun, way: _Way
+    ) -> tuple[Guard, ...]:
         """What has to be true beside the button."""
         asked = self._asked(parts, runs)
         found = [_GUARDS[part.asks] for part in asked if part.asks in _GUARDS]
-        buttons = {part.key for part in asked if part.asks is Asks.BUTTON}
+        buttons = {part.key for part in asked if part.asks is TriggerKind.BUTTON}
         if len(buttons) > 1:
             found.append(Guard.CHORD)
         for condition in way.conditions:
-            for part in self._triggers.parts(condition):
-                once = part.asks is Asks.TEST_MODE
-                if once or part.asks is Asks.SWITCH:
+            for part in self._triggers.find_parts(condition):
+                once = part.asks is TriggerKind.TEST_MODE
+                if once or part.asks is TriggerKind.SWITCH:
                     found.append(Guard.ASKED_ONCE if once else Guard.TOGGLE)
         return tuple(dict.fromkeys(found))
 
-    def _asked(self, parts: tuple[TriggerPart, ...], runs: Runs) -> list[TriggerPart]:
+    def _asked(self, parts: tuple[TriggerPart, ...], runs: TestsRun) -> list[TriggerPart]:
         """What the trigger and the command's own decorators ask; all of it has to hold."""
         asked = [*parts]
         for condition in runs.conditions:
-            asked += self._triggers.parts(condition)
+            asked += self._triggers.find_parts(condition)
         for condition in runs.exceptions:
-            asked += self._triggers.opposite(condition)
+            asked += self._triggers.find_negated_parts(condition)
         return asked
 
     def _said(self, places: tuple[SourceSpan, ...]) -> str:
         """The comments beside the places that led to a binding."""
         found = dict.fromkeys(
-            comments_near(self._comments, place.line, _last(place))
+            find_comments_near(self._comments, place.line, _last(place))
             for place in places
             if place.source is self._names.main.source
         )

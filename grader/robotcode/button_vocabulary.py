@@ -96,8 +96,8 @@ NUMBERED = (
 )
 
 
-def button(method: str) -> str:
-    """A button by whatever method it is asked: ``getAButton``, ``a`` and ``getHID`` aside."""
+def button_name(method: str) -> str:
+    """The name of a button, whichever method reads it: ``getAButton`` or ``a``."""
     bare = re.sub(r"^(get|k)(?=[A-Z])", "", method)
     bare = re.sub(r"(Button|Axis)?(Pressed|Released)?$", "", bare) or method
     return bare.replace("_", "").lower()

@@ -5,8 +5,9 @@ entry in a log) is for a subclass to say.
 """
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 
 from grader.robotcode.abstract_value import Value, join_values
@@ -15,11 +16,12 @@ from grader.robotcode.ir import Call, Function, Member, Node, Reference, Self
 from grader.robotcode.motors import motor_label
 from grader.robotcode.name_resolution import (
     Method,
-    called_functions,
-    class_of,
+    find_called_functions,
+    find_class,
+    find_implementing_methods,
+    infer_type,
     last_name,
     resolve,
-    type_of,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.statement_interpreter import Frame, StatementInterpreter
@@ -38,18 +40,18 @@ class CallbackInterpreter(StatementInterpreter):
     """
 
     @abstractmethod
-    def command(
+    def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
-        """Take note of a call of code outside these files, if it is one this trace is after.
+        """Note a call of library code, if this trace looks for it.
 
         Returns:
             What the call gives; None if it is nothing to this trace.
         """
 
     @abstractmethod
-    def entries(self) -> int:
-        """How much has been noted so far."""
+    def entry_count(self) -> int:
+        """How many calls have been noted so far."""
 
     def run(self, callback: Node, scope: Scope, parameter: Value) -> bool:
         """Follow a callback.
@@ -64,32 +66,32 @@ class CallbackInterpreter(StatementInterpreter):
         """
         node, where = resolve(callback, scope, self.names)
         if not isinstance(node, Function | Member):
-            self.cannot_read(callback)
+            self.note_unreadable(callback)
             return False
         frame = Frame(where)
-        callee = frame.value(node)
+        callee = frame.unknown_value(node)
         if isinstance(callback, Call):  # a function that makes one, with what it was given
             made = self.evaluate(callback, Frame(scope))
             callee = made if isinstance(made.origin, Function | Member) else callee
         self._invoked(callee, [parameter], frame)
         return True
 
-    def then(self, method: Method) -> None:
+    def follow_method(self, method: Method) -> None:
         """Follow another method of the class after the callback."""
-        self.follow(method, [], {}, Frame(method[1].home), me="")
+        self.follow_call(method, [], {}, Frame(method[1].home), me="")
 
-    def cannot_read(self, node: Node) -> None:
-        """Say that the way leads out of these files."""
+    def note_unreadable(self, node: Node) -> None:
+        """Note that a call leads out of these files."""
         said = f"`{node.place.text}` calls code that is not in this file or in the files next to it"
         self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
 
-    def call(self, node: Call, frame: Frame) -> Value:
+    def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
         owner = node.target.owner if isinstance(node.target, Member) else None
         receiver = None if owner is None else self.evaluate(owner, frame)
         args = [self.evaluate(arg, frame) for arg in node.args]
         if node.spread:  # any of the arguments that are left may be in it
-            args += [replace(frame.value(node), carries=None, factor=None)] * MOST_SPREAD
+            args += [replace(frame.unknown_value(node), carries=None, factor=None)] * MOST_SPREAD
         named = {word: self.evaluate(value, frame) for word, value in node.named}
         return self._applied(node, receiver, args, named, frame)
 
@@ -108,23 +110,61 @@ class CallbackInterpreter(StatementInterpreter):
         if receiver is not None and java_spelling(name) in RUNS and self._holds_lambda(receiver):
             return self._invoked(receiver, args, frame)
         if receiver is not None and java_spelling(name) in LOOPS and args:
-            several = self.elements(receiver, frame)
+            several = self.loop_elements(receiver, frame)
             return [self._invoked(args[0], [element], frame) for element in several][-1]
         owner = None if receiver is None else (receiver.origin, receiver.scope)
-        methods = called_functions(call, frame.scope, self.names, owner=owner)
+        methods = find_called_functions(call, frame.scope, self.names, owner=owner)
         fresh = next((method for method in methods if method[0] not in frame.around), None)
+        said: Value | None = None
         if fresh is not None:
-            before = self.entries()
-            value = self.follow(fresh, args, named, frame, me=self._object(receiver, frame))
-            if fresh[0].body or self.entries() > before:
+            before = self.entry_count()
+            value = self.follow_call(fresh, args, named, frame, me=self._object(receiver, frame))
+            if fresh[0].body or self.entry_count() > before:
                 return value
+            said = self._implemented(fresh, call, (receiver, args, named), frame)
         every = [*args, *named.values()]
-        if fresh is not None or not methods:
-            said = self.command(call, receiver, every, frame.value(call))
-            if said is not None:
-                return said
+        if said is None and (fresh is not None or not methods):
+            said = self.note_call(call, receiver, every, frame.unknown_value(call))
+        if said is not None:
+            return said
         self._keep(call, receiver, every, frame)
-        return self.flow.through(call, receiver, every, frame.value(call))
+        return self.flow.apply_library_call(call, receiver, every, frame.unknown_value(call))
+
+    def _implemented(
+        self,
+        method: Method,
+        call: Call,
+        given: tuple[Value | None, list[Value], dict[str, Value]],
+        frame: Frame,
+    ) -> Value | None:
+        """A call of a method without a body: what the class does that implements it.
+
+        Returns:
+            None where no class of these files does, or where several do something else.
+        """
+        receiver, args, named = given
+        me = self._object(receiver, frame)
+        found = [
+            one
+            for one in find_implementing_methods(method, self.names)
+            if one[0] not in frame.around
+        ]
+        if len(found) == 1:
+            return self.follow_call(found[0], args, named, frame, me=me)
+        ways = [partial(self.follow_call, one, args, named, frame, me=me) for one in found]
+        return (
+            self.note_agreed_call(call, receiver, ways, frame.unknown_value(call)) if ways else None
+        )
+
+    def note_agreed_call(
+        self,
+        call: Call,  # noqa: ARG002 - for a subclass that can compare
+        receiver: Value | None,  # noqa: ARG002 - the same
+        ways: Sequence[Callable[[], Value]],  # noqa: ARG002 - the same
+        at: Value,  # noqa: ARG002 - the same
+    ) -> Value | None:
+        """What a call comes to, whichever of several classes it runs in; None if that differs."""
+        return None
 
     def _invoked(self, callee: Value, args: list[Value], frame: Frame) -> Value:
         """A call of a lambda or of a method reference."""
@@ -132,14 +172,14 @@ class CallbackInterpreter(StatementInterpreter):
         if isinstance(node, Function):
             method = (node, scope.within(node))
             captured = callee.captured
-            return self.follow(method, args, {}, frame, me=callee.me, captured=captured)
+            return self.follow_call(method, args, {}, frame, me=callee.me, captured=captured)
         if not isinstance(node, Member):
             return join_values(args, at=callee).times(None)
         inner = Frame(scope, callee.me, dict(callee.captured), around=frame.around)
         written_out = Call(node.place, node, tuple(arg.origin for arg in args))
         return self._applied(written_out, self.evaluate(node.owner, inner), args, {}, inner)
 
-    def follow(
+    def follow_call(
         self,
         method: Method,
         args: list[Value],
@@ -152,12 +192,12 @@ class CallbackInterpreter(StatementInterpreter):
         """Follow a function of these files."""
         function, scope = method
         if len(frame.around) > MOST_CALLS:
-            return self.too_deep(function, frame)
+            return self.stop_too_deep(function, frame)
         inner = Frame(scope, me, around=(*frame.around, function))
         inner.locals |= captured
         outer = Frame(replace(scope, functions=scope.functions[:-1]), me, around=inner.around)
         inner.locals |= {
-            one.name: self.evaluate(one.default, outer) if one.default else inner.value(one)
+            one.name: self.evaluate(one.default, outer) if one.default else inner.unknown_value(one)
             for one in function.parameters
         }
         inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
@@ -168,7 +208,7 @@ class CallbackInterpreter(StatementInterpreter):
         self.condition = condition
         if len(inner.returned) == 1:
             return inner.returned[0]
-        return join_values(inner.returned, at=inner.value(function))
+        return join_values(inner.returned, at=inner.unknown_value(function))
 
     def _object(self, receiver: Value | None, frame: Frame) -> str:
         """The object whose code a method is, to be put before the names of its fields."""
@@ -176,7 +216,7 @@ class CallbackInterpreter(StatementInterpreter):
             return frame.me
         if isinstance(receiver.origin, Self) or last_name(receiver.origin) == "super":
             return receiver.me
-        if self.names.home(receiver.origin, receiver.scope) is not None:
+        if self.names.find_home(receiver.origin, receiver.scope) is not None:
             return ""
         return f"{receiver.me}{motor_label(receiver.origin)}."
 
@@ -188,9 +228,11 @@ class CallbackInterpreter(StatementInterpreter):
         """Remember what an object was given: ``m_applied.mut_replace(volts, Volts)``."""
         if receiver is None or not isinstance(call.target, Member):
             return
-        type_ = type_of(receiver.origin, receiver.scope, self.names)
+        type_ = infer_type(receiver.origin, receiver.scope, self.names)
         foreign = bool(type_) and not is_motor(type_)
-        if foreign and class_of(receiver.origin, receiver.scope, self.names) is not None:
+        if foreign and find_class(receiver.origin, receiver.scope, self.names) is not None:
             foreign = False
         if foreign or java_spelling(call.target.name).startswith(("mut", "with")):
-            self.store(call.target.owner, join_values(args, at=frame.value(call)), frame)
+            self.store_value(
+                call.target.owner, join_values(args, at=frame.unknown_value(call)), frame
+            )

@@ -1,4 +1,4 @@
-"""A piece of code together with what its parameters stand for, and names followed from there."""
+"""A syntax node with its scope and bound arguments, and names resolved from there."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -19,7 +19,7 @@ from grader.robotcode.ir import (
     Self,
     iter_nodes,
 )
-from grader.robotcode.name_resolution import MOST_STEPS, Method, called_functions, class_of
+from grader.robotcode.name_resolution import MOST_STEPS, Method, find_called_functions, find_class
 from grader.robotcode.scope import Definition, Scope
 from grader.robotcode.symbol_table import SymbolTable
 
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BoundNode:
-    """A node, where it stands, and what the parameters around it were given."""
+    """A syntax node, its scope, and the arguments that the parameters around it were given."""
 
     node: Node
     scope: Scope
     given: "Mapping[str, BoundNode]" = field(default_factory=dict)
 
-    def at(self, node: Node) -> "BoundNode":
-        """Another node of the same place."""
+    def with_node(self, node: Node) -> "BoundNode":
+        """Another node in the same scope, with the same arguments."""
         return replace(self, node=node)
 
 
@@ -45,7 +45,7 @@ def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
     for _ in range(MOST_STEPS):
         node = seen.node
         if isinstance(node, Cast):
-            seen = seen.at(node.value)
+            seen = seen.with_node(node.value)
         elif isinstance(node, Name) and node.name in seen.given:
             seen = seen.given[node.name]
         elif isinstance(node, Name | Member) and not isinstance(node, Reference):
@@ -60,7 +60,7 @@ def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
 
 def _value(seen: BoundNode, names: SymbolTable) -> BoundNode | None:
     """The one value of a variable; None if it has none or several, or is a parameter."""
-    valued = [one for one in definitions(seen, names) if one.value is not None]
+    valued = [one for one in find_definitions(seen, names) if one.value is not None]
     if len(valued) != 1 or isinstance(valued[0].value, FunctionParameter | Element | Function):
         return None
     one = valued[0]
@@ -68,54 +68,54 @@ def _value(seen: BoundNode, names: SymbolTable) -> BoundNode | None:
     return BoundNode(one.value or seen.node, one.scope, seen.given if here == there else {})
 
 
-def definitions(seen: BoundNode, names: SymbolTable) -> Sequence[Definition]:
+def find_definitions(seen: BoundNode, names: SymbolTable) -> Sequence[Definition]:
     """Where a variable or a field, of whatever object, gets its values."""
-    found = names.definitions(seen.node, seen.scope)
+    found = names.find_definitions(seen.node, seen.scope)
     if found or not isinstance(seen.node, Member):
         return found
-    owner = resolve_bound(seen.at(seen.node.owner), names)
-    home = class_of(owner.node, owner.scope, names)
-    return names.fields(home).get(seen.node.name, ()) if home and home.classes else ()
+    owner = resolve_bound(seen.with_node(seen.node.owner), names)
+    home = find_class(owner.node, owner.scope, names)
+    return names.find_fields(home).get(seen.node.name, ()) if home and home.classes else ()
 
 
-def functions_of(seen: BoundNode, names: SymbolTable) -> list[Method]:
+def resolve_call(seen: BoundNode, names: SymbolTable) -> list[Method]:
     """The functions of these files that a call may mean."""
     call = seen.node
     if not isinstance(call, Call):
         return []
     owner = None
     if isinstance(call.target, Member):
-        through = resolve_bound(seen.at(call.target.owner), names)
+        through = resolve_bound(seen.with_node(call.target.owner), names)
         if not isinstance(through.node, Self):
             owner = (through.node, through.scope)
-        if owner is not None and class_of(*owner, names) is None:
+        if owner is not None and find_class(*owner, names) is None:
             owner = None  # declared by its type only: let the variable itself tell
-    return called_functions(call, seen.scope, names, owner=owner)
+    return find_called_functions(call, seen.scope, names, owner=owner)
 
 
 def enter_call(seen: BoundNode, method: Method) -> BoundNode:
-    """The inside of a function that a call gives its arguments to."""
+    """The body of a called function, with the call's arguments bound."""
     function, scope = method
     given: dict[str, BoundNode] = {}
     if isinstance(seen.node, Call):
         pairs = zip(function.parameters, seen.node.args, strict=False)
-        given = {one.name: seen.at(arg) for one, arg in pairs}
-        given |= {word: seen.at(arg) for word, arg in seen.node.named}
+        given = {one.name: seen.with_node(arg) for one, arg in pairs}
+        given |= {word: seen.with_node(arg) for word, arg in seen.node.named}
     return BoundNode(function, scope, given)
 
 
-def returned_nodes(function: Function) -> list[Node]:
-    """Everything a function may hand back."""
+def list_returned_nodes(function: Function) -> list[Node]:
+    """The nodes that a function may return."""
     found = iter_nodes(*function.body, but=(Function, Class))
     return [node.value for node in found if isinstance(node, Return)]
 
 
-def functions_named(node: Node, scope: Scope, names: SymbolTable) -> list[Function]:
+def list_called_functions(node: Node, scope: Scope, names: SymbolTable) -> list[Function]:
     """The functions that some node calls; a call of itself does not count."""
     if isinstance(node, Call):
-        found = called_functions(node, scope, names)
+        found = find_called_functions(node, scope, names)
     elif isinstance(node, Member):
-        found = called_functions(Call(node.place, node, ()), scope, names)
+        found = find_called_functions(Call(node.place, node, ()), scope, names)
     else:
         return []
     return [function for function, _ in found if function not in scope.functions]

@@ -8,11 +8,11 @@ from grader.robotcode.binding_facts import KINDS, Hindrance, HindranceKind, SysI
 from grader.robotcode.button_vocabulary import CONDITIONED, DISCARDS, ENDED, EXCEPT
 from grader.robotcode.closure import (
     BoundNode,
-    definitions,
     enter_call,
-    functions_of,
+    find_definitions,
+    list_returned_nodes,
     resolve_bound,
-    returned_nodes,
+    resolve_call,
 )
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.decorators import Decorators, make_hindrance
@@ -32,11 +32,11 @@ from grader.robotcode.ir import (
     Return,
 )
 from grader.robotcode.name_resolution import (
-    called_functions,
+    find_called_functions,
+    infer_type,
+    infer_type_from,
     last_name,
     simple_type_name,
-    type_from,
-    type_of,
 )
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, java_spelling
@@ -47,8 +47,8 @@ WAY = re.compile(r"(forward|fwd)|(reverse|backward|rev(?![a-z])|bwd)", re.IGNORE
 
 
 @dataclass(frozen=True)
-class Runs:
-    """What a command runs.
+class TestsRun:
+    """The SysId tests that a command runs.
 
     Args:
         tests: the tests.
@@ -71,8 +71,8 @@ class Runs:
     hindrances: tuple[Hindrance, ...] = ()
 
 
-class Commands:
-    """Looks through commands for tests.
+class CommandReader:
+    """Finds the SysId tests that a command runs.
 
     Args:
         names: the names of the program.
@@ -83,40 +83,40 @@ class Commands:
         self._names = names
         self._decorators = Decorators(names, measures)
 
-    def of(self, seen: BoundNode, *, depth: int = 0) -> Runs:
-        """What a command, or what makes one, runs."""
+    def find_tests(self, seen: BoundNode, *, depth: int = 0) -> TestsRun:
+        """The tests that a command, or a factory of one, runs."""
         if depth > DEEPEST:
-            return Runs(unclear=seen.node)
+            return TestsRun(unclear=seen.node)
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Call):
             return self._call(seen, node, depth + 1)
         if isinstance(node, Reference | Member) and self._is_method(seen, node):
             call = Call(node.place, Member(node.place, node.owner, node.name), ())
-            return self._call(seen.at(call), call, depth + 1)
+            return self._call(seen.with_node(call), call, depth + 1)
         if isinstance(node, Name | Member | FunctionParameter | Element):
-            return Runs(unclear=node)
+            return TestsRun(unclear=node)
         return self._parts(seen, node, depth + 1)
 
-    def _parts(self, seen: BoundNode, node: Node, depth: int) -> Runs:
+    def _parts(self, seen: BoundNode, node: Node, depth: int) -> TestsRun:
         """What a choice, a list or a lambda runs."""
         parts = node.parts
         if isinstance(node, Choice):
-            return self._one_of(map(seen.at, self._chosen(seen, node)), depth)
+            return self._one_of(map(seen.with_node, self._chosen(seen, node)), depth)
         if isinstance(node, Function):
             seen, parts = replace(seen, scope=seen.scope.within(node)), node.body
         elif not isinstance(node, Items | Opaque | Return):
             parts = ()
-        return join_runs(self.of(seen.at(one), depth=depth) for one in parts)
+        return join_tests_run(self.find_tests(seen.with_node(one), depth=depth) for one in parts)
 
-    def _one_of(self, several: Iterable[BoundNode], depth: int) -> Runs:
+    def _one_of(self, several: Iterable[BoundNode], depth: int) -> TestsRun:
         """One of several commands; which one, only the running program knows."""
-        found = join_runs(self.of(one, depth=depth) for one in several)
+        found = join_tests_run(self.find_tests(one, depth=depth) for one in several)
         return replace(found, either=True) if len(found.tests) > 1 else found
 
     def _chosen(self, seen: BoundNode, choice: Choice) -> tuple[Node, ...]:
         """The part of a choice that holds, or both."""
-        said = resolve_bound(seen.at(choice.condition), self._names).node.place.text.lower()
+        said = resolve_bound(seen.with_node(choice.condition), self._names).node.place.text.lower()
         both = (choice.one, choice.other)
         return {"true": both[:1], "false": both[1:]}.get(said, both)
 
@@ -125,46 +125,46 @@ class Commands:
         if isinstance(node, Reference):
             return True
         call = Call(node.place, node, ())
-        return bool(called_functions(call, seen.scope, self._names))
+        return bool(find_called_functions(call, seen.scope, self._names))
 
-    def _call(self, seen: BoundNode, call: Call, depth: int) -> Runs:
+    def _call(self, seen: BoundNode, call: Call, depth: int) -> TestsRun:
         name = java_spelling(last_name(call.target))
-        functions = functions_of(seen, self._names)
+        functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             inner = enter_call(seen, functions[0])
-            results = returned_nodes(functions[0][0])
-            return self._one_of(map(inner.at, results), depth)
+            results = list_returned_nodes(functions[0][0])
+            return self._one_of(map(inner.with_node, results), depth)
         if len(functions) > 1:
-            return Runs(unclear=call)
+            return TestsRun(unclear=call)
         args = [*call.args, *(node for _, node in call.named)]
         owner = [call.target.owner] if isinstance(call.target, Member) else []
         if name in KINDS and len(args) == 1:
-            read = not owner or self._type(seen.at(owner[0])) in {"", "SysIdRoutine"}
-            test = SysIdTest(name, self._direction(seen.at(args[0])), read=read)
-            emptied = [one for node in owner for one in self._emptied(seen.at(node))]
-            return Runs((test,), hindrances=tuple(emptied))
+            read = not owner or self._type(seen.with_node(owner[0])) in {"", "SysIdRoutine"}
+            test = SysIdTest(name, self._direction(seen.with_node(args[0])), read=read)
+            emptied = [one for node in owner for one in self._emptied(seen.with_node(node))]
+            return TestsRun((test,), hindrances=tuple(emptied))
         return self._library(seen, name, owner, args, depth) or self._by_name(seen, name, args)
 
     def _library(
         self, seen: BoundNode, name: str, owner: list[Node], args: list[Node], depth: int
-    ) -> Runs | None:
+    ) -> TestsRun | None:
         """What a library's method makes of the commands it is given; None if there are none."""
         asked = CONDITIONED.get(name)
         parts = [*owner, *args]
         if asked is not None:
             parts = [*owner, *args[:asked]]
-        several = [self.of(seen.at(part), depth=depth) for part in parts]
+        several = [self.find_tests(seen.with_node(part), depth=depth) for part in parts]
         if name in DISCARDS:  # a function that only makes a command starts nothing
             several = [one for one in several if one.scheduled]
-        found = join_runs(several)
+        found = join_tests_run(several)
         if not found.tests:
             return None
         first = next((at for at, one in enumerate(several) if one.tests), 0)
-        hindrance = self._decorators.hindrance(seen, name, parts, first)
+        hindrance = self._decorators.find_hindrance(seen, name, parts, first)
         if hindrance is not None:
             found = replace(found, hindrances=(*found.hindrances, hindrance))
         if asked is not None:
-            found = self._conditioned(found, tuple(map(seen.at, args)), name, asked, depth)
+            found = self._conditioned(found, tuple(map(seen.with_node, args)), name, asked, depth)
         unclear = found.unclear if len(found.tests) > 1 else None
         return replace(
             found,
@@ -174,13 +174,13 @@ class Commands:
         )
 
     def _conditioned(
-        self, found: Runs, args: tuple[BoundNode, ...], name: str, asked: int, depth: int
-    ) -> Runs:
+        self, found: TestsRun, args: tuple[BoundNode, ...], name: str, asked: int, depth: int
+    ) -> TestsRun:
         """A command with the condition of a decorator, or of a choice between two commands."""
         condition = args[asked : asked + 1]
-        second = asked > 1 and bool(args) and not self.of(args[0], depth=depth).tests
+        second = asked > 1 and bool(args) and not self.find_tests(args[0], depth=depth).tests
         negated = name in EXCEPT or second
-        truth = self._decorators.truth(condition[0]) if condition else None
+        truth = self._decorators.constant_truth(condition[0]) if condition else None
         if condition and truth is not None:  # it guards nothing
             if truth is not negated:
                 return found
@@ -193,35 +193,35 @@ class Commands:
 
     def _emptied(self, routine: BoundNode) -> Iterator[Hindrance]:
         """Where the field of a routine is set to null after its declaration."""
-        for one in definitions(routine, self._names):
+        for one in find_definitions(routine, self._names):
             if isinstance(one.value, Null) and one.scope.functions:
                 text = f"{last_name(routine.node)} = {one.value.place.text}"
                 yield Hindrance(HindranceKind.EMPTIED, text)
 
     def _type(self, seen: BoundNode) -> str:
         """The class of what a method is called on, by its own name; empty if unknown."""
-        found = type_of(seen.node, seen.scope, self._names)
+        found = infer_type(seen.node, seen.scope, self._names)
         return simple_type_name(
-            found or type_from(tuple(definitions(seen, self._names)), self._names)
+            found or infer_type_from(tuple(find_definitions(seen, self._names)), self._names)
         )
 
-    def _by_name(self, seen: BoundNode, name: str, args: list[Node]) -> Runs:
+    def _by_name(self, seen: BoundNode, name: str, args: list[Node]) -> TestsRun:
         """A method of a class that is not in these files: only its name can tell."""
         kind = KIND.search(name)
         if kind is None or name[:1].isupper():
-            return Runs()
-        ways = [self._direction(seen.at(arg)) for arg in args] or [""]
+            return TestsRun()
+        ways = [self._direction(seen.with_node(arg)) for arg in args] or [""]
         way = WAY.search(name)
         if way is not None:
             ways = ["forward" if way[1] else "reverse"]
-        return Runs((SysIdTest("quasistatic" if kind[1] else "dynamic", ways[0], read=False),))
+        return TestsRun((SysIdTest("quasistatic" if kind[1] else "dynamic", ways[0], read=False),))
 
     def _direction(self, seen: BoundNode) -> str:
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Choice):
-            ways = [self._direction(seen.at(one)) for one in self._chosen(seen, node)]
-            asked = resolve_bound(seen.at(node.condition), self._names)
+            ways = [self._direction(seen.with_node(one)) for one in self._chosen(seen, node)]
+            asked = resolve_bound(seen.with_node(node.condition), self._names)
             return ways[0] if len(ways) == 1 else "any" if self._is_open(asked) else ""
         if self._is_open(seen):
             return "any"
@@ -234,14 +234,14 @@ class Commands:
         """Whether a name is a parameter that nobody has given anything yet."""
         if not isinstance(seen.node, Name):
             return False
-        found = self._names.local(seen.node.name, seen.scope)
+        found = self._names.find_local(seen.node.name, seen.scope)
         return any(isinstance(one.value, FunctionParameter) for one in found)
 
 
-def join_runs(several: Iterable[Runs]) -> Runs:
+def join_tests_run(several: Iterable[TestsRun]) -> TestsRun:
     """What several commands together run, each test once."""
     found = list(several)
-    return Runs(
+    return TestsRun(
         tuple(dict.fromkeys(test for one in found for test in one.tests)),
         tuple(condition for one in found for condition in one.conditions),
         tuple(condition for one in found for condition in one.exceptions),

@@ -33,7 +33,7 @@ class Comment:
     text: str
 
 
-def comments(module: Module) -> tuple[Comment, ...]:
+def list_comments(module: Module) -> tuple[Comment, ...]:
     """All comments of a file, in order."""
     text = module.source.decode("utf-8", errors="replace")
     found = _in_java(text) if module.language == "java" else _in_python(text)
@@ -62,7 +62,7 @@ def _in_python(text: str) -> Iterator[Comment]:
         return  # what does not parse has been said before
 
 
-def comments_near(found: tuple[Comment, ...], first: int, last: int) -> str:
+def find_comments_near(found: tuple[Comment, ...], first: int, last: int) -> str:
     """The comments on some lines, and the block of comments directly above them."""
     said = [one.text for one in found if first <= one.first <= last]
     top = first

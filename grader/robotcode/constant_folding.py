@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from grader.robotcode.conversions import FACTORS, NUMBERS
 from grader.robotcode.ir import Assign, Call, Cast, Member, Name, Node, Number, Operation
 from grader.robotcode.name_resolution import (
-    called_functions,
+    find_called_functions,
+    find_single_return,
     last_name,
-    only_return,
     simple_type_name,
 )
 from grader.robotcode.scope import Scope
@@ -74,8 +74,8 @@ class ConstantFolder:
         self._names = names
         self._known: dict[Node, FoldedConstant | None] = {}
 
-    def of(self, node: Node, scope: Scope, *, depth: int = 0) -> FoldedConstant | None:
-        """The measure of an expression; None if it cannot be told."""
+    def fold(self, node: Node, scope: Scope, *, depth: int = 0) -> FoldedConstant | None:
+        """The value and dimension of an expression; None if the text does not tell."""
         if node not in self._known:
             self._known[node] = None  # what depends on itself has no value
             if depth <= DEEPEST:
@@ -90,27 +90,27 @@ class ConstantFolder:
         if isinstance(node, Name | Member):
             return self._named(node, scope, depth)
         if isinstance(node, Assign):  # Python's walrus
-            return None if node.value is None else self.of(node.value, scope, depth=depth)
+            return None if node.value is None else self.fold(node.value, scope, depth=depth)
         if isinstance(node, Cast):
-            return _typed(self.of(node.value, scope, depth=depth), node.type)
+            return _typed(self.fold(node.value, scope, depth=depth), node.type)
         if isinstance(node, Operation):
             return self._operation(node, scope, depth)
         return self._call(node, scope, depth) if isinstance(node, Call) else None
 
     def _operation(self, node: Operation, scope: Scope, depth: int) -> FoldedConstant | None:
-        right = self.of(node.right, scope, depth=depth)
+        right = self.fold(node.right, scope, depth=depth)
         if node.left is None:
             return _signed(node.sign, right)
-        left = self.of(node.left, scope, depth=depth)
+        left = self.fold(node.left, scope, depth=depth)
         if left is None or right is None or left.unit or right.unit:
             return None
         return _operated(node.sign, left, right, java=scope.module.language == "java")
 
     def _named(self, node: Name | Member, scope: Scope, depth: int) -> FoldedConstant | None:
-        definitions = self._names.definitions(node, scope)
+        definitions = self._names.find_definitions(node, scope)
         valued = [d for d in definitions if d.value is not None]
         if len(valued) == 1 and valued[0].value is not None:
-            found = self.of(valued[0].value, valued[0].scope, depth=depth)
+            found = self.fold(valued[0].value, valued[0].scope, depth=depth)
             declared = next((d.type for d in definitions if d.type), "")
             return _typed(found, declared)
         number = None if definitions else _library_number(node, scope)
@@ -124,14 +124,14 @@ class ConstantFolder:
         return FoldedConstant(unit.si, unit.volts, unit.seconds, other=unit.other, unit=True)
 
     def _call(self, call: Call, scope: Scope, depth: int) -> FoldedConstant | None:
-        functions = called_functions(call, scope, self._names)
+        functions = find_called_functions(call, scope, self._names)
         if functions:
             function, inside = functions[0]
-            returned = only_return(function) if len(functions) == 1 else None
-            found = None if returned is None else self.of(returned, inside, depth=depth)
+            returned = find_single_return(function) if len(functions) == 1 else None
+            found = None if returned is None else self.fold(returned, inside, depth=depth)
             return _typed(found, function.type)
         name, target = last_name(call.target), call.target
-        args = [self.of(arg, scope, depth=depth) for arg in call.args]
+        args = [self.fold(arg, scope, depth=depth) for arg in call.args]
         first = args[0] if len(args) == 1 else None
         if first is not None and first.dimension == "number" and java_spelling(name) in FACTORS:
             return FoldedConstant(first.value * FACTORS[java_spelling(name)])
@@ -142,7 +142,7 @@ class ConstantFolder:
             return None
         if last_name(target.owner) in {"Double", "Integer", "Float"} and name == "valueOf":
             return first
-        owner = self.of(target.owner, scope, depth=depth)
+        owner = self.fold(target.owner, scope, depth=depth)
         return None if owner is None else _method(name, owner, first, count=len(args))
 
 

@@ -10,9 +10,9 @@ from grader.robotcode.button_vocabulary import BOTH, EITHER, NOT, UNCHANGED, WRA
 from grader.robotcode.closure import (
     BoundNode,
     enter_call,
-    functions_of,
+    list_returned_nodes,
     resolve_bound,
-    returned_nodes,
+    resolve_call,
 )
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.ir import (
@@ -58,13 +58,13 @@ class TruthFolder:
         self._names = names
         self._measures = measures
 
-    def of(self, seen: BoundNode, *, depth: int = 0) -> bool | None:
-        """What a condition, a supplier or a trigger always says; None if it may change."""
+    def fold(self, seen: BoundNode, *, depth: int = 0) -> bool | None:
+        """The constant value of a condition, a supplier or a trigger; None if it may change."""
         before = seen.node
         if isinstance(before, Name) and before.name in seen.given:
             seen = seen.given[before.name]
             before = seen.node
-        said = literal_truth(before)
+        said = fold_literal(before)
         if said is not None or depth > DEEPEST:
             return said
         seen = resolve_bound(seen, self._names)
@@ -82,42 +82,46 @@ class TruthFolder:
 
     def _method(self, seen: BoundNode, depth: int) -> bool | None:
         """A method that is named, not called: ``this::enabled``."""
-        call = seen.at(Call(seen.node.place, seen.node, ()))
-        functions = functions_of(call, self._names)
+        call = seen.with_node(Call(seen.node.place, seen.node, ()))
+        functions = resolve_call(call, self._names)
         if len(functions) != 1 or functions[0][0] in seen.scope.functions:
             return None
         return self._returned(enter_call(call, functions[0]), functions[0][0], depth)
 
     def _returned(self, inside: BoundNode, function: Function, depth: int) -> bool | None:
-        results = returned_nodes(function)
-        return self.of(inside.at(results[0]), depth=depth) if len(results) == 1 else None
+        results = list_returned_nodes(function)
+        return self.fold(inside.with_node(results[0]), depth=depth) if len(results) == 1 else None
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> bool | None:
         """What a call of a trigger's method, or of a function of these files, gives."""
-        functions = functions_of(seen, self._names)
+        functions = resolve_call(seen, self._names)
         if functions:
             inside = enter_call(seen, functions[0])
             return self._returned(inside, functions[0][0], depth) if len(functions) == 1 else None
         name = java_spelling(last_name(call.target))
         args = [*call.args, *(node for _, node in call.named)]
         if name in WRAPPERS:
-            return self.of(seen.at(args[-1]), depth=depth) if args else None
+            return self.fold(seen.with_node(args[-1]), depth=depth) if args else None
         if isinstance(call.target, Name):  # a variable that holds a supplier: testing()
-            held = resolve_bound(seen.at(call.target), self._names)
-            return self.of(held, depth=depth) if isinstance(held.node, Function) else None
+            held = resolve_bound(seen.with_node(call.target), self._names)
+            return self.fold(held, depth=depth) if isinstance(held.node, Function) else None
         if not isinstance(call.target, Member):
             return None
         parts = [call.target.owner, *args]
         if name in BOTH | EITHER:
             return self._joined(seen, parts, "and" if name in BOTH else "or", depth)
         owner = (
-            self.of(seen.at(call.target.owner), depth=depth) if name in NOT | UNCHANGED else None
+            self.fold(seen.with_node(call.target.owner), depth=depth)
+            if name in NOT | UNCHANGED
+            else None
         )
         return not owner if owner is not None and name in NOT else owner
 
     def _choice(self, seen: BoundNode, node: Choice, depth: int) -> bool | None:
-        said = self.of(seen.at(node.condition), depth=depth)
-        one, other = (self.of(seen.at(part), depth=depth) for part in (node.one, node.other))
+        said = self.fold(seen.with_node(node.condition), depth=depth)
+        one, other = (
+            self.fold(seen.with_node(part), depth=depth) for part in (node.one, node.other)
+        )
         if said is None:
             return one if one is other else None
         return one if said else other
@@ -127,14 +131,14 @@ class TruthFolder:
         if not isinstance(node, Operation | Opaque):
             return self._choice(seen, node, depth) if isinstance(node, Choice) else None
         parts = [part for part in node.parts if not isinstance(part, Return)]
-        sign = sign_of(node)
+        sign = find_operator(node)
         if sign in {"and", "or"} and len(parts) > 1:
             return self._joined(seen, parts, sign, depth)
         if len(parts) == 2 and sign in COMPARISONS:  # noqa: PLR2004 - left and right
             return self._compared(seen, parts, sign, depth)
         if len(parts) != 1:
             return None
-        said = self.of(seen.at(parts[0]), depth=depth)
+        said = self.fold(seen.with_node(parts[0]), depth=depth)
         if said is None or sign not in NEGATING:
             return said if isinstance(node, Opaque) and not sign else None
         return not said
@@ -142,30 +146,30 @@ class TruthFolder:
     def _joined(self, seen: BoundNode, parts: list[Node], sign: str, depth: int) -> bool | None:
         """Several conditions of which all, or one, must hold."""
         decides = sign == "or"  # the value of one part that decides for all
-        found = [self.of(seen.at(part), depth=depth) for part in parts]
+        found = [self.fold(seen.with_node(part), depth=depth) for part in parts]
         if decides in found:
             return decides
         return None if None in found else not decides
 
     def _compared(self, seen: BoundNode, parts: list[Node], sign: str, depth: int) -> bool | None:
-        truths = [self.of(seen.at(part), depth=depth) for part in parts]
+        truths = [self.fold(seen.with_node(part), depth=depth) for part in parts]
         if truths[0] is not None and truths[1] is not None:
             return COMPARISONS[sign](truths[0], truths[1])
         if any(isinstance(part, Name | Member) for part in parts):
             return None
-        found = [self._measures.of(part, seen.scope) for part in parts]
+        found = [self._measures.fold(part, seen.scope) for part in parts]
         if found[0] is None or found[1] is None:
             return None
         return COMPARISONS[sign](found[0].value, found[1].value)
 
 
-def literal_truth(node: Node) -> bool | None:
-    """What a literal says; None for anything else."""
+def fold_literal(node: Node) -> bool | None:
+    """The truth of a literal; None for anything else."""
     text = node.place.text.lower().removeprefix("boolean.")
     return {"true": True, "false": False}.get(text)
 
 
-def sign_of(node: Operation | Opaque) -> str:
+def find_operator(node: Operation | Opaque) -> str:
     """``and``, ``or``, ``not`` or a sign; Python's own words stand in the text only."""
     first, *more = node.parts or (node,)
     source = node.place.source

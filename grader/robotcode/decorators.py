@@ -19,7 +19,7 @@ from grader.robotcode.button_vocabulary import (
     WAITING,
     WAITING_UNTIL,
 )
-from grader.robotcode.closure import BoundNode, functions_of, resolve_bound
+from grader.robotcode.closure import BoundNode, resolve_bound, resolve_call
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.ir import Call, Function, Member, Node
@@ -32,7 +32,7 @@ LONGEST_WAIT = 5.0  # [s] longer, and whoever holds the button waits in vain
 
 
 class Decorators:
-    """Tells what a library's method does to the command that it is given.
+    """Interprets WPILib's command decorators: whether a decorated command starts and lasts.
 
     Args:
         names: the names of the program.
@@ -44,11 +44,11 @@ class Decorators:
         self._measures = measures
         self._truth = TruthFolder(names, measures)
 
-    def truth(self, condition: BoundNode) -> bool | None:
-        """What a condition always says; None if it may change."""
-        return self._truth.of(condition)
+    def constant_truth(self, condition: BoundNode) -> bool | None:
+        """The constant value of a condition; None if it may change."""
+        return self._truth.fold(condition)
 
-    def hindrance(
+    def find_hindrance(
         self, seen: BoundNode, name: str, parts: list[Node], first: int
     ) -> Hindrance | None:
         """Why a command may not start, or not last; None if nothing keeps it from that.
@@ -74,7 +74,7 @@ class Decorators:
         """What a test has to wait for that comes before it."""
         before = parts[1:] if name == "beforeStarting" else parts[:first]
         for part in before:
-            lasts = self._duration(seen.at(part))
+            lasts = self._duration(seen.with_node(part))
             if lasts is not None and lasts > LONGEST_WAIT:
                 return make_hindrance(HindranceKind.NEVER, "", part)
         return None
@@ -88,7 +88,7 @@ class Decorators:
             several = several[:1]
         for at in several:
             if at != first:
-                found = self._cut(parts[at], self._duration(seen.at(parts[at])))
+                found = self._cut(parts[at], self._duration(seen.with_node(parts[at])))
                 if found is not None:
                     return found
         return None
@@ -105,7 +105,7 @@ class Decorators:
         node = seen.node
         if isinstance(node, Function):  # a function that runs once
             return 0.0
-        if not isinstance(node, Call) or functions_of(seen, self._names):
+        if not isinstance(node, Call) or resolve_call(seen, self._names):
             return None
         name, args = java_spelling(last_name(node.target)), [*node.args]
         args += [part for _, part in node.named]
@@ -114,12 +114,12 @@ class Decorators:
         if name in WAITING:
             return self._seconds(seen, args)
         if name in WAITING_UNTIL and args:
-            truth = self._truth.of(seen.at(args[0]))
+            truth = self._truth.fold(seen.with_node(args[0]))
             return 0.0 if truth else math.inf if truth is False else None
         return None
 
     def _seconds(self, seen: BoundNode, args: list[Node]) -> float | None:
-        found = self._measures.of(args[0], seen.scope) if args else None
+        found = self._measures.fold(args[0], seen.scope) if args else None
         return None if found is None else found.value
 
 

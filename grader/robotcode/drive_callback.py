@@ -1,12 +1,14 @@
 """The drive callback: which motors it commands, how, and whether the voltage gets there."""
 
+from collections.abc import Callable, Sequence
+
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.callback_interpreter import CallbackInterpreter
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import DriveCall, Output
 from grader.robotcode.ir import Call, Element, Member, Name, Node, Self
-from grader.robotcode.motors import motor_names
-from grader.robotcode.name_resolution import class_of, last_name, simple_type_name, type_of
+from grader.robotcode.motors import list_motor_names
+from grader.robotcode.name_resolution import find_class, infer_type, last_name, simple_type_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
@@ -42,23 +44,53 @@ class DriveTrace(CallbackInterpreter):
         self._only_sure = only_sure
         self.calls: list[DriveCall] = []
 
-    def entries(self) -> int:
+    def entry_count(self) -> int:
         """How many commands have been noted."""
         return len(self.calls)
 
-    def command(
+    def note_agreed_call(
+        self, call: Call, receiver: Value | None, ways: Sequence[Callable[[], Value]], at: Value
+    ) -> Value | None:
+        """Note one command where all classes that a call may run in command their motors alike."""
+        before = [*self.calls], dict(self.stored), dict(self.unread)
+        outcomes = []
+        for way in ways:
+            way()
+            outcomes.append({_kind(one) for one in self.calls[len(before[0]) :]})
+            self.calls, self.stored, self.unread = [*before[0]], dict(before[1]), dict(before[2])
+        first = outcomes[0]
+        if len(first) != 1 or any(one != first for one in outcomes):
+            return None
+        output, carries, scaled, negative, condition = next(iter(first))
+        self.calls += [
+            DriveCall(
+                motor=motor,
+                method=last_name(call.target),
+                output=output,
+                uses_parameter=carries,
+                scaled=scaled,
+                text=call.place.text,
+                line=self.line_of(call),
+                negative=negative,
+                condition=condition,
+            )
+            for motor in self._motors(receiver, at)
+        ]
+        return at
+
+    def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
         """Note a command to a motor, or a call that may be one."""
         method = java_spelling(last_name(call.target))
         if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
-            self.cannot_read(call)  # a motor is handed out: what it gets is not told here
+            self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
             return None
         if method[:1].isupper():  # makes an object, a request perhaps
             return None
         if not self._may_be_motor(method, receiver, at):
             if receiver is not None and self._may_lead_to_one(method, receiver, args):
-                self.cannot_read(call)
+                self.note_unreadable(call)
             return None
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
@@ -80,7 +112,7 @@ class DriveTrace(CallbackInterpreter):
             mode = next(filter(None, map(_mode, args)), None)
             return WITHOUT_MODE[method] if mode is None else mode
         if method in BY_REQUEST and args:
-            type_ = simple_type_name(type_of(args[0].origin, args[0].scope, self.names))
+            type_ = simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
             return request_output(type_)
         return COMMANDS.get(method, Output.UNKNOWN)
 
@@ -94,7 +126,7 @@ class DriveTrace(CallbackInterpreter):
                     method=last_name(call.target),
                     output=output,
                     uses_parameter=sent.carries,
-                    scaled=sent.scaled,
+                    scaled=sent.is_scaled,
                     text=call.place.text,
                     line=self.line_of(call),
                     negative=sent.factor is not None and sent.factor < 0,
@@ -107,7 +139,7 @@ class DriveTrace(CallbackInterpreter):
             me = sent.me if receiver is None else receiver.me
             java = sent.scope.module.language == "java"
             return (me.removesuffix(".") or ("this" if java else "self"),)
-        found = motor_names(receiver.origin, receiver.scope, self.names)
+        found = list_motor_names(receiver.origin, receiver.scope, self.names)
         return tuple(f"{receiver.me}{name}" for name in found)
 
     def _may_be_motor(self, method: str, receiver: Value | None, at: Value) -> bool:
@@ -122,9 +154,9 @@ class DriveTrace(CallbackInterpreter):
             return True
         if receiver.carries is not False or not self._is_variable(origin, receiver.scope):
             return False
-        type_ = type_of(origin, receiver.scope, self.names)
+        type_ = infer_type(origin, receiver.scope, self.names)
         known = is_motor(type_) or simple_type_name(type_) in GROUPS | DRIVES
-        if known or not type_ or class_of(origin, receiver.scope, self.names) is not None:
+        if known or not type_ or find_class(origin, receiver.scope, self.names) is not None:
             return True
         return named or method in BY_MODE - {"set"}  # much can be set that is no motor
 
@@ -135,23 +167,28 @@ class DriveTrace(CallbackInterpreter):
         return given and variable and not SILENT.fullmatch(method)
 
     def _is_motor(self, value: Value) -> bool:
-        return is_motor(type_of(value.origin, value.scope, self.names))
+        return is_motor(infer_type(value.origin, value.scope, self.names))
 
     def _is_variable(self, node: Node, scope: Scope) -> bool:
         """Whether a node can hold an object: no class, no module, no number."""
         while isinstance(node, Element):
             node = node.owner
         brought = {one.name for one in scope.module.imports}
-        if isinstance(node, Member) and self.names.home(node.owner, scope) is None:
+        if isinstance(node, Member) and self.names.find_home(node.owner, scope) is None:
             root = node.owner
             while isinstance(root, Member):
                 root = root.owner
             if isinstance(root, Name) and root.name in brought:  # phoenix6.controls
-                return bool(self.names.local(root.name, scope))
+                return bool(self.names.find_local(root.name, scope))
         if isinstance(node, Name) and node.name in brought:
-            return bool(self.names.local(node.name, scope))
+            return bool(self.names.find_local(node.name, scope))
         named = last_name(node).lstrip("_")  # in any script: most have no capitals
         return isinstance(node, Call) or (bool(named) and not named[:1].isupper())
+
+
+def _kind(call: DriveCall) -> tuple[Output, bool | None, bool | None, bool, str]:
+    """What a command does, whatever its motor is called."""
+    return call.output, call.uses_parameter, call.scaled, call.negative, call.condition
 
 
 def _mode(value: Value) -> Output | None:

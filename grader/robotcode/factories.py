@@ -4,37 +4,37 @@ import re
 from collections.abc import Iterator, Sequence
 
 from grader.robotcode.binding_facts import Factory
-from grader.robotcode.closure import BoundNode, returned_nodes
-from grader.robotcode.commands import Commands
+from grader.robotcode.closure import BoundNode, list_returned_nodes
+from grader.robotcode.commands import CommandReader
 from grader.robotcode.ir import Class, Function, Member, Node, Self
-from grader.robotcode.name_resolution import class_of, type_of
+from grader.robotcode.name_resolution import find_class, infer_type
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 
 
-def factories(
-    every: Sequence[tuple[Node, Scope]], names: SymbolTable, commands: Commands
+def find_factories(
+    every: Sequence[tuple[Node, Scope]], names: SymbolTable, commands: CommandReader
 ) -> Iterator[Factory]:
     """The methods that make a test's command, of the classes here and of those they own."""
     main = names.main
     homes = {node: scope.within(node) for node, scope in every if isinstance(node, Class)}
     for home in [*homes.values()]:
-        for name in names.fields(home):
+        for name in names.find_fields(home):
             place = home.classes[-1].place
             node = Member(place, Self(place), name)
-            type_ = type_of(node, home, names)
-            owned = class_of(node, home, names) if type_ else None
+            type_ = infer_type(node, home, names)
+            owned = find_class(node, home, names) if type_ else None
             if owned is not None and owned.classes:
                 homes.setdefault(owned.classes[-1], owned)
     for home in homes.values():
-        for method in names.members(home):
+        for method in names.list_members(home):
             if not isinstance(method, Function):
                 continue
             line = method.place.line if home.module is main else 0
             public = is_public(method, home.module.language)
             seen = BoundNode(method, home.within(method))
-            for value in returned_nodes(method):
-                for test in commands.of(seen.at(value)).tests:
+            for value in list_returned_nodes(method):
+                for test in commands.find_tests(seen.with_node(value)).tests:
                     if test.read:
                         yield Factory(test, method.name, public, line)
 

@@ -5,16 +5,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from grader.robotcode.closure import BoundNode, definitions, resolve_bound
-from grader.robotcode.comments import Comment, comments, comments_near
-from grader.robotcode.compiling import compile_errors
+from grader.robotcode.closure import BoundNode, find_definitions, resolve_bound
+from grader.robotcode.comments import Comment, find_comments_near, list_comments
+from grader.robotcode.compiling import find_compile_errors
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.controller_gains import RATIO, GainSetting, find_gain_settings
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
-from grader.robotcode.name_resolution import MOST_STEPS, constructed_class, last_name
-from grader.robotcode.scope import Definition, Scope, walk
+from grader.robotcode.name_resolution import MOST_STEPS, find_constructed_class, last_name
+from grader.robotcode.scope import Definition, Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import java_spelling
 
@@ -113,18 +113,18 @@ class DeployFacts:
     problems: tuple[ParseProblem, ...] = ()
     compile_errors: tuple[ParseProblem, ...] = ()
 
-    def constant(self, gain: str) -> GainConstant | None:
+    def find_constant(self, gain: str) -> GainConstant | None:
         """A gain's constant, if it is there."""
         return next((one for one in self.constants if one.gain == gain), None)
 
 
-def gain_of(name: str) -> str:
+def gain_from_name(name: str) -> str:
     """The gain that a name stands for; empty if for none."""
     found = GAIN.fullmatch(name.lstrip("_").removeprefix("m_"))
     return f"k{found[1].upper()}" if found else ""
 
 
-def gains_of(path: Path) -> DeployFacts:
+def read_gains(path: Path) -> DeployFacts:
     """Read what a robot program says about its gains, without running any of it.
 
     Raises:
@@ -147,7 +147,7 @@ class _Reader:
     def facts(self) -> DeployFacts:
         """All facts of the file."""
         main = self._names.main
-        every = list(walk(main.body, Scope(main)))
+        every = list(walk_with_scopes(main.body, Scope(main)))
         calls = [(node, scope) for node, scope in every if isinstance(node, Call)]
         settings = list(find_gain_settings(every, self._names))
         made = [*self._feedforwards(calls), *self._in_controllers(settings)]
@@ -158,7 +158,7 @@ class _Reader:
         holders = [
             (module, node)
             for module in modules
-            for node, _ in walk(module.body, Scope(module))
+            for node, _ in walk_with_scopes(module.body, Scope(module))
             if HOLDER.search(getattr(node, "name", "")) and hasattr(node, "bases")
         ]
         module, holder = holders[0] if holders else (main, None)
@@ -166,22 +166,22 @@ class _Reader:
             main.language,
             holder=getattr(holder, "name", ""),
             constants=tuple(sorted(first.values(), key=lambda one: one.line)),
-            general=_around(holder, comments(module)),
+            general=_around(holder, list_comments(module)),
             feedforwards=tuple(made),
             feedback=self._feedback(calls) or self._feedback_field(settings),
-            compile_errors=compile_errors(self._names),
+            compile_errors=find_compile_errors(self._names),
         )
 
     def _constants(self, module: Module) -> Iterator[GainConstant]:
-        said = comments(module)
-        for node, scope in walk(module.body, Scope(module)):
+        said = list_comments(module)
+        for node, scope in walk_with_scopes(module.body, Scope(module)):
             if not isinstance(node, Assign) or node.value is None:
                 continue
             target = node.target
             mine = isinstance(target, Member) and isinstance(target.owner, Self)
             if not (mine or (isinstance(target, Name) and not scope.functions)):
                 continue
-            gain = gain_of(last_name(target))
+            gain = gain_from_name(last_name(target))
             if gain:
                 last = node.place.line + node.place.source.count(
                     b"\n", node.place.start, node.place.end
@@ -192,23 +192,23 @@ class _Reader:
                     scope.classes[-1].name if scope.classes else "",
                     self._value(node.value, scope),
                     node.value.place.text,
-                    comments_near(said, node.place.line, last),
+                    find_comments_near(said, node.place.line, last),
                     node.place.line,
                 )
 
     def _value(self, node: Node, scope: Scope) -> float | None:
-        found = self._measures.of(node, scope)
+        found = self._measures.fold(node, scope)
         return None if found is None or found.unit else found.value
 
     def _feedforwards(self, calls: list[tuple[Call, Scope]]) -> Iterator[Feedforward]:
         for call, scope in calls:
-            made = constructed_class(call, scope, self._names)
+            made = find_constructed_class(call, scope, self._names)
             if not FEEDFORWARD.fullmatch(made):
                 continue
             kind = made.partition("Feedforward")[0] + "Feedforward"
             words = ARGUMENTS[kind]
             given = dict(zip(words, call.args, strict=False))
-            given |= {gain_of(java_spelling(word)): node for word, node in call.named}
+            given |= {gain_from_name(java_spelling(word)): node for word, node in call.named}
             arguments = {
                 word: self._argument(node, scope) for word, node in given.items() if word in words
             }
@@ -261,7 +261,7 @@ class _Reader:
         """The gain whose constant a value is made of, names followed."""
         if node not in self._gains:
             self._gains[node] = ""  # what is made of itself is made of no gain
-            with self._names.one_deeper() as allowed:
+            with self._names.limit_depth() as allowed:
                 if allowed:
                     self._gains[node] = self._followed(node, scope)
         return self._gains[node]
@@ -273,7 +273,7 @@ class _Reader:
                 continue
             if not isinstance(node, Name | Member):
                 break
-            gain = gain_of(node.name)
+            gain = gain_from_name(node.name)
             if gain:
                 return gain
             one = self._one(node, scope)
@@ -289,7 +289,9 @@ class _Reader:
 
     def _one(self, node: Node, scope: Scope) -> Definition | None:
         valued = [
-            one for one in definitions(BoundNode(node, scope), self._names) if one.value is not None
+            one
+            for one in find_definitions(BoundNode(node, scope), self._names)
+            if one.value is not None
         ]
         return valued[0] if len(valued) == 1 else None
 
@@ -298,14 +300,14 @@ class _Reader:
         for call, scope in calls:
             for node in (*call.args, *(value for _, value in call.named)):
                 for part in iter_nodes(node, but=(Member,)):
-                    if isinstance(part, Name | Member) and gain_of(part.name):
+                    if isinstance(part, Name | Member) and gain_from_name(part.name):
                         one = self._one(part, scope)
                         if one is not None:
                             yield one.scope.module
 
     def _feedback(self, calls: list[tuple[Call, Scope]]) -> Argument | None:
         for call, scope in calls:
-            if FEEDFORWARD.fullmatch(constructed_class(call, scope, self._names)):
+            if FEEDFORWARD.fullmatch(find_constructed_class(call, scope, self._names)):
                 continue
             for node in (*call.args, *(value for _, value in call.named)):
                 if self._gain(node, scope) == "kP":
@@ -319,4 +321,4 @@ def _around(holder: Node | None, said: tuple[Comment, ...]) -> str:
         return ""
     place = holder.place
     last = place.line + place.source.count(b"\n", place.start, place.end)
-    return comments_near(said, place.line, last)
+    return find_comments_near(said, place.line, last)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from grader.robotcode.ir import Assign, Call, Class, Function, Node, Null, iter_nodes
-from grader.robotcode.name_resolution import called_functions
+from grader.robotcode.name_resolution import find_called_functions
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 
@@ -11,8 +11,8 @@ CONSTRUCTORS = frozenset({"<init>", "__init__"})
 DEEPEST = 5  # methods that the constructor calls, one inside the other
 
 
-def line_of_loss(value: Call, home: Scope, names: SymbolTable) -> int:
-    """The line that sets the field of a value to null, after the value was given to it.
+def find_line_that_clears(value: Call, home: Scope, names: SymbolTable) -> int:
+    """The line that sets a field to null after a value was stored in it; 0 if none.
 
     Args:
         value: what the field was given.
@@ -26,7 +26,7 @@ def line_of_loss(value: Call, home: Scope, names: SymbolTable) -> int:
         return 0
     field, lost = "", 0
     for node, scope in _construction(home, names):
-        name = names.field_name(node.target, scope)
+        name = names.find_field_name(node.target, scope)
         if name and node.value is not None and _holds(node.value, value):
             field, lost = name, 0
         elif name and name == field:
@@ -56,7 +56,7 @@ def _assignments(
         if isinstance(node, Assign):
             yield node, scope
         elif isinstance(node, Call) and depth > 0:
-            functions = called_functions(node, scope, names)
+            functions = find_called_functions(node, scope, names)
             if len(functions) != 1:
                 continue
             function, inside = functions[0]

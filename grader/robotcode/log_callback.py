@@ -8,9 +8,9 @@ from grader.robotcode.callback_interpreter import CallbackInterpreter
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import LoggedSignal, Source
 from grader.robotcode.ir import Call, Function, FunctionParameter, Member, Name
-from grader.robotcode.name_resolution import last_name, text_of
-from grader.robotcode.readings import DeviceReading, DeviceSettings, native_unit
-from grader.robotcode.scope import Scope, walk
+from grader.robotcode.name_resolution import fold_text, last_name
+from grader.robotcode.readings import DeviceReading, DeviceSettings, find_native_unit
+from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.statement_interpreter import Frame
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import SIGNALS, UNITS, java_spelling
@@ -43,11 +43,11 @@ class LogTrace(CallbackInterpreter):
         self._open: set[str] = set()  # fields being looked into
         self._changes: dict[Scope, dict[str, list[tuple[Call, Scope]]]] = {}
 
-    def entries(self) -> int:
+    def entry_count(self) -> int:
         """How many values have been noted."""
         return len(self.signals)
 
-    def command(
+    def note_call(
         self,
         call: Call,
         receiver: Value | None,
@@ -58,19 +58,19 @@ class LogTrace(CallbackInterpreter):
         name = java_spelling(last_name(call.target))
         if receiver is None or receiver.log is None:
             if any(arg.log is not None for arg in args):
-                self.cannot_read(call)
+                self.note_unreadable(call)
             return None
         if name == "motor":
-            said = text_of(args[0].origin, args[0].scope, self.names) if args else ""
+            said = fold_text(args[0].origin, args[0].scope, self.names) if args else ""
             return replace(receiver, log=MotorLog(said))
         if receiver.log.name is not None and name in SIGNALS and args:
             self._note(call, name, receiver.log.name, args)
         return receiver
 
-    def variable(self, node: Name | Member, frame: Frame) -> Value:
+    def evaluate_variable(self, node: Name | Member, frame: Frame) -> Value:
         """The value of a field: what it is given anywhere in the class."""
-        key = self.key(node, frame)
-        at = frame.value(node)
+        key = self.storage_key(node, frame)
+        at = frame.unknown_value(node)
         if key in self._commanded:
             return replace(at, marks=frozenset({Mark.COMMANDED}))
         if key in self._open:
@@ -78,7 +78,7 @@ class LogTrace(CallbackInterpreter):
         self._open.add(key)
         several = [
             self.evaluate(d.value, Frame(d.scope, frame.me, around=frame.around))
-            for d in self.names.definitions(node, frame.scope)
+            for d in self.names.find_definitions(node, frame.scope)
             if d.value is not None and not isinstance(d.value, Function | FunctionParameter)
         ]
         for call, scope in self._changes_of(key.removeprefix(frame.me), frame.scope.home):
@@ -93,9 +93,9 @@ class LogTrace(CallbackInterpreter):
             return []
         if home not in self._changes:
             found: dict[str, list[tuple[Call, Scope]]] = {}
-            for node, scope in walk(home.classes[-1].body, home):
+            for node, scope in walk_with_scopes(home.classes[-1].body, home):
                 if isinstance(node, Call) and isinstance(node.target, Member):
-                    field = self.names.field_name(node.target.owner, scope)
+                    field = self.names.find_field_name(node.target.owner, scope)
                     if field and node.target.name.startswith("mut"):
                         found.setdefault(field, []).append((node, scope))
             self._changes[home] = found
@@ -110,7 +110,7 @@ class LogTrace(CallbackInterpreter):
             family = LINEAR if python else unit.family if unit else ""
         told = [one for one in value.readings if one.quantity != "bus"] or [*value.readings]
         reading = told[0] if len(told) == 1 else DeviceReading("", "", "")
-        native, factor = native_unit(reading, self._settings)
+        native, factor = find_native_unit(reading, self._settings)
         scale = None if factor is None else value.times(factor).scale
         self.signals.append(
             LoggedSignal(

@@ -19,13 +19,13 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     Placed,
+    infer_type,
+    infer_type_from,
     last_name,
     resolve,
     simple_type_name,
-    type_from,
-    type_of,
 )
-from grader.robotcode.scope import Scope, walk
+from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     COLLECTIONS,
@@ -43,7 +43,7 @@ MOST_NODES = 200  # of an expression that may make settings
 
 
 def motor_label(node: Node) -> str:
-    """What a motor is called in messages: ``m_left``, ``io.motor``."""
+    """The name of a motor in messages: ``m_left``, ``io.motor``."""
     if isinstance(node, Name):
         return node.name
     if isinstance(node, Member) and isinstance(node.owner, Self):
@@ -51,7 +51,7 @@ def motor_label(node: Node) -> str:
     return node.place.text
 
 
-def motor_elements(node: Node, scope: Scope, names: SymbolTable) -> tuple[Placed, ...]:
+def list_group_members(node: Node, scope: Scope, names: SymbolTable) -> tuple[Placed, ...]:
     """The motors in an array, a list, a motor group or a drive, if they have names of their own."""
     found = _listed(node, scope, names)
     named = all(isinstance(item, Name | Member | Element | Items) for item, _ in found)
@@ -98,20 +98,22 @@ def _paired(call: Call, scope: Scope, names: SymbolTable, depth: int) -> tuple[P
     )
 
 
-def motor_names(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> tuple[str, ...]:
+def list_motor_names(
+    node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0
+) -> tuple[str, ...]:
     """The motors that a node stands for: itself, or all that are in it."""
     if isinstance(node, Element):
         node = node.owner
     if depth < DEEPEST:
-        members = motor_elements(node, scope, names) or _motor_behind(node, scope, names)
+        members = list_group_members(node, scope, names) or _motor_behind(node, scope, names)
         if not members and isinstance(node, Name):
             members = tuple(
                 (d.value, d.scope)
-                for d in names.local(node.name, scope)
+                for d in names.find_local(node.name, scope)
                 if isinstance(d.value, Name | Member | Element)
             )
         if members:
-            several = (motor_names(n, s, names, depth=depth + 1) for n, s in members[:MOST])
+            several = (list_motor_names(n, s, names, depth=depth + 1) for n, s in members[:MOST])
             return tuple(dict.fromkeys(name for some in several for name in some))
     return (motor_label(node),)
 
@@ -121,20 +123,22 @@ def _motor_behind(node: Node, scope: Scope, names: SymbolTable) -> tuple[Placed,
     value, where = resolve(node, scope, names)
     if isinstance(value, Call) and isinstance(value.target, Member):
         owner = value.target.owner
-        if is_motor(type_of(owner, where, names)):
+        if is_motor(infer_type(owner, where, names)):
             return ((owner, where),)
     return ()
 
 
-def owned_motors(home: Scope, names: SymbolTable) -> tuple[str, ...]:
+def list_owned_motors(home: Scope, names: SymbolTable) -> tuple[str, ...]:
     """The motor controllers a class has, without those set to follow another."""
-    classes = names.lineage(home)
+    classes = names.list_base_classes(home)
     found: dict[str, None] = {}
     for place in classes:
-        for name, definitions in names.fields(place).items():
+        for name, definitions in names.find_fields(place).items():
             first = next((d for d in definitions if d.value is not None), None)
-            named = bool(first and first.value and motor_elements(first.value, first.scope, names))
-            type_ = type_from(definitions, names)
+            named = bool(
+                first and first.value and list_group_members(first.value, first.scope, names)
+            )
+            type_ = infer_type_from(definitions, names)
             if (is_motor(type_) or simple_type_name(type_) in GROUPS) and not named:
                 found[name] = None
     following = {name for place in classes for name in _Followers(names).of(place)}
@@ -153,7 +157,7 @@ class _Followers:
         found: set[str] = set()
         if b"ollow" not in home.module.source:  # follow, Follower, addFollower
             return found
-        for node, scope in walk(home.classes[-1].body, home):
+        for node, scope in walk_with_scopes(home.classes[-1].body, home):
             if isinstance(node, Assign) and node.value and _follow_calls(node.value):
                 self._configs.add(self._key(node.target, scope))
             elif isinstance(node, Call) and isinstance(node.target, Member):
@@ -169,12 +173,14 @@ class _Followers:
         if name == "addFollower":
             return [(arg, scope) for arg in call.args]
         if name == "follow":
-            if is_motor(type_of(target.owner, scope, self._names)):
+            if is_motor(infer_type(target.owner, scope, self._names)):
                 return [motor]
             self._configs.add(self._key(_root(target), scope))
         elif name == "setControl" and first is not None:
             return (
-                [motor] if simple_type_name(type_of(first, scope, self._names)) in FOLLOWERS else []
+                [motor]
+                if simple_type_name(infer_type(first, scope, self._names)) in FOLLOWERS
+                else []
             )
         elif name == "set" and first is not None:
             return [motor] if enum_constant(last_name(first)) == "follower" else []
@@ -189,7 +195,9 @@ class _Followers:
         """Whether settings make a follower where they stand, or in the class they come from."""
         if _follow_calls(settings):
             return True
-        home = self._names.home(settings.owner, scope) if isinstance(settings, Member) else None
+        home = (
+            self._names.find_home(settings.owner, scope) if isinstance(settings, Member) else None
+        )
         if home is None or not home.classes or home.classes == scope.classes:
             return False
         calls = [call for node in home.classes[-1].body for call in _follow_calls(node)]
@@ -197,14 +205,14 @@ class _Followers:
 
     def _key(self, node: Node, scope: Scope) -> tuple[str, Node | None]:
         """A variable, told apart from those of the same name in other methods."""
-        local = self._names.local(node.name, scope) if isinstance(node, Name) else ()
+        local = self._names.find_local(node.name, scope) if isinstance(node, Name) else ()
         return motor_label(node), local[0].scope.functions[-1] if local else None
 
     def _called_with(self, motor: Node, scope: Scope, home: Scope) -> Iterator[str]:
         """The motor's name; where it is a method's parameter, the motors it is called with."""
-        local = self._names.local(motor.name, scope) if isinstance(motor, Name) else ()
+        local = self._names.find_local(motor.name, scope) if isinstance(motor, Name) else ()
         if not local or not isinstance(local[0].value, FunctionParameter):
-            yield from motor_names(motor, scope, self._names)
+            yield from list_motor_names(motor, scope, self._names)
             return
         function = local[0].scope.functions[-1]
         at = function.parameters.index(local[0].value)

@@ -21,8 +21,9 @@ from grader.robotcode.ir import (
     Text,
     iter_nodes,
 )
-from grader.robotcode.scope import Definitions, Scope
+from grader.robotcode.scope import Definitions, Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import STAND_INS
 
 MOST_STEPS = 20  # names followed, one to the next
 MOST_PIECES = 5  # strings joined one into the other
@@ -37,7 +38,7 @@ def simple_type_name(type_: str) -> str:
 
 
 def last_name(node: Node) -> str:
-    """What a name ends with: ``Config`` of ``SysIdRoutine.Config``; empty for other nodes."""
+    """The last part of a dotted name, ``Config`` of ``SysIdRoutine.Config``; else empty."""
     return node.name if isinstance(node, Name | Member) else ""
 
 
@@ -54,33 +55,33 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
             node = inner
             continue
         if isinstance(node, Call):
-            methods = called_functions(node, scope, names)
-            returned = only_return(methods[0][0]) if len(methods) == 1 else None
+            methods = find_called_functions(node, scope, names)
+            returned = find_single_return(methods[0][0]) if len(methods) == 1 else None
             if returned is None:
                 break
             node, scope = returned, methods[0][1]
             continue
         if isinstance(node, Reference):
             break
-        valued = [d for d in names.definitions(node, scope) if d.value is not None]
+        valued = [d for d in names.find_definitions(node, scope) if d.value is not None]
         if len(valued) != 1 or valued[0].value is None:
             break
         node, scope = valued[0].value, valued[0].scope
         if isinstance(node, Function) and node.property:
-            returned = only_return(node)
+            returned = find_single_return(node)
             if returned is None:
                 break
             node, scope = returned, scope.within(node)
     return node, scope
 
 
-def only_return(function: Function) -> Node | None:
-    """What a function returns, if it says so in one place."""
+def find_single_return(function: Function) -> Node | None:
+    """The node that a function returns, if it has a single return."""
     found = [n for n in iter_nodes(*function.body, but=(Function, Class)) if isinstance(n, Return)]
     return found[0].value if len(found) == 1 else None
 
 
-def type_of(node: Node, scope: Scope, names: SymbolTable) -> str:
+def infer_type(node: Node, scope: Scope, names: SymbolTable) -> str:
     """The type of a variable, declared or seen from what it is made with; empty if unknown."""
     if isinstance(node, FunctionParameter):
         return node.type
@@ -88,10 +89,10 @@ def type_of(node: Node, scope: Scope, names: SymbolTable) -> str:
     while isinstance(node, Element):  # of an array or a list: both types are taken for one
         node = node.owner
     made = _made(node, scope)
-    return made if made is not None else type_from(names.definitions(node, scope), names)
+    return made if made is not None else infer_type_from(names.find_definitions(node, scope), names)
 
 
-def type_from(definitions: Definitions, names: SymbolTable) -> str:
+def infer_type_from(definitions: Definitions, names: SymbolTable) -> str:
     """The type that the definitions of one variable give it; empty if unknown."""
     for _ in range(MOST_STEPS):
         declared = next((d.type for d in definitions if d.type), "")
@@ -104,7 +105,7 @@ def type_from(definitions: Definitions, names: SymbolTable) -> str:
             return _made_by_method(value, first.scope, names)
         if made is not None:
             return made
-        definitions = names.definitions(_without_settings(value), first.scope)
+        definitions = names.find_definitions(_without_settings(value), first.scope)
     return ""
 
 
@@ -120,11 +121,11 @@ def _one_of(node: Node) -> Node:
     return node
 
 
-def constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
-    """The class a call makes, by its own name whatever it is called here; empty if it is none."""
+def find_constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
+    """The original name of the class that a call constructs; empty if it constructs none."""
     target = call.target
     if isinstance(target, Name):
-        brought = brought_name(target.name, scope)
+        brought = find_imported_name(target.name, scope)
         if brought:
             return brought
     target, _ = resolve(target, scope, names)  # Config = SysIdRoutine.Config
@@ -132,8 +133,8 @@ def constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
     return made if made[:1].isupper() else ""
 
 
-def brought_name(name: str, scope: Scope) -> str:
-    """What an imported name is called where it comes from; empty if it is not imported."""
+def find_imported_name(name: str, scope: Scope) -> str:
+    """The original name of an imported name; empty if it is not imported."""
     path = next((one.path for one in scope.module.imports if one.name == name), "")
     return path.rpartition(".")[2]
 
@@ -145,7 +146,7 @@ def _made(node: Node, scope: Scope) -> str | None:
         return None
     made = last_name(node.target)
     if isinstance(node.target, Name):
-        made = brought_name(made, scope) or made
+        made = find_imported_name(made, scope) or made
     return made if made[:1].isupper() else ""
 
 
@@ -153,10 +154,12 @@ def _made_by_method(call: Call, scope: Scope, names: SymbolTable) -> str:
     """The class that a method of these files makes; a call counts as none while it is looked at."""
     if call not in names.made:
         names.made[call] = ""
-        with names.one_deeper() as allowed:
+        with names.limit_depth() as allowed:
             if allowed:
                 value, where = resolve(call, scope, names)
-                made = constructed_class(value, where, names) if isinstance(value, Call) else ""
+                made = (
+                    find_constructed_class(value, where, names) if isinstance(value, Call) else ""
+                )
                 names.made[call] = made
     return names.made[call]
 
@@ -170,30 +173,30 @@ def _without_settings(node: Node) -> Node:
     return node
 
 
-def class_of(node: Node, scope: Scope, names: SymbolTable) -> Scope | None:
+def find_class(node: Node, scope: Scope, names: SymbolTable) -> Scope | None:
     """The class that a node names or is an instance of, if these files hold it."""
-    home = names.home(node, scope)
+    home = names.find_home(node, scope)
     if home is None:
-        type_ = simple_type_name(type_of(node, scope, names))
-        home = names.named(type_, scope) if type_ else None
+        type_ = simple_type_name(infer_type(node, scope, names))
+        home = names.find_by_name(type_, scope) if type_ else None
     return home
 
 
-def text_of(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
+def fold_text(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
     """A string constant, joined from several where need be; empty if it cannot be told."""
     node, scope = resolve(node, scope, names)
     if isinstance(node, Text):
         return node.value
     if isinstance(node, Operation) and node.sign == "+" and node.left and depth < MOST_PIECES:
-        both = [text_of(n, scope, names, depth=depth + 1) for n in (node.left, node.right)]
+        both = [fold_text(n, scope, names, depth=depth + 1) for n in (node.left, node.right)]
         return "".join(both) if all(both) else ""
     return ""
 
 
-def called_functions(
+def find_called_functions(
     call: Call, scope: Scope, names: SymbolTable, *, owner: Placed | None = None
 ) -> list[Method]:
-    """The functions of these files that a call may mean: those of its name that take as much.
+    """The functions of these files that a call may mean, by name and number of arguments.
 
     Args:
         call: the call.
@@ -204,13 +207,13 @@ def called_functions(
     target = call.target
     count = len(call.args) + len(call.named)
     if isinstance(target, Member):
-        home = class_of(*(owner or (target.owner, scope)), names)
+        home = find_class(*(owner or (target.owner, scope)), names)
         return [] if home is None else _fitting(target.name, home, names, count)
     if not isinstance(target, Name):
         return []
     functions = [
         (d.value, d.scope.within(d.value))
-        for d in names.definitions(target, scope)
+        for d in names.find_definitions(target, scope)
         if isinstance(d.value, Function)
     ]
     if functions or scope.module.language == "python":
@@ -219,22 +222,59 @@ def called_functions(
     return next(filter(None, (_fitting(target.name, h, names, count) for h in homes)), [])
 
 
-def methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
+def find_methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
     """The methods of a name in a class, or in the classes above it if it has none."""
-    places = names.lineage(home) if home.classes else [home]
+    places = names.list_base_classes(home) if home.classes else [home]
     return next(filter(None, (_methods_in(place, name, names) for place in places)), [])
+
+
+def find_given_setting(node: Node, scope: Scope, names: SymbolTable) -> str:
+    """The constant that the program gives a setting: ``Voltage`` of ``constants.DriveOutput``.
+
+    A library's object holds it; what the program says is ``withDriveOutput(Type.Voltage)``.
+
+    Returns:
+        The constant's name; empty where there is no such call, or where two of them differ.
+    """
+    if not isinstance(node, Member) or scope.module.language != "java":
+        return ""
+    setter = f"with{node.name}"
+    found = {
+        last_name(resolve(inner.args[0], where, names)[0])
+        for module in names.list_modules_with(setter)
+        for inner, where in walk_with_scopes(module.body, Scope(module))
+        if isinstance(inner, Call) and last_name(inner.target) == setter and len(inner.args) == 1
+    }
+    return found.pop() if len(found) == 1 else ""
+
+
+def find_implementing_methods(method: Method, names: SymbolTable) -> list[Method]:
+    """What classes of these files do in a method that a class or interface leaves empty.
+
+    What only stands in for hardware, a simulation or the replay of a log, is not among them.
+    """
+    function, scope = method
+    if function.body or not scope.classes or scope.module.language != "java":
+        return []
+    return [
+        one
+        for home in names.find_implementations(scope.home)
+        if not STAND_INS.search(home.classes[-1].name)
+        for one in _methods_in(home, function.name, names)
+        if one[0].body and len(one[0].parameters) == len(function.parameters)
+    ]
 
 
 def _methods_in(home: Scope, name: str, names: SymbolTable) -> list[Method]:
     return [
         (node, home.within(node))
-        for node in names.members(home)
+        for node in names.list_members(home)
         if isinstance(node, Function) and node.name == name
     ]
 
 
 def _fitting(name: str, home: Scope, names: SymbolTable, count: int) -> list[Method]:
-    found = methods(name, home, names)
+    found = find_methods(name, home, names)
     return [method for method in found if len(method[0].parameters) == count] or (
         found if len(found) == 1 and home.module.language == "python" else []
     )

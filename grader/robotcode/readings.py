@@ -12,13 +12,13 @@ from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.ir import Assign, Call, Member, Name, Node, Self, Text
 from grader.robotcode.motors import motor_label
 from grader.robotcode.name_resolution import (
+    infer_type,
+    infer_type_from,
     last_name,
     resolve,
     simple_type_name,
-    type_from,
-    type_of,
 )
-from grader.robotcode.scope import Scope, bindings, walk
+from grader.robotcode.scope import Scope, collect_bindings, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     APPLIED_DUTY,
@@ -68,7 +68,7 @@ class DeviceReading:
 
 @dataclass
 class DeviceSettings:
-    """What the program sets its devices to.
+    """The settings that the program gives its devices.
 
     Args:
         per_pulse: encoder -> what it counts per pulse; None if that cannot be told.
@@ -88,7 +88,7 @@ class DeviceSettings:
     elsewhere: bool = False
 
 
-def quantity_of(method: str, *, motor: bool) -> str:
+def find_quantity(method: str, *, motor: bool) -> str:
     """The quantity that a method of a device reports; empty if it is none of these."""
     if method in APPLIED_VOLTAGE or (motor and method == "getVoltage"):
         return "voltage"
@@ -99,9 +99,9 @@ def quantity_of(method: str, *, motor: bool) -> str:
     return next((name for name, form in QUANTITIES if form.fullmatch(method)), "")
 
 
-def device_of(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
+def find_device(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
     """The name and the class of a motor controller or encoder; two empty texts for other nodes."""
-    type_ = simple_type_name(type_of(node, scope, names))
+    type_ = simple_type_name(infer_type(node, scope, names))
     value, _ = resolve(node, scope, names)
     if isinstance(value, Call) and isinstance(value.target, Member):
         made = PARTS.get(java_spelling(value.target.name), "")
@@ -111,7 +111,7 @@ def device_of(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
     return (motor_label(node), type_) if known else ("", "")
 
 
-def native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[str, float | None]:
+def find_native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[str, float | None]:
     """The unit in which a device reports a position or a velocity, and a factor it is set to.
 
     Returns:
@@ -143,8 +143,10 @@ def native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[str, 
     return found
 
 
-def settings_of(home: Scope, names: SymbolTable, measures: ConstantFolder) -> DeviceSettings:
-    """What a class, and the file it is in, sets its devices to."""
+def read_device_settings(
+    home: Scope, names: SymbolTable, measures: ConstantFolder
+) -> DeviceSettings:
+    """The settings that a class and its file give to devices."""
     return _SettingsReader(names, measures).read(home)
 
 
@@ -158,9 +160,9 @@ class _SettingsReader:
 
     def read(self, home: Scope) -> DeviceSettings:
         """All settings in the files of a class and of those above it."""
-        above = self._names.lineage(home) if home.classes else []
+        above = self._names.list_base_classes(home) if home.classes else []
         for module in dict.fromkeys((self._names.main, *(place.module for place in above))):
-            for node, scope in walk(module.body, Scope(module)):
+            for node, scope in walk_with_scopes(module.body, Scope(module)):
                 if isinstance(node, Assign) and node.value is not None:
                     self._assigned(last_name(node.target), node.value)
                 elif isinstance(node, Call) and isinstance(node.target, Member):
@@ -179,7 +181,7 @@ class _SettingsReader:
         name = java_spelling(target.name).removeprefix("set").removeprefix("with")
         name = name[:1].lower() + name[1:]
         device = ANY if _is_open(target.owner, scope, self._names) else motor_label(target.owner)
-        measure = self._measures.of(first, scope)
+        measure = self._measures.fold(first, scope)
         amount = None if measure is None else measure.value
         if name == "distancePerPulse":
             self._found.per_pulse[device] = amount
@@ -194,7 +196,7 @@ class _SettingsReader:
         elif name in {"configure", "apply"}:
             self._found.configured.add(_configured(target.owner))
             value, where = resolve(first, scope, self._names)
-            if isinstance(value, Name | Member) and not self._names.definitions(value, where):
+            if isinstance(value, Name | Member) and not self._names.find_definitions(value, where):
                 self._found.elsewhere = True
 
 
@@ -216,18 +218,18 @@ def _is_open(node: Node, scope: Scope, names: SymbolTable) -> bool:
         return False
     if not isinstance(node, Name):
         return True
-    if names.field_name(node, scope):
+    if names.find_field_name(node, scope):
         return False
-    return bool(names.local(node.name, scope))
+    return bool(names.find_local(node.name, scope))
 
 
-def impossible_numbers(
+def find_impossible_ids(
     home: Scope, names: SymbolTable, measures: ConstantFolder
 ) -> list[tuple[str, float]]:
-    """A class's devices that are made with what can be no port and no CAN ID."""
+    """The devices of a class whose port or CAN ID is impossible."""
     found = []
     for name, value in _made(home, names):
-        several = (measures.of(arg, home) for arg in value.args)
+        several = (measures.fold(arg, home) for arg in value.args)
         amounts = [one.value for one in several if one is not None]
         wrong = [one for one in amounts if one != int(one) or not 0 <= one <= MOST_IDS]
         twice = len(amounts) > 1 and amounts[0] == amounts[1]
@@ -238,23 +240,23 @@ def impossible_numbers(
 
 def _made(home: Scope, names: SymbolTable) -> Iterator[tuple[str, Call]]:
     """The motor controllers and encoders of a class that are made with a number."""
-    for name, definitions in (names.fields(home) if home.classes else {}).items():
+    for name, definitions in (names.find_fields(home) if home.classes else {}).items():
         value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
         if isinstance(value, Call) and value.args:
-            type_ = simple_type_name(type_of(value, home, names))
+            type_ = simple_type_name(infer_type(value, home, names))
             if is_motor(type_) or type_ == "Encoder":
                 yield name, value
 
 
-def same_numbers(
+def find_shared_ids(
     home: Scope, names: SymbolTable, measures: ConstantFolder
 ) -> list[tuple[str, str]]:
-    """Pairs of a class's devices that are made with the same number of a port or a CAN ID."""
+    """Pairs of devices of a class that share a port or a CAN ID."""
     made: dict[tuple[object, ...], str] = {}
     found: list[tuple[str, str]] = []
     for name, value in _made(home, names):
-        kind = simple_type_name(type_of(value, home, names))
-        amounts = [measures.of(arg, home) for arg in value.args]
+        kind = simple_type_name(infer_type(value, home, names))
+        amounts = [measures.fold(arg, home) for arg in value.args]
         known = [one.value for one in amounts if one is not None]
         texts = [arg.value for arg in value.args if isinstance(arg, Text)]
         keys: list[tuple[object, ...]] = [(kind, *known, *texts)] if known else []
@@ -264,24 +266,24 @@ def same_numbers(
     return list(dict.fromkeys(found))
 
 
-def devices(home: Scope, names: SymbolTable) -> Iterator[tuple[str, str]]:
+def find_devices(home: Scope, names: SymbolTable) -> Iterator[tuple[str, str]]:
     """The motor controllers and encoders that a class owns: name and class."""
-    for place in names.lineage(home) if home.classes else ():
-        for name, definitions in names.fields(place).items():
-            type_ = simple_type_name(type_from(definitions, names))
+    for place in names.list_base_classes(home) if home.classes else ():
+        for name, definitions in names.find_fields(place).items():
+            type_ = simple_type_name(infer_type_from(definitions, names))
             if is_motor(type_) or ENCODER.fullmatch(type_):
                 yield name, type_
 
 
-def numbers(
+def find_number_fields(
     home: Scope, names: SymbolTable, measures: ConstantFolder
 ) -> Iterator[tuple[str, float]]:
     """The numbers among a class's fields, and in Python among those of its file: name and value."""
-    at_top = bindings(home.module.body, Scope(home.module))
-    for several in (names.fields(home) if home.classes else {}, at_top):
+    at_top = collect_bindings(home.module.body, Scope(home.module))
+    for several in (names.find_fields(home) if home.classes else {}, at_top):
         for name, definitions in several.items():
             valued = [one for one in definitions if one.value is not None]
             if len(valued) == 1 and valued[0].value is not None:
-                amount = measures.of(valued[0].value, valued[0].scope)
+                amount = measures.fold(valued[0].value, valued[0].scope)
                 if amount is not None and amount.dimension == "number":
                     yield name, amount.value

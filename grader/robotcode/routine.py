@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.robotcode.abstract_value import MotorLog, Value
-from grader.robotcode.compiling import compile_errors
-from grader.robotcode.compiling.season import import_season
+from grader.robotcode.compiling import find_compile_errors
+from grader.robotcode.compiling.season import find_season
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.drive_callback import DriveTrace
 from grader.robotcode.facts import (
@@ -17,27 +17,27 @@ from grader.robotcode.facts import (
 )
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Function, Member, Node, Null, Number, Self, Text
-from grader.robotcode.kept_field import line_of_loss
+from grader.robotcode.kept_field import find_line_that_clears
 from grader.robotcode.log_callback import LogTrace
-from grader.robotcode.motors import owned_motors
+from grader.robotcode.motors import list_owned_motors
 from grader.robotcode.name_resolution import (
     Placed,
-    brought_name,
-    constructed_class,
+    find_constructed_class,
+    find_imported_name,
+    find_methods,
+    infer_type,
     last_name,
-    methods,
     resolve,
     simple_type_name,
-    type_of,
 )
 from grader.robotcode.readings import (
-    devices,
-    impossible_numbers,
-    numbers,
-    same_numbers,
-    settings_of,
+    find_devices,
+    find_impossible_ids,
+    find_number_fields,
+    find_shared_ids,
+    read_device_settings,
 )
-from grader.robotcode.scope import Scope, walk
+from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     COMMANDS_V3,
@@ -76,7 +76,7 @@ class _Routine:
         return None if found is None else (found, self.scope)
 
 
-def facts_of(path: Path) -> RoutineFacts:
+def read_routine_facts(path: Path) -> RoutineFacts:
     """Read the facts from a file; see ``grader.robotcode.read``."""
     names = SymbolTable(Files(path))
     module = names.main
@@ -84,31 +84,31 @@ def facts_of(path: Path) -> RoutineFacts:
     routine = _find(names)
     if routine is None:
         return facts
-    facts = replace(facts, compile_errors=compile_errors(names))
+    facts = replace(facts, compile_errors=find_compile_errors(names))
     measures = ConstantFolder(names)
     home = routine.scope.home
     if home.classes:
         above = {
-            brought_name(base, place) or base
-            for place in names.lineage(home)
+            find_imported_name(base, place) or base
+            for place in names.list_base_classes(home)
             for base in place.classes[-1].bases
         }
         facts = replace(
             facts,
             class_name=home.classes[-1].name,
             is_subsystem=not above.isdisjoint(SUBSYSTEMS),
-            motors=owned_motors(home, names),
-            impossible_numbers=tuple(impossible_numbers(home, names, measures)),
-            same_numbers=tuple(same_numbers(home, names, measures)),
-            devices=tuple(devices(home, names)),
-            constants=tuple(numbers(home, names, measures)),
+            motors=list_owned_motors(home, names),
+            impossible_numbers=tuple(find_impossible_ids(home, names, measures)),
+            same_numbers=tuple(find_shared_ids(home, names, measures)),
+            devices=tuple(find_devices(home, names)),
+            constants=tuple(find_number_fields(home, names, measures)),
         )
     facts = replace(
         facts,
         routine_line=routine.call.place.line,
         config_argument=routine.config,
         mechanism_argument=routine.mechanism,
-        routine_lost=line_of_loss(routine.call, home, names),
+        routine_lost=find_line_that_clears(routine.call, home, names),
     )
     facts = _with_config(facts, routine.argument(routine.config), names, measures)
     return _with_mechanism(facts, routine.argument(routine.mechanism), names, measures)
@@ -118,8 +118,8 @@ def _find(names: SymbolTable) -> _Routine | None:
     """The first routine that is complete, else the one that has most."""
     found = [
         _routine(node, scope, names)
-        for node, scope in walk(names.main.body, Scope(names.main))
-        if isinstance(node, Call) and constructed_class(node, scope, names) == "SysIdRoutine"
+        for node, scope in walk_with_scopes(names.main.body, Scope(names.main))
+        if isinstance(node, Call) and find_constructed_class(node, scope, names) == "SysIdRoutine"
     ]
     return max(found, key=lambda one: (one.config >= 0) + (one.mechanism >= 0), default=None)
 
@@ -145,7 +145,7 @@ def _kind(node: Node, scope: Scope, names: SymbolTable) -> str:
         return _part_made(value, where, names)
     if isinstance(value, Null | Text | Number | Function | Self):
         return "other"
-    return _part_name(simple_type_name(type_of(node, scope, names)))
+    return _part_name(simple_type_name(infer_type(node, scope, names)))
 
 
 def _part_made(call: Call, scope: Scope, names: SymbolTable) -> str:
@@ -156,7 +156,7 @@ def _part_made(call: Call, scope: Scope, names: SymbolTable) -> str:
         imported = next((i.path for i in scope.module.imports if i.name == last_name(target)), "")
         made_by = last_name(owner) if owner else imported.rpartition(".")[0].rpartition(".")[2]
         return "Config" if made_by == "Config" else ""
-    return _part_name(constructed_class(call, scope, names))
+    return _part_name(find_constructed_class(call, scope, names))
 
 
 def _part_name(made: str) -> str:
@@ -186,7 +186,7 @@ def _with_config(
             Certainty.UNKNOWN, text=config[0].place.text, line=_line(config[0], names)
         )
         return replace(facts, ramp=untold, step=untold, timeout=untold)
-    given, season = _arguments(call, CONFIG), import_season(names.main.imports)
+    given, season = _arguments(call, CONFIG), find_season(names.main.imports)
     found = dict.fromkeys(DEFAULTS, ConfigQuantity(Certainty.UNKNOWN))
     for at, (name, default) in enumerate(config_defaults(season).items()):
         if at in given:
@@ -204,7 +204,7 @@ def _changes(config: Node, names: SymbolTable) -> dict[str, Assign]:
     words = dict(zip(CONFIG, DEFAULTS, strict=False))
     return {
         words[java_spelling(node.target.name)]: node
-        for node, _ in walk(names.main.body, Scope(names.main))
+        for node, _ in walk_with_scopes(names.main.body, Scope(names.main))
         if isinstance(node, Assign)
         and isinstance(node.target, Member)
         and java_spelling(node.target.name) in words
@@ -229,9 +229,9 @@ def _quantity(
         return replace(stated, text=place.text, line=line)
     constant = NAMED_DEFAULTS.get(last_name(resolved))
     if constant:
-        named = config_defaults(import_season(names.main.imports))[constant]
+        named = config_defaults(find_season(names.main.imports))[constant]
         return replace(named, text=place.text, line=line)
-    measure = measures.of(node, scope)
+    measure = measures.fold(node, scope)
     if measure is None or measure.unit:
         return ConfigQuantity(Certainty.UNKNOWN, text=place.text, line=line)
     return ConfigQuantity(Certainty.STATED, measure.value, measure.dimension, place.text, line)
@@ -257,20 +257,16 @@ def _with_mechanism(
     callback = _callback(given.get(0), scope, names)
     if callback is not None:
         parameter = Value(callback, scope, carries=True)
-        facts = replace(
-            facts,
-            drive_found=drive.run(callback, scope, parameter),
-            drive_line=drive.line_of(callback),
-        )
+        facts = replace(facts, drive_found=drive.run(callback, scope, parameter))
         _in_periodic(drive, scope, names)
         facts = replace(facts, in_periodic=_besides(drive, scope, names, measures))
     commanded = {key for key, value in drive.stored.items() if value.carries is not False}
-    settings = settings_of(scope.home, names, measures)
+    settings = read_device_settings(scope.home, names, measures)
     log = LogTrace(names, measures, commanded=commanded, settings=settings)
     callback = _callback(given.get(1), scope, names)
     if callback is not None:
         found = log.run(callback, scope, Value(callback, scope, log=MotorLog()))
-        facts = replace(facts, log_found=found, log_line=log.line_of(callback))
+        facts = replace(facts, log_found=found)
     return replace(
         facts,
         drive=tuple(drive.calls),
@@ -302,8 +298,8 @@ def _besides(
     """What periodic() commands in every loop, where the callback itself moves the motors."""
     loop = DriveTrace(names, measures, only_sure=True)
     driven = {call.motor for call in drive.calls if call.method not in STOPS}
-    for method in methods("periodic", scope.home, names)[:1] if scope.classes else ():
-        loop.then(method)
+    for method in find_methods("periodic", scope.home, names)[:1] if scope.classes else ():
+        loop.follow_method(method)
     followed = any(call.text == other.text for call in drive.calls for other in loop.calls)
     return () if followed else tuple(call for call in loop.calls if call.motor in driven)
 
@@ -313,5 +309,5 @@ def _in_periodic(drive: DriveTrace, scope: Scope, names: SymbolTable) -> None:
     if drive.calls or not scope.classes:
         return
     if any(value.carries for value in drive.stored.values()):
-        for method in methods("periodic", scope.home, names)[:1]:
-            drive.then(method)
+        for method in find_methods("periodic", scope.home, names)[:1]:
+            drive.follow_method(method)

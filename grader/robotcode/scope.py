@@ -1,4 +1,4 @@
-"""Where a piece of code stands, and which names get a value there."""
+"""Scopes: the file, classes and functions around a piece of code, and the names assigned there."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ MOST_FUNCTIONS = 20  # functions one inside the other whose variables are still 
 
 @dataclass(frozen=True)
 class Scope:
-    """Where a piece of code stands: its file, the classes around it, the functions around it."""
+    """The scope of a piece of code: its file, and the classes and functions around it."""
 
     module: Module
     classes: tuple[Class, ...] = ()
@@ -59,7 +59,7 @@ class Definition:
 Definitions = tuple[Definition, ...]
 
 
-def walk(nodes: tuple[Node, ...], scope: Scope) -> Iterator[tuple[Node, Scope]]:
+def walk_with_scopes(nodes: tuple[Node, ...], scope: Scope) -> Iterator[tuple[Node, Scope]]:
     """All nodes in and under some, each with the scope it stands in, in the order of the text."""
     waiting = [(node, scope) for node in reversed(nodes)]
     while waiting:
@@ -69,7 +69,7 @@ def walk(nodes: tuple[Node, ...], scope: Scope) -> Iterator[tuple[Node, Scope]]:
         waiting.extend((part, within) for part in reversed(node.parts))
 
 
-def bindings(nodes: tuple[Node, ...], scope: Scope) -> dict[str, Definitions]:
+def collect_bindings(nodes: tuple[Node, ...], scope: Scope) -> dict[str, Definitions]:
     """The names that get a value in a body of code, not counting those of functions inside it.
 
     In Java an assignment without a declaration is to a field, and brings no name into being.

@@ -1,4 +1,4 @@
-"""A file's text, or the reason why it has none: what comes before any parsing."""
+"""Read a source file, or refuse it with the reason."""
 
 from pathlib import Path
 
@@ -9,8 +9,8 @@ LANGUAGES = {".java": "java", ".py": "python"}  # suffix in lower case -> langua
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # how Windows Notepad's "Unicode" files begin
 
 
-def language_of(path: Path) -> str:
-    """Tell the language of a file by its suffix.
+def detect_language(path: Path) -> str:
+    """The language of a file, by its suffix.
 
     Returns:
         ``java`` or ``python``.
@@ -29,7 +29,7 @@ def language_of(path: Path) -> str:
     return language
 
 
-def text_of(path: Path) -> str:
+def read_source(path: Path) -> str:
     r"""Read a source file: UTF-8, with or without a byte order mark, line ends made ``\n``.
 
     Raises:

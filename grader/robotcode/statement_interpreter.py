@@ -1,4 +1,4 @@
-"""What single statements and expressions do to values; calls are for ``trace``."""
+"""Interpret statements and expressions on abstract values; subclasses interpret calls."""
 
 import re
 from abc import ABC, abstractmethod
@@ -28,8 +28,8 @@ from grader.robotcode.ir import (
     Return,
     Self,
 )
-from grader.robotcode.motors import motor_elements, motor_label
-from grader.robotcode.name_resolution import Method
+from grader.robotcode.motors import list_group_members, motor_label
+from grader.robotcode.name_resolution import Method, find_given_setting, last_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.transfer_functions import TransferFunctions
@@ -38,12 +38,13 @@ MOST_STEPS = 20_000  # expressions looked at in all; a whole subsystem has some 
 DEEPEST = 60  # expressions and statements inside one another
 DECIDES = re.compile(r"(if|elif|while)\b")  # how a statement begins whose first part is a condition
 CONSTANT = re.compile(r"\(?\s*(true|false|0|1)\s*\)?", re.IGNORECASE)
+ARROW = re.compile(r"switch\b[^{]*\{\s*(case\b[^:>]*|default\s*)->")
 LEAVES = re.compile(r"\b(return|break|continue|throw|raise)\b")
 
 
 @dataclass
 class Frame:
-    """A function while it is followed.
+    """The frame of a function that is being interpreted.
 
     Args:
         scope: the scope inside it.
@@ -61,8 +62,8 @@ class Frame:
     branches: int = 0
     returned: list[Value] = field(default_factory=list)
 
-    def value(self, node: Node) -> Value:
-        """A value of which nothing is known but where it stands."""
+    def unknown_value(self, node: Node) -> Value:
+        """An unknown value, with its place in the code."""
         return Value(node, self.scope, me=self.me)
 
 
@@ -85,11 +86,11 @@ class StatementInterpreter(ABC):
         self._depth = 0
 
     @abstractmethod
-    def call(self, node: Call, frame: Frame) -> Value:
+    def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call."""
 
     @abstractmethod
-    def follow(
+    def follow_call(
         self,
         method: Method,
         args: list[Value],
@@ -101,78 +102,78 @@ class StatementInterpreter(ABC):
     ) -> Value:
         """The value of a call of a function in these files."""
 
-    def variable(self, node: Name | Member, frame: Frame) -> Value:
-        """The value of a variable that got none on the way."""
-        return frame.value(node)
+    def evaluate_variable(self, node: Name | Member, frame: Frame) -> Value:
+        """The value of a variable that no statement so far has assigned."""
+        return frame.unknown_value(node)
 
     def line_of(self, node: Node) -> int:
         """The line of a node in the file in hand; 0 if it stands in another."""
         return node.place.line if node.place.source is self.names.main.source else 0
 
     def evaluate(self, node: Node, frame: Frame) -> Value:
-        """Follow one expression or statement."""
+        """Evaluate one expression or statement."""
         self._steps += 1
         if self._depth >= DEEPEST or self._steps > MOST_STEPS:
-            return self.too_deep(node, frame)
+            return self.stop_too_deep(node, frame)
         self._depth += 1
         try:
             if isinstance(node, Call):
-                return self.call(node, frame)
+                return self.evaluate_call(node, frame)
             return self._KINDS.get(type(node), StatementInterpreter._parts)(self, node, frame)
         finally:
             self._depth -= 1
 
-    def key(self, node: Node, frame: Frame) -> str:
-        """What a field is stored under; for a part of an object, the object's."""
+    def storage_key(self, node: Node, frame: Frame) -> str:
+        """The key of a field's stored value; for a part of an object, the object's key."""
         while not isinstance(node, Name) and not _of_self(node):
             if not isinstance(node, Element | Member):
                 break
             node = node.owner
         return frame.me + motor_label(node)
 
-    def too_deep(self, node: Node, frame: Frame) -> Value:
-        """Stop where no person's code leads, and say so."""
+    def stop_too_deep(self, node: Node, frame: Frame) -> Value:
+        """Give up on code that nests too deeply, and note it."""
         said = "the code is nested too deeply here for the grader"
         self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
-        return replace(frame.value(node), carries=None)
+        return replace(frame.unknown_value(node), carries=None)
 
     def _name(self, node: Name | Member, frame: Frame) -> Value:
         if isinstance(node, Name) and node.name in frame.locals:
             return frame.locals[node.name]
         if isinstance(node, Member) and self._is_part(node, frame):
-            return join_values([self.evaluate(node.owner, frame)], at=frame.value(node))
-        stored = self.stored.get(self.key(node, frame))
+            return join_values([self.evaluate(node.owner, frame)], at=frame.unknown_value(node))
+        stored = self.stored.get(self.storage_key(node, frame))
         if stored is not None:
-            return join_values([stored], at=frame.value(node))
-        definitions = self.names.definitions(node, frame.scope)
+            return join_values([stored], at=frame.unknown_value(node))
+        definitions = self.names.find_definitions(node, frame.scope)
         value = definitions[0].value if len(definitions) == 1 else None
         if isinstance(value, Function) and value.property:
             method = (value, definitions[0].scope.within(value))
-            return self.follow(method, [], {}, frame, me=frame.me)
-        local = isinstance(node, Name) and self.names.local(node.name, frame.scope)
+            return self.follow_call(method, [], {}, frame, me=frame.me)
+        local = isinstance(node, Name) and self.names.find_local(node.name, frame.scope)
         if local and isinstance(value, Name | Member | Function):
             outer = Frame(definitions[0].scope, frame.me, around=frame.around)
             return self.evaluate(value, outer)
-        return self.variable(node, frame)
+        return self.evaluate_variable(node, frame)
 
     def _is_part(self, node: Member, frame: Frame) -> bool:
         """Whether a member belongs to some object: not to this one, nor to a class or a file."""
         if isinstance(node, Reference) or _of_self(node):
             return False
-        return self.names.home(node.owner, frame.scope) is None
+        return self.names.find_home(node.owner, frame.scope) is None
 
     def _self(self, node: Self, frame: Frame) -> Value:
-        return frame.value(node)
+        return frame.unknown_value(node)
 
     def _operation(self, node: Operation, frame: Frame) -> Value:
         left = None if node.left is None else self.evaluate(node.left, frame)
         right = self.evaluate(node.right, frame)
-        return self.flow.operated(node, left, right, frame.value(node))
+        return self.flow.apply_operator(node, left, right, frame.unknown_value(node))
 
     def _choice(self, node: Choice, frame: Frame) -> Value:
         self.evaluate(node.condition, frame)
         several = [self.evaluate(node.one, frame), self.evaluate(node.other, frame)]
-        made = join_values(several, at=frame.value(node))
+        made = join_values(several, at=frame.unknown_value(node))
         alike = {one.carries for one in several} != {True, False}
         return made if alike else replace(made, factor=CHANGED)
 
@@ -182,25 +183,27 @@ class StatementInterpreter(ABC):
 
     def _element(self, node: Element, frame: Frame) -> Value:
         self.evaluate(node.index, frame)
-        return join_values([self.evaluate(node.owner, frame)], at=frame.value(node))
+        return join_values([self.evaluate(node.owner, frame)], at=frame.unknown_value(node))
 
     def _function(self, node: Function, frame: Frame) -> Value:
-        value = replace(frame.value(node), captured=dict(frame.locals))
+        value = replace(frame.unknown_value(node), captured=dict(frame.locals))
         if node.name:
             frame.locals[node.name] = value
         return value
 
     def _assign(self, node: Assign, frame: Frame) -> Value:
-        value = frame.value(node) if node.value is None else self.evaluate(node.value, frame)
+        value = (
+            frame.unknown_value(node) if node.value is None else self.evaluate(node.value, frame)
+        )
         target = node.target
-        if isinstance(target, Name) and not self.names.field_name(target, frame.scope):
+        if isinstance(target, Name) and not self.names.find_field_name(target, frame.scope):
             before = frame.locals.get(target.name)
             branched = frame.branches > 0 and before is not None
             frame.locals[target.name] = (
                 join_values([before, value], at=value) if branched and before else value
             )
         elif node.value is not None:
-            self.store(target, value, frame)
+            self.store_value(target, value, frame)
         return value
 
     def _return(self, node: Return, frame: Frame) -> Value:
@@ -211,8 +214,10 @@ class StatementInterpreter(ABC):
         before, sure = self.condition, self.sure
         frame.branches += 1
         self.sure = False
-        for number, part in enumerate(node.parts):
+        results = []
+        for number, (part, is_result) in enumerate(self._branch_parts(node, frame)):
             value = self.evaluate(part, frame)
+            results += [value] if is_result else []
             text = part.place.text
             decides = number == 0 and DECIDES.match(node.place.text)
             if decides and (value.carries is not False or CONSTANT.fullmatch(text)):
@@ -221,27 +226,42 @@ class StatementInterpreter(ABC):
         self.sure = sure
         if not LEAVES.search(node.place.text):
             self.condition = before
-        return frame.value(node)
+        only = results[0] if len(results) == 1 else frame.unknown_value(node)
+        return join_values(results, at=only)
+
+    def _branch_parts(self, node: Branch, frame: Frame) -> list[tuple[Node, bool]]:
+        """The parts of a branch, and whether a part is what a ``case … ->`` of a switch comes to.
+
+        Of a switch over a setting that the program gives once, only the case of its value counts.
+        """
+        if not ARROW.match(node.place.text):
+            return [(part, False) for part in node.parts]
+        decides, *blocks = node.parts
+        cases = [case.parts for block in blocks for case in block.parts if case.parts]
+        given = find_given_setting(decides, frame.scope, self.names)
+        meant = [case for case in cases if given in map(last_name, case[:-1])]
+        several = meant if given and len(meant) == 1 else cases
+        return [(decides, False), *((part, part is case[-1]) for case in several for part in case)]
 
     def _loop(self, node: Loop, frame: Frame) -> Value:
         result = []
         collection = self.evaluate(node.collection, frame)
-        for element in self.elements(collection, frame):
+        for element in self.loop_elements(collection, frame):
             parts = [element] * len(node.variables)
             if len(parts) > 1 and isinstance(element.origin, Items):
                 inner = frame if element.scope == frame.scope else Frame(element.scope, element.me)
                 parts = [self.evaluate(item, inner) for item in element.origin.items]
             frame.locals |= dict(zip(node.variables, parts, strict=False))
             result += [self.evaluate(statement, frame) for statement in node.body]
-        return join_values(result, at=frame.value(node))
+        return join_values(result, at=frame.unknown_value(node))
 
     def _parts(self, node: Node, frame: Frame) -> Value:
         several = [self.evaluate(part, frame) for part in node.parts]
-        return join_values(several, at=frame.value(node)).times(None)
+        return join_values(several, at=frame.unknown_value(node)).times(None)
 
-    def elements(self, collection: Value, frame: Frame) -> list[Value]:
+    def loop_elements(self, collection: Value, frame: Frame) -> list[Value]:
         """What a loop runs over, one by one; the whole if they have no names."""
-        found = motor_elements(collection.origin, collection.scope, self.names)
+        found = list_group_members(collection.origin, collection.scope, self.names)
         inner = Frame(collection.scope, collection.me, around=frame.around)
         values = [
             self.evaluate(n, frame if s == frame.scope else replace(inner, scope=s))
@@ -249,14 +269,14 @@ class StatementInterpreter(ABC):
         ]
         return values or [collection]
 
-    def store(self, target: Node, value: Value, frame: Frame) -> None:
-        """Keep what a field, or an object that a variable holds, was given."""
+    def store_value(self, target: Node, value: Value, frame: Frame) -> None:
+        """Store the value that a field, or an object in a variable, was given."""
         if isinstance(target, Name) and target.name in frame.locals:
             before = frame.locals[target.name]
             frame.locals[target.name] = join_values([before, value], at=before)
             return
-        key = self.key(target, frame)
-        if value.telling or key in self.stored:
+        key = self.storage_key(target, frame)
+        if value.is_informative or key in self.stored:
             several = [self.stored[key], value] if key in self.stored else [value]
             self.stored[key] = join_values(several, at=value)
 

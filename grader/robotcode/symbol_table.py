@@ -18,7 +18,13 @@ from grader.robotcode.ir import (
     Self,
     iter_nodes,
 )
-from grader.robotcode.scope import Definition, Definitions, Scope, bindings, walk
+from grader.robotcode.scope import (
+    Definition,
+    Definitions,
+    Scope,
+    collect_bindings,
+    walk_with_scopes,
+)
 
 MOST_CLASSES = 12  # a class and those above it
 DEEPEST = 12  # files behind files, methods behind methods, on the way to one name
@@ -44,28 +50,29 @@ class SymbolTable:
         self._bound: dict[Function | Module, dict[str, Definitions]] = {}
         self._fields: dict[Class, dict[str, Definitions]] = {}
         self._bases: dict[Class, tuple[Scope, ...]] = {}
+        self._below: dict[Class, tuple[Scope, ...]] = {}
         self._tops: dict[tuple[Module, str], Definitions] = {}
         self._classes: dict[tuple[Class | Module, str], Scope | None] = {}
 
     @contextmanager
-    def one_deeper(self) -> Iterator[bool]:
-        """Count how deep a search has led, and tell whether it may go on."""
+    def limit_depth(self) -> Iterator[bool]:
+        """A context one level deeper in a search: whether the search may go on."""
         self._deep += 1
         try:
             yield self._deep <= DEEPEST
         finally:
             self._deep -= 1
 
-    def definitions(self, node: Node, scope: Scope) -> Definitions:
+    def find_definitions(self, node: Node, scope: Scope) -> Definitions:
         """Every place where a variable gets its value; none if it is not in these files."""
         if isinstance(node, Name):
             return self._variable(node.name, scope)
         if isinstance(node, Member):
-            home = self.home(node.owner, scope)
+            home = self.find_home(node.owner, scope)
             return () if home is None else self._in_home(node.name, home)
         return ()
 
-    def local(self, name: str, scope: Scope) -> Definitions:
+    def find_local(self, name: str, scope: Scope) -> Definitions:
         """Where a variable of the functions around gets its value; none if it is not one."""
         for count in range(len(scope.functions), 0, -1):
             inner = Scope(scope.module, scope.classes, scope.functions[:count])
@@ -74,25 +81,27 @@ class SymbolTable:
                 return found
         return ()
 
-    def field_name(self, node: Node, scope: Scope) -> str:
+    def find_field_name(self, node: Node, scope: Scope) -> str:
         """The name of the field of this object that a node is; empty if it is none."""
         if isinstance(node, Member) and isinstance(node.owner, Self):
             return node.name
         if isinstance(node, Name) and scope.module.language == "java" and scope.classes:
-            return "" if self.local(node.name, scope) else node.name
+            return "" if self.find_local(node.name, scope) else node.name
         return ""
 
-    def fields(self, home: Scope) -> dict[str, Definitions]:
+    def find_fields(self, home: Scope) -> dict[str, Definitions]:
         """The fields of a class, by every value they get anywhere in it."""
         owner = home.classes[-1]
         if owner not in self._fields:
-            found = {name: list(several) for name, several in bindings(owner.body, home).items()}
+            found = {
+                name: list(several) for name, several in collect_bindings(owner.body, home).items()
+            }
             for name, definition in self._set_in_methods(home):
                 found.setdefault(name, []).append(definition)
             self._fields[owner] = {name: tuple(several) for name, several in found.items()}
         return self._fields[owner]
 
-    def lineage(self, home: Scope) -> list[Scope]:
+    def list_base_classes(self, home: Scope) -> list[Scope]:
         """A class and those above it, as far as these files hold them."""
         found = [home]
         for place in found:
@@ -101,7 +110,33 @@ class SymbolTable:
                 break
         return found[:MOST_CLASSES]
 
-    def members(self, home: Scope) -> tuple[Function | Class, ...]:
+    def find_implementations(self, home: Scope) -> tuple[Scope, ...]:
+        """The classes of these files that say they implement or extend a class, themselves."""
+        owner = home.classes[-1]
+        if owner not in self._below:
+            self._below[owner] = ()
+            self._below[owner] = tuple(
+                place
+                for module in self.list_modules_with(owner.name)
+                for place in self._classes_in(Scope(module))
+                if owner.name in place.classes[-1].bases and home in self._above(place)
+            )
+        return self._below[owner]
+
+    def list_modules_with(self, word: str) -> list[Module]:
+        """The Java files of the program in whose text a word stands."""
+        return self._files.find_by_word(word)
+
+    def _classes_in(self, home: Scope) -> Iterator[Scope]:
+        """The classes of a file, those inside others among them."""
+        for node in self.list_members(home):
+            if isinstance(node, Class):
+                place = home.within(node)
+                yield place
+                if len(place.classes) < MOST_CLASSES:
+                    yield from self._classes_in(place)
+
+    def list_members(self, home: Scope) -> tuple[Function | Class, ...]:
         """The methods and classes directly in a class, or in a file."""
         owner: Class | Module = home.classes[-1] if home.classes else home.module
         if owner not in self._members:
@@ -112,7 +147,7 @@ class SymbolTable:
             )
         return self._members[owner]
 
-    def home(self, node: Node, scope: Scope) -> Scope | None:
+    def find_home(self, node: Node, scope: Scope) -> Scope | None:
         """The class or file a node names: ``this``, ``Constants.Drive``, ``constants``."""
         path: list[str] = []
         while isinstance(node, Member) and len(path) < LONGEST:
@@ -122,11 +157,13 @@ class SymbolTable:
             return self._descend(path, scope.home if scope.classes else None)
         if not isinstance(node, Name):
             return None
-        if self.local(node.name, scope):
+        if self.find_local(node.name, scope):
             return self._descend(path, self._other_name(node.name, scope))
         if node.name == "super":
-            return next(iter(self.lineage(scope.home)[1:]), None) if scope.classes else None
-        start = self.named(node.name, scope)
+            return (
+                next(iter(self.list_base_classes(scope.home)[1:]), None) if scope.classes else None
+            )
+        start = self.find_by_name(node.name, scope)
         if start is None and scope.module.language == "java":  # a name with its package in front
             return self._found(".".join((node.name, *path)), scope.module)
         return self._descend(path, start or self._other_name(node.name, scope))
@@ -139,10 +176,10 @@ class SymbolTable:
         value = valued[0].value
         if not isinstance(value, Name | Member) or not value.name[:1].isupper():
             return None
-        with self.one_deeper() as allowed:
-            return self.home(value, valued[0].scope) if allowed else None
+        with self.limit_depth() as allowed:
+            return self.find_home(value, valued[0].scope) if allowed else None
 
-    def named(self, name: str, scope: Scope) -> Scope | None:
+    def find_by_name(self, name: str, scope: Scope) -> Scope | None:
         """The class or file of a bare name, as seen from a scope."""
         for count in range(len(scope.classes), 0, -1):
             around = Scope(scope.module, scope.classes[:count])
@@ -159,12 +196,12 @@ class SymbolTable:
         if owner not in self._bases:
             self._bases[owner] = ()
             around = Scope(home.module, home.classes[:-1])
-            found = (self.named(base, around) for base in owner.bases[:MOST_CLASSES])
+            found = (self.find_by_name(base, around) for base in owner.bases[:MOST_CLASSES])
             self._bases[owner] = tuple(base for base in found if base and base.classes)
         return self._bases[owner]
 
     def _variable(self, name: str, scope: Scope) -> Definitions:
-        found = self.local(name, scope)
+        found = self.find_local(name, scope)
         least = 0
         if scope.module.language == "python":  # a method sees no field without self, a class does
             least = len(scope.classes) - (not scope.functions)
@@ -176,7 +213,7 @@ class SymbolTable:
         """The variables of the innermost function, its parameters among them."""
         function = scope.functions[-1]
         if function not in self._bound:
-            found = bindings(function.body, scope)
+            found = collect_bindings(function.body, scope)
             for parameter in function.parameters:
                 given = Definition(parameter, scope, parameter.type)
                 found[parameter.name] = (given, *found.get(parameter.name, ()))
@@ -186,10 +223,12 @@ class SymbolTable:
     def _in_home(self, name: str, home: Scope) -> Definitions:
         """A field of a class or of those above it, or a name at the top of a file."""
         if home.classes:
-            return _first(self.fields(place).get(name, ()) for place in self.lineage(home))
+            return _first(
+                self.find_fields(place).get(name, ()) for place in self.list_base_classes(home)
+            )
         module = home.module
         if module not in self._bound:
-            self._bound[module] = bindings(module.body, home)
+            self._bound[module] = collect_bindings(module.body, home)
         if (module, name) not in self._tops:
             self._tops[module, name] = ()
             here = self._bound[module].get(name, ())
@@ -202,15 +241,15 @@ class SymbolTable:
             owner = self._found(path.rpartition(".")[0], module, level=level)
             if owner is None or owner.module is module:
                 continue
-            with self.one_deeper() as allowed:
+            with self.limit_depth() as allowed:
                 found = self._in_home(path.rpartition(".")[2], owner) if allowed else ()
             yield found
 
     def _set_in_methods(self, home: Scope) -> Iterator[tuple[str, Definition]]:
-        methods = tuple(node for node in self.members(home) if isinstance(node, Function))
-        for node, scope in walk(methods, home):
+        methods = tuple(node for node in self.list_members(home) if isinstance(node, Function))
+        for node, scope in walk_with_scopes(methods, home):
             if isinstance(node, Assign) and not node.declares and scope.classes == home.classes:
-                name = self.field_name(node.target, scope)
+                name = self.find_field_name(node.target, scope)
                 if name:
                     yield name, Definition(node.value, scope, node.type)
 
@@ -219,7 +258,7 @@ class SymbolTable:
         key = (home.classes[-1] if home.classes else home.module, name)
         if key not in self._classes:
             self._classes[key] = None
-            places = self.lineage(home) if home.classes else [home]
+            places = self.list_base_classes(home) if home.classes else [home]
             here = next(filter(None, (self._class_in(place, name) for place in places)), None)
             paths = () if home.classes or here else _imports_of(name, home.module)
             brought = (self._found(path, home.module, level=level) for path, level in paths)
@@ -227,7 +266,7 @@ class SymbolTable:
         return self._classes[key]
 
     def _class_in(self, home: Scope, name: str) -> Scope | None:
-        for node in self.members(home):
+        for node in self.list_members(home):
             if isinstance(node, Class) and node.name == name:
                 return Scope(home.module, (*home.classes, node))
         return None
@@ -237,7 +276,7 @@ class SymbolTable:
         found = self._files.find(path, level=level, seen_from=module)
         if found is None or (found[0] is module and not found[1]):
             return None
-        with self.one_deeper() as allowed:
+        with self.limit_depth() as allowed:
             return self._descend(list(found[1]), Scope(found[0])) if allowed else None
 
     def _descend(self, path: list[str], home: Scope | None) -> Scope | None:

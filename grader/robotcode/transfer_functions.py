@@ -7,8 +7,8 @@ from grader.robotcode.abstract_value import CHANGED, Mark, Value, join_values
 from grader.robotcode.constant_folding import ConstantFolder, FoldedConstant
 from grader.robotcode.conversions import FACTORS
 from grader.robotcode.ir import Call, Member, Node, Operation
-from grader.robotcode.name_resolution import last_name, simple_type_name, type_of
-from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, device_of, quantity_of
+from grader.robotcode.name_resolution import infer_type, last_name, simple_type_name
+from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, find_device, find_quantity
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
@@ -36,7 +36,7 @@ from grader.robotcode.vocabulary import (
 
 
 class TransferFunctions:
-    """What happens to values in expressions.
+    """Applies operators and library calls to abstract values.
 
     Args:
         names: the names of the program.
@@ -47,7 +47,7 @@ class TransferFunctions:
         self._names = names
         self._measures = measures
 
-    def operated(self, node: Operation, left: Value | None, right: Value, at: Value) -> Value:
+    def apply_operator(self, node: Operation, left: Value | None, right: Value, at: Value) -> Value:
         """The value of ``left sign right``."""
         if left is None:
             return join_values([right.times(-1.0 if node.sign == "-" else 1.0)], at=at)
@@ -59,7 +59,7 @@ class TransferFunctions:
         if left.carries is not False and right.carries is not False:
             return replace(both, factor=CHANGED)
         carrying, other = (left, node.right) if left.carries is not False else (right, node.left)
-        constant = None if other is None else self._measures.of(other, at.scope)
+        constant = None if other is None else self._measures.fold(other, at.scope)
         factor = _factor(node.sign, constant, left_carries=carrying is left)
         if constant is None and (left.marks | right.marks) & {Mark.BUS}:
             factor = CHANGED
@@ -77,11 +77,13 @@ class TransferFunctions:
         if node.sign in {"+", "-"}:  # an offset changes no unit
             flipped = node.sign == "-" and reading is right
             return reading.times(-1.0).scale if flipped else reading.scale
-        constant = None if other is None else self._measures.of(other, scope)
+        constant = None if other is None else self._measures.fold(other, scope)
         factor = _factor(node.sign, constant, left_carries=reading is left)
         return None if factor is None or math.isnan(factor) else reading.times(factor).scale
 
-    def through(self, call: Call, receiver: Value | None, args: list[Value], at: Value) -> Value:
+    def apply_library_call(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value
+    ) -> Value:
         """The value of a call whose function is not in these files."""
         name = java_spelling(last_name(call.target))
         several = [*args] if receiver is None else [receiver, *args]
@@ -99,7 +101,7 @@ class TransferFunctions:
         made = replace(made, unit=self._unit(call, name, at.scope) or kept)
         if receiver is not None and (name in TIMES or name in OVER) and call.args:
             sign = "*" if name in TIMES else "/"
-            constant = self._measures.of(call.args[0], at.scope)
+            constant = self._measures.fold(call.args[0], at.scope)
             factor = _factor(sign, constant, left_carries=receiver.carries is not False)
             if constant is None and Mark.BUS in made.marks:
                 factor = CHANGED
@@ -112,8 +114,8 @@ class TransferFunctions:
         """The number that a method of a device reports; None if it is no such method."""
         if receiver is None or receiver.readings:
             return None
-        device, type_ = device_of(receiver.origin, receiver.scope, self._names)
-        quantity = quantity_of(name, motor=is_motor(type_)) if device else ""
+        device, type_ = find_device(receiver.origin, receiver.scope, self._names)
+        quantity = find_quantity(name, motor=is_motor(type_)) if device else ""
         if PULSES.fullmatch(type_) and name in COUNTS:
             type_ = PULSE_COUNT
         return DeviceReading(f"{receiver.me}{device}", type_, quantity) if quantity else None
@@ -124,7 +126,7 @@ class TransferFunctions:
         if name in OPPOSITE:
             return made.times(-1.0).scale
         if name in TIMES | OVER:
-            constant = None if first is None else self._measures.of(first, scope)
+            constant = None if first is None else self._measures.fold(first, scope)
             factor = _factor("*" if name in TIMES else "/", constant, left_carries=True)
             return None if factor is None or math.isnan(factor) else made.times(factor).scale
         if name in FACTORS:
@@ -151,7 +153,7 @@ class TransferFunctions:
 
     def _limit(self, args: tuple[Node, ...], scope: Scope) -> float:
         """What bounds do to the voltage: 1 where no test comes near any that is known."""
-        bounds = (self._measures.of(one, scope) for one in args)
+        bounds = (self._measures.fold(one, scope) for one in args)
         near = any(bound is not None and abs(bound.value) < NEVER_REACHED for bound in bounds)
         return CHANGED if near else 1.0
 
@@ -161,7 +163,7 @@ class TransferFunctions:
         """How many volts a unit is; 1 where none is named."""
         if not units:
             return 1.0
-        unit = self._measures.of(units[0], scope)
+        unit = self._measures.fold(units[0], scope)
         if unit is None or not unit.unit:
             return None
         if unit.volts != 1 or unit.seconds or unit.other:
@@ -177,7 +179,7 @@ class TransferFunctions:
             node = call.args[1]
         if node is None:
             return ""
-        measure = self._measures.of(node, scope)
+        measure = self._measures.fold(node, scope)
         if measure is None or not measure.unit:
             return ""
         return last_name(node) if last_name(node) in UNITS else node.place.text
@@ -191,7 +193,7 @@ class TransferFunctions:
         if name in UNSIGNED:
             found.add(Mark.UNSIGNED)
         motor = receiver is not None and is_motor(
-            type_of(receiver.origin, receiver.scope, self._names)
+            infer_type(receiver.origin, receiver.scope, self._names)
         )
         if motor and name == "getVoltage":
             found.add(Mark.APPLIED)
@@ -202,7 +204,7 @@ class TransferFunctions:
         return found
 
     def _is_controller(self, receiver: Value) -> bool:
-        type_ = simple_type_name(type_of(receiver.origin, receiver.scope, self._names))
+        type_ = simple_type_name(infer_type(receiver.origin, receiver.scope, self._names))
         return bool(CONTROLLERS.fullmatch(type_ or receiver.origin.place.text))
 
 

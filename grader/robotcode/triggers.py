@@ -1,4 +1,4 @@
-"""What a trigger asks: buttons of controllers, the robot's mode, switches."""
+"""Analyze triggers: which buttons, modes of the robot and switches they depend on."""
 
 import re
 from dataclasses import dataclass, replace
@@ -16,18 +16,18 @@ from grader.robotcode.button_vocabulary import (
     TEST_MODE,
     UNCHANGED,
     WRAPPERS,
-    button,
+    button_name,
 )
 from grader.robotcode.closure import (
     BoundNode,
-    definitions,
     enter_call,
-    functions_of,
+    find_definitions,
+    list_returned_nodes,
     resolve_bound,
-    returned_nodes,
+    resolve_call,
 )
 from grader.robotcode.constant_folding import ConstantFolder
-from grader.robotcode.constant_truth import TruthFolder, literal_truth, sign_of
+from grader.robotcode.constant_truth import TruthFolder, find_operator, fold_literal
 from grader.robotcode.ir import (
     Call,
     Choice,
@@ -40,7 +40,12 @@ from grader.robotcode.ir import (
     Operation,
     Return,
 )
-from grader.robotcode.name_resolution import last_name, simple_type_name, type_from, type_of
+from grader.robotcode.name_resolution import (
+    infer_type,
+    infer_type_from,
+    last_name,
+    simple_type_name,
+)
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import java_spelling
 
@@ -53,8 +58,8 @@ NOT_TEST = re.compile(
 MATCH = re.compile(r"(is)?fmsattached", re.IGNORECASE)  # true in a match only
 
 
-class Asks(Enum):
-    """What one part of a trigger looks at."""
+class TriggerKind(Enum):
+    """What a part of a trigger depends on: a button, the robot's mode, a switch."""
 
     BUTTON = "button"
     TEST_MODE = "test mode"
@@ -77,13 +82,13 @@ class TriggerPart:
         controller: whose button it is.
     """
 
-    asks: Asks
+    asks: TriggerKind
     key: str
     controller: str = ""
 
 
 class Triggers:
-    """Takes triggers and conditions apart.
+    """Splits triggers and conditions into parts.
 
     Args:
         names: the names of the program.
@@ -96,14 +101,14 @@ class Triggers:
         self._truth = TruthFolder(names, measures)
         self.asked: set[Node] = set()  # calls that were looked at as part of some trigger
 
-    def parts(self, seen: BoundNode, *, depth: int = 0) -> tuple[TriggerPart, ...]:
+    def find_parts(self, seen: BoundNode, *, depth: int = 0) -> tuple[TriggerPart, ...]:
         """The parts of a trigger, or of a condition."""
         before = seen
         seen = resolve_bound(seen, self._names)
         node = seen.node
-        if depth > DEEPEST or self._truth.of(before):
-            asks = Asks.UNKNOWN if depth > DEEPEST else Asks.NOTHING
-            return (TriggerPart(asks, node.place.text if asks is Asks.NOTHING else ""),)
+        if depth > DEEPEST or self._truth.fold(before):
+            asks = TriggerKind.UNKNOWN if depth > DEEPEST else TriggerKind.NOTHING
+            return (TriggerPart(asks, node.place.text if asks is TriggerKind.NOTHING else ""),)
         if isinstance(node, Call):
             found = self._call(seen, node, depth + 1)
             kept = node is not before.node and isinstance(before.node, Name | Member)
@@ -116,65 +121,71 @@ class Triggers:
         if isinstance(node, Name | Member):
             return self._named(seen, node, depth + 1)
         unknown = isinstance(node, FunctionParameter)
-        return (TriggerPart(Asks.UNKNOWN if unknown else Asks.SWITCH, node.place.text),)
+        return (
+            TriggerPart(TriggerKind.UNKNOWN if unknown else TriggerKind.SWITCH, node.place.text),
+        )
 
-    def opposite(self, seen: BoundNode) -> tuple[TriggerPart, ...]:
-        """The parts of a condition that must not hold."""
+    def find_negated_parts(self, seen: BoundNode) -> tuple[TriggerPart, ...]:
+        """The parts of a negated condition."""
         return (self._mixed(seen, [seen.node], "not", 1),)
 
-    def controller(self, seen: BoundNode) -> str:
+    def find_controller(self, seen: BoundNode) -> str:
         """The controller that a node stands for: its port, or else its variable; empty if none."""
         node = seen.node
         if isinstance(node, Name) and node.name in seen.given:
-            return self.controller(seen.given[node.name])
+            return self.find_controller(seen.given[node.name])
         if isinstance(node, Call) and java_spelling(last_name(node.target)) == "getHID":
             owner = node.target.owner if isinstance(node.target, Member) else node
-            return self.controller(seen.at(owner))
+            return self.find_controller(seen.with_node(owner))
         if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(self._type(seen)):
             return ""
-        port = self.port(seen)
+        port = self.find_port(seen)
         return f"port {port}" if port is not None else node.name
 
-    def port(self, seen: BoundNode) -> int | None:
+    def find_port(self, seen: BoundNode) -> int | None:
         """The port a controller is made with; None if it cannot be told."""
         made = resolve_bound(seen, self._names)
         if not isinstance(made.node, Call):
             return None
         args = [*made.node.args, *(node for word, node in made.node.named if word == "port")]
-        found = self._measures.of(args[0], made.scope) if args else None
+        found = self._measures.fold(args[0], made.scope) if args else None
         return None if found is None else int(found.value)
 
     def _type(self, seen: BoundNode) -> str:
-        found = type_of(seen.node, seen.scope, self._names)
+        found = infer_type(seen.node, seen.scope, self._names)
         return simple_type_name(
-            found or type_from(tuple(definitions(seen, self._names)), self._names)
+            found or infer_type_from(tuple(find_definitions(seen, self._names)), self._names)
         )
 
     def _function(self, seen: BoundNode, function: Function, depth: int) -> tuple[TriggerPart, ...]:
         """A supplier: what it returns."""
-        results = returned_nodes(function)
+        results = list_returned_nodes(function)
         if len(results) == 1:
-            return self.parts(seen.at(results[0]), depth=depth)
-        return (TriggerPart(Asks.SWITCH, function.place.text),)
+            return self.find_parts(seen.with_node(results[0]), depth=depth)
+        return (TriggerPart(TriggerKind.SWITCH, function.place.text),)
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[TriggerPart, ...]:
         self.asked.add(call)
         name, args = java_spelling(last_name(call.target)), list(call.args)
         args += [node for _, node in call.named]
         owner = call.target.owner if isinstance(call.target, Member) else None
-        functions = functions_of(seen, self._names)
+        functions = resolve_call(seen, self._names)
         if len(functions) == 1:
-            results = returned_nodes(functions[0][0])
+            results = list_returned_nodes(functions[0][0])
             if len(results) == 1:
-                return self.parts(enter_call(seen, functions[0]).at(results[0]), depth=depth)
-            return (TriggerPart(Asks.SWITCH, call.place.text),)
+                return self.find_parts(
+                    enter_call(seen, functions[0]).with_node(results[0]), depth=depth
+                )
+            return (TriggerPart(TriggerKind.SWITCH, call.place.text),)
         if name in WRAPPERS and args:
-            return self.parts(seen.at(args[-1]), depth=depth)
+            return self.find_parts(seen.with_node(args[-1]), depth=depth)
         if name in BUTTONS and args:
-            rest = [self._argument(seen.at(arg)) for arg in args[1:]]
-            return self._button(seen.at(args[0]), "button" if name[0] == "J" else "pov", rest)
+            rest = [self._argument(seen.with_node(arg)) for arg in args[1:]]
+            return self._button(
+                seen.with_node(args[0]), "button" if name[0] == "J" else "pov", rest
+            )
         if isinstance(call.target, Name):  # a variable that holds a method: testing()
-            held = resolve_bound(seen.at(call.target), self._names)
+            held = resolve_bound(seen.with_node(call.target), self._names)
             if isinstance(held.node, Member):
                 return self._named(held, held.node, depth)
         found = () if owner is None else self._method(seen, owner, name, args, depth)
@@ -186,40 +197,51 @@ class Triggers:
         """What a library's method of a trigger or a controller asks; nothing if it is neither."""
         if name in BOTH:
             both = (owner, *args)
-            return tuple(part for one in both for part in self.parts(seen.at(one), depth=depth))
+            return tuple(
+                part for one in both for part in self.find_parts(seen.with_node(one), depth=depth)
+            )
         if name in EITHER | NOT:
             return (self._mixed(seen, [owner, *args], name, depth),)
-        if self.controller(seen.at(owner)):
+        if self.find_controller(seen.with_node(owner)):
             return self._on_controller(seen, owner, name, args, depth)
         if name == "debounce":
-            return (*self.parts(seen.at(owner), depth=depth), *self._debounced(seen, args))
-        return self.parts(seen.at(owner), depth=depth) if name in UNCHANGED else ()
+            return (
+                *self.find_parts(seen.with_node(owner), depth=depth),
+                *self._debounced(seen, args),
+            )
+        return self.find_parts(seen.with_node(owner), depth=depth) if name in UNCHANGED else ()
 
     def _debounced(self, seen: BoundNode, args: list[Node]) -> tuple[TriggerPart, ...]:
         """A debounce that is longer than a person waits for."""
-        found = self._measures.of(args[0], seen.scope) if args else None
+        found = self._measures.fold(args[0], seen.scope) if args else None
         if found is not None and found.value <= LONGEST_DEBOUNCE:
             return ()
-        return (TriggerPart(Asks.DELAYED, seen.node.place.text),)
+        return (TriggerPart(TriggerKind.DELAYED, seen.node.place.text),)
 
     def _on_controller(
         self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
     ) -> tuple[TriggerPart, ...]:
         """A button of a controller; one that is only polled in a loop of its own has a switch."""
-        loops = [arg for arg in args if self._type(seen.at(arg)) == "EventLoop"]
-        rest = [self._argument(seen.at(arg)) for arg in args if arg not in loops]
-        switches = tuple(part for arg in loops for part in self.parts(seen.at(arg), depth=depth))
-        return (*self._button(seen.at(owner), name, rest), *switches)
+        loops = [arg for arg in args if self._type(seen.with_node(arg)) == "EventLoop"]
+        rest = [self._argument(seen.with_node(arg)) for arg in args if arg not in loops]
+        switches = tuple(
+            part for arg in loops for part in self.find_parts(seen.with_node(arg), depth=depth)
+        )
+        return (*self._button(seen.with_node(owner), name, rest), *switches)
 
     def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[TriggerPart, ...]:
-        controller = self.controller(owner)
-        word = button(method)
+        controller = self.find_controller(owner)
+        word = button_name(method)
         if word in {"button", "raw"} and args:
             word = self._numbered(args[0], owner)
             args = []
         key = f"{controller} {word} {' '.join(args)}".strip()
         return (
-            TriggerPart(Asks.BUTTON if all([controller, *args]) else Asks.UNKNOWN, key, controller),
+            TriggerPart(
+                TriggerKind.BUTTON if all([controller, *args]) else TriggerKind.UNKNOWN,
+                key,
+                controller,
+            ),
         )
 
     def _numbered(self, text: str, owner: BoundNode) -> str:
@@ -230,11 +252,11 @@ class Triggers:
 
     def _argument(self, seen: BoundNode) -> str:
         """A button's number, or its name; empty if it cannot be told."""
-        found = self._measures.of(seen.node, seen.scope)
+        found = self._measures.fold(seen.node, seen.scope)
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if found is None:
-            found = self._measures.of(node, seen.scope)
+            found = self._measures.fold(node, seen.scope)
         if found is not None:
             return f"{found.value:g}"
         if isinstance(node, Member) and node.name == "value":
@@ -242,7 +264,7 @@ class Triggers:
         if isinstance(node, Call) and isinstance(node.target, Name | Member):
             node = node.target
         if isinstance(node, Member):
-            return button(node.name)
+            return button_name(node.name)
         return ""
 
     def _operation(
@@ -251,61 +273,67 @@ class Triggers:
         if isinstance(node, Choice):
             return self._choice(seen, node, depth)
         inside = [part for part in node.parts if not isinstance(part, Return)]
-        sign = sign_of(node)
+        sign = find_operator(node)
         if sign in COMPARING and len(inside) > 1:
-            said = [literal_truth(part) for part in inside]
+            said = [fold_literal(part) for part in inside]
             open_ = [part for part, truth in zip(inside, said, strict=True) if truth is None]
             if len(open_) == 1:
                 same = (said[0] if said[1] is None else said[1]) is COMPARING[sign]
-                return self._same_or_not(seen.at(open_[0]), depth, same=same)
+                return self._same_or_not(seen.with_node(open_[0]), depth, same=same)
         if sign == "and" and len(inside) > 1:
-            return tuple(part for one in inside for part in self.parts(seen.at(one), depth=depth))
+            return tuple(
+                part for one in inside for part in self.find_parts(seen.with_node(one), depth=depth)
+            )
         if isinstance(node, Opaque) and len(inside) == 1 and sign != "not":
-            return self.parts(seen.at(inside[0]), depth=depth)
+            return self.find_parts(seen.with_node(inside[0]), depth=depth)
         if not inside:
             always = node.place.text.lower() == "true" and not named
-            return (TriggerPart(Asks.NOTHING if always else Asks.SWITCH, node.place.text),)
+            return (
+                TriggerPart(TriggerKind.NOTHING if always else TriggerKind.SWITCH, node.place.text),
+            )
         return (self._mixed(seen, inside, sign or node.place.text, depth),)
 
     def _choice(self, seen: BoundNode, node: Choice, depth: int) -> tuple[TriggerPart, ...]:
         """``condition ? true : false``; any other choice is a switch of the program's own."""
-        one, other = literal_truth(node.one), literal_truth(node.other)
+        one, other = fold_literal(node.one), fold_literal(node.other)
         if one is None or other is None or one is other:
             return (self._mixed(seen, [node.condition, node.one, node.other], "?", depth),)
-        return self._same_or_not(seen.at(node.condition), depth, same=one)
+        return self._same_or_not(seen.with_node(node.condition), depth, same=one)
 
     def _same_or_not(self, seen: BoundNode, depth: int, *, same: bool) -> tuple[TriggerPart, ...]:
         """A condition as it is, or turned round."""
         if same:
-            return self.parts(seen, depth=depth)
+            return self.find_parts(seen, depth=depth)
         return (self._mixed(seen, [seen.node], "not", depth),)
 
     def _mixed(self, seen: BoundNode, several: list[Node], sign: str, depth: int) -> TriggerPart:
         """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
-        found = [part for one in several for part in self.parts(seen.at(one), depth=depth)]
+        found = [
+            part for one in several for part in self.find_parts(seen.with_node(one), depth=depth)
+        ]
         turned = sign in {*NOT, "!", "~"}
         key = f"{'not' if turned else sign}({', '.join(sorted(part.key for part in found))})"
         kinds = {part.asks for part in found}
         controllers = {part.controller for part in found if part.controller}
         weak = (
-            Asks.UNKNOWN,
-            Asks.DELAYED,
-            Asks.NOTHING,
-            Asks.BUTTON,
-            Asks.RELEASED,
-            Asks.OTHER_MODE,
+            TriggerKind.UNKNOWN,
+            TriggerKind.DELAYED,
+            TriggerKind.NOTHING,
+            TriggerKind.BUTTON,
+            TriggerKind.RELEASED,
+            TriggerKind.OTHER_MODE,
         )
-        asks = next((kind for kind in weak if kind in kinds), Asks.SWITCH)
+        asks = next((kind for kind in weak if kind in kinds), TriggerKind.SWITCH)
         if turned and len(found) == 1 and NOT_TEST.fullmatch(found[0].key):
-            return TriggerPart(Asks.TEST_MODE, found[0].key[4:-1])
+            return TriggerPart(TriggerKind.TEST_MODE, found[0].key[4:-1])
         if turned and len(found) == 1 and MATCH.fullmatch(found[0].key):
-            return TriggerPart(Asks.SWITCH, key)
-        if kinds == {Asks.TEST_MODE}:
-            asks = Asks.OTHER_MODE if turned else Asks.TEST_MODE
-        elif turned and Asks.TEST_MODE in kinds:
-            asks = Asks.OTHER_MODE
-        elif turned and asks is Asks.BUTTON:
-            asks = Asks.RELEASED
+            return TriggerPart(TriggerKind.SWITCH, key)
+        if kinds == {TriggerKind.TEST_MODE}:
+            asks = TriggerKind.OTHER_MODE if turned else TriggerKind.TEST_MODE
+        elif turned and TriggerKind.TEST_MODE in kinds:
+            asks = TriggerKind.OTHER_MODE
+        elif turned and asks is TriggerKind.BUTTON:
+            asks = TriggerKind.RELEASED
         return TriggerPart(asks, key, min(controllers, default=""))
 
     def _named(
@@ -315,41 +343,43 @@ class Triggers:
         if isinstance(node, Member) and not text:
             call = Call(node.place, node, ())
             self.asked.add(node)
-            if self.controller(seen.at(node.owner)) or functions_of(seen.at(call), self._names):
-                return self._call(seen.at(call), call, depth)
+            if self.find_controller(seen.with_node(node.owner)) or resolve_call(
+                seen.with_node(call), self._names
+            ):
+                return self._call(seen.with_node(call), call, depth)
         if isinstance(node, Name) and not text:  # a variable that holds a lambda, or a function
             call = Call(node.place, node, ())
-            functions = functions_of(seen.at(call), self._names)
+            functions = resolve_call(seen.with_node(call), self._names)
             if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
-                return self._call(seen.at(call), call, depth)
+                return self._call(seen.with_node(call), call, depth)
         word = java_spelling(last_name(node))
         owner = last_name(node.owner) if isinstance(node, Member) else ""
         mode = owner in MODES_OF or word.lower().startswith("is")
         if mode and TEST_MODE.fullmatch(word):
             by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""
             kind = "utility" if "utility" in word.lower() else "test"
-            return (TriggerPart(Asks.TEST_MODE, f"{kind} mode{by}"),)
+            return (TriggerPart(TriggerKind.TEST_MODE, f"{kind} mode{by}"),)
         if mode and OTHER_MODE.fullmatch(word):
-            return (TriggerPart(Asks.OTHER_MODE, word),)
+            return (TriggerPart(TriggerKind.OTHER_MODE, word),)
         if isinstance(node, Name) and not text:
             return (self._variable(seen, node, depth),)
-        return (TriggerPart(Asks.SWITCH, text or node.place.text),)
+        return (TriggerPart(TriggerKind.SWITCH, text or node.place.text),)
 
     def _variable(self, seen: BoundNode, node: Name, depth: int) -> TriggerPart:
         """A variable: a parameter, or one that was given several values and may hold any."""
         if self._is_open(seen, node):
-            return TriggerPart(Asks.UNKNOWN, "")
-        given = self._names.local(node.name, seen.scope)
+            return TriggerPart(TriggerKind.UNKNOWN, "")
+        given = self._names.find_local(node.name, seen.scope)
         several = [one.value for one in given if one.value is not None]
         if len(several) > 1 and depth < DEEPEST:
             return self._mixed(seen, several, "or", depth + 1)
-        return TriggerPart(Asks.SWITCH, node.place.text)
+        return TriggerPart(TriggerKind.SWITCH, node.place.text)
 
     def _is_open(self, seen: BoundNode, node: Name) -> bool:
-        found = self._names.local(node.name, seen.scope)
+        found = self._names.find_local(node.name, seen.scope)
         return any(isinstance(one.value, FunctionParameter) for one in found)
 
 
 def _kept(part: TriggerPart) -> TriggerPart:
     """A part that a variable holds: test mode is then what it was when the program started."""
-    return replace(part, asks=Asks.ONCE) if part.asks is Asks.TEST_MODE else part
+    return replace(part, asks=TriggerKind.ONCE) if part.asks is TriggerKind.TEST_MODE else part

@@ -201,7 +201,7 @@ FOLLOWERS = frozenset(
 
 
 def request_output(type_: str) -> Output | None:
-    """What a control request tells a motor; None if it tells nothing: a follower, a brake."""
+    """The output that a control request commands; None for a follower or a brake."""
     if type_ in NEUTRAL | FOLLOWERS:
         return None
     return next((out for form, out in _REQUESTS if form.fullmatch(type_)), Output.UNKNOWN)
@@ -235,6 +235,7 @@ CONTROLLERS = re.compile(r".*(PID|BangBang|LinearQuadratic|LinearSystemLoop).*",
 LOOPS = frozenset({"forEach"})
 RUNS = frozenset({"accept", "apply", "run", "call"})  # run a lambda that a variable holds
 COLLECTIONS = frozenset({"List", "Set", "Arrays", "Stream"})  # List.of(left, right)
+STAND_INS = re.compile(r"(Sim|Simulated|Simulation|Replay|Mock|Fake|Noop)(?![a-z])")  # ModuleIOSim
 SILENT = re.compile(  # methods that show or keep a value, and move nothing
     r"(get|is|has|with|mut|put|log|record|print|publish|append|report|add|info|equals|to)([A-Z]\w*)?"
     r"|println|printf|calculate\w*|abs|max|min|clamp|in|of|signum|copySign|format|times|div|divide"
@@ -301,7 +302,7 @@ PYTHON_WORDS = frozenset(
 )
 
 
-def other_season(name: str) -> str:
+def find_season_of(name: str) -> str:
     """The season to which a RobotPy name belongs that was renamed: ``2027`` of ``set_voltage``.
 
     Args:

@@ -90,7 +90,7 @@ class JupyterServers:
         return there if there and there.is_alive() else None
 
     def close(self) -> None:
-        """End them all, and those that still start as soon as they have."""
+        """End all servers, and those that are still starting once they have started."""
         self._closed = True
         for server in tuple(self._servers.values()):
             server.process.terminate()
@@ -100,11 +100,6 @@ class JupyterServers:
             if server.is_alive():
                 server.process.kill()
             shutil.rmtree(server.runtime, ignore_errors=True)
-
-    @property
-    def running_count(self) -> int:
-        """How many run."""
-        return sum(server.is_alive() for server in self._servers.values())
 
 
 def _start_server(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:

@@ -75,7 +75,7 @@ class LoginDelays:
         self._until: dict[str, float] = {}
 
     async def hold(self, keys: tuple[str, ...]) -> bool:
-        """Wait until all of these may try; False if that takes too long."""
+        """Wait until none of these keys is delayed; False if that takes too long."""
         deadline = time.monotonic() + LONGEST
         while True:
             now = time.monotonic()
@@ -93,7 +93,7 @@ class LoginDelays:
             self._until[key] = time.monotonic() + self.wait * 2 ** min(wrong - 1, DOUBLINGS)
 
     def forget(self, keys: tuple[str, ...]) -> None:
-        """A right code: these wait no longer."""
+        """Remove the delays of these keys after a right code."""
         for key in keys:
             self._wrong.pop(key, None)
             self._until.pop(key, None)
@@ -145,22 +145,22 @@ class StartQueue:
 
 
 class BasePage(RequestHandler):
-    """What both pages share."""
+    """The base class of both pages."""
 
     queue: StartQueue
     delays: LoginDelays
 
     def initialize(self, queue: StartQueue, delays: LoginDelays) -> None:
-        """Tornado's own way to hand something in."""
+        """Take what the application passes to each request (Tornado calls this)."""
         self.queue, self.delays = queue, delays
 
     def set_default_headers(self) -> None:
-        """Nothing from elsewhere, and nothing kept."""
+        """Set headers: load nothing from elsewhere, cache nothing."""
         for name, value in CLOSED.items():
             self.set_header(name, value)
 
     def redirect_to_server(self, student: str, start: "asyncio.Task[JupyterServer]") -> None:
-        """To the server that started, or back to the page with the reason."""
+        """Redirect to the server that started, or back to the page with the reason."""
         try:
             room = start.result()
         except Refusal as refusal:
@@ -170,7 +170,7 @@ class BasePage(RequestHandler):
         self.redirect(f"http://{self.request.host_name}:{room.port}{place}", status=303)
 
     def refuse(self, name: str, wrong: str, status: int = 403) -> None:
-        """The page again, with what was wrong."""
+        """Show the page again with what was wrong."""
         self.set_status(status)
         self.finish(PAGE.generate(wrong=wrong, student=name))
 
@@ -187,7 +187,7 @@ class LoginPage(BasePage):
             self.refuse("", "That is too long for a name and a code.", 413)
 
     def data_received(self, chunk: bytes) -> None:
-        """Keep a part of the form; one that never said how long it is ends here too."""
+        """Collect a part of the form; a form without a declared length is refused here, too."""
         self.body += chunk
         if len(self.body) > BODY and not self._finished:
             self.body.clear()
@@ -198,7 +198,7 @@ class LoginPage(BasePage):
         self.finish(PAGE.generate(wrong="", student=""))
 
     async def post(self) -> None:
-        """Let a student in, or say what was wrong; in no words that help who tries."""
+        """Let a student in, or refuse with a message that tells an attacker nothing."""
         form = parse_qs(self.body.decode("utf-8", "replace"))
         name, code = (form.get(one, [""])[0] for one in ("student", "code"))
         known = self.queue.served_class.codes
@@ -225,7 +225,7 @@ class WaitingPage(BasePage):
     """Tells a student their place until their server runs."""
 
     def get(self) -> None:
-        """Show the place, or lead in."""
+        """Show the student's place in the queue, or redirect to their server."""
         student = self.queue.tickets.get(self.get_query_argument("ticket", ""))
         start = self.queue.starts.get(student) if student is not None else None
         if student is None or start is None:

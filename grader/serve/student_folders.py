@@ -57,7 +57,7 @@ def can_separate() -> bool:
 
 
 def prepare_separation(folder: Path) -> None:
-    """Let students' user ids pass through the folder of homes, without listing it.
+    """Let students' user ids pass through the folder of homes, but not list it.
 
     Raises:
         BadRequest: another user can reach neither Python nor the folder.
@@ -136,7 +136,7 @@ def _make_code() -> str:
 
 
 def is_code_right(given: str, code: str) -> bool:
-    """Whether this is the code, in capitals or not; how long it takes tells nothing."""
+    """Compare a typed code in constant time, ignoring case."""
     plain = given.strip().upper().encode("utf-8", "replace")
     return hmac.compare_digest(plain, code.encode())
 
@@ -180,6 +180,6 @@ def prepare_student_folder(folder: Path, student: str, *, packages: Iterable[byt
 
 
 def find_student(students: Mapping[str, str], name: str) -> str | None:
-    """The student who is meant, as on the roster; None if nobody is."""
+    """The student on the roster whom a typed name means; None if there is none."""
     wanted = name.strip().casefold()
     return next((one for one in students if one.casefold() == wanted), None)

@@ -141,7 +141,7 @@ class Mechanism:
 
     @property
     def scale(self) -> Scale:
-        """What is ordinary for it."""
+        """Ordinary speeds, voltages and times of the mechanism, by which effects are sized."""
         gains = self.gains
         speed = max(ORDINARY_STEP - gains["kS"], 0.1 * ORDINARY_STEP) / gains["kV"]
         return Scale(
@@ -152,6 +152,7 @@ class Mechanism:
             self.travel or 10.0 * speed,
             angular=find_unit(self.units).angular,
             bounded=self.travel is not None,
+            type=self.type,
         )
 
     def draw(self, rng: "np.random.Generator") -> "Mechanism":
@@ -182,8 +183,9 @@ class Mechanism:
             raise BadRequest(f"a {self.name} cannot have {effect}: {why}", advice=OTHER)
         if size == 0.0:
             return self
-        part = Part(effect, dict(known.example(self.scale, size)))
-        return replace(self, hidden=(*self.hidden, part))
+        hidden = (*self.hidden, Part(effect, dict(known.example(self.scale, size))))
+        Model(self.type, self.gains, hidden)  # refuses what does not go together
+        return replace(self, hidden=hidden)
 
 
 OTHER = "Choose another effect (sysid effects lists them) or another mechanism."

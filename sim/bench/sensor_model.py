@@ -75,7 +75,7 @@ def sensor_lags(sensor: Sensor) -> bool:
 
 
 def interpolate_cubic(at: Array, time: Array, value: Array, slope: Array) -> Array:
-    """(m,) of a curve with known slopes, at some times (n,).
+    """(m,) cubic Hermite interpolation of a curve with known slopes.
 
     Between two of them it is the cubic with both values and both slopes; before the first it is
     flat, since a test begins at rest.

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.slip import slip_voltage, spin_wheels, wheels_slip
+from sim.bench.slip import slip_part, slip_voltage, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -70,60 +70,58 @@ def simulate(
         ['quasistatic-forward', 'quasistatic-reverse']
     """
     _check_period(period)
-    model, wires = mechanism.model, power_path_arrays(mechanism, duty_cycle=duty_cycle)
+    model, slips = mechanism.model, slip_part(mechanism)
+    wires = power_path_arrays(mechanism, duty_cycle=duty_cycle)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
-        began = runs[0].time[0] if runs else start + time[0]
-        state.clock = float(start + time[0] - began)  # what the log's own times say
-        begun, state = _at_rest(state, _begin(mechanism, test, last))
+        state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as the log says
+        begun = _at_rest(state, _begin(mechanism, test, last))
         parts = _steps_per_loop(mechanism)
         time, voltage = _divide_loops(time, voltage, parts)
-        track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
-        track, left_out = _slip(mechanism, time, voltage, wires=wires, track=track)
-        gripped = gripped or left_out
+        moves = model
+        track, state = _move(moves, time, voltage, begun=begun, wires=wires)
+        if wheels_slip(mechanism, track):
+            moves, gripped = (model + slips, gripped) if slips else (model, True)
+            track, state = _move(moves, time, voltage, begun=begun, wires=wires)
         end = (_end(track.every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
-        if end < track.position.size:
-            if state.memory.any():  # nothing that someone ended goes on to warm a motor
-                state = begun
-                track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
-            else:
-                track = track.truncate(end)
-        loops = time[::parts]
-        run = _record_run(mechanism, test, time, track, loops=loops, rng=rng, electrical=electrical)
+        if end < track.position.size and state.memory.any():  # what was ended warms no motor
+            track, state = _move(moves, time, voltage, begun=begun, wires=wires)
+        loops, seen = time[::parts], track.truncate(end)
+        run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=start + loops))
         cool_down(state, model, PAUSE)
-        start, last = start + float(time[-1]) + PAUSE, float(track.position[-1])
+        start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
     return log.add_doubts(*_doubts(mechanism, cut=cut or _is_cut(state), gripped=gripped))
 
 
-def _at_rest(state: State, position: float) -> tuple[State, State]:
-    """The state at rest somewhere, with what a motor remembers; twice, as a run changes its own."""
-    body = State.cold_at(position).body
-    begun = replace(state, body=body, memory=state.memory.copy())
-    return begun, replace(begun, body=body.copy(), memory=begun.memory.copy())
+def _at_rest(state: State, position: float) -> State:
+    """The state at rest somewhere, with what a motor remembers."""
+    return replace(_copy_state(state), body=State.cold_at(position).body)
+
+
+def _move(
+    model: Model, time: Array, voltage: Array, *, begun: State, wires: Array
+) -> tuple[Track, State]:
+    """The motion from a state, which stays as it is, and the state after it."""
+    state = _copy_state(begun)
+    track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
+    return track, state
+
+
+def _copy_state(state: State) -> State:
+    """The same state, which may go on by itself."""
+    return replace(state, body=state.body.copy(), memory=state.memory.copy())
 
 
 def _is_cut(state: State) -> bool:
     """Whether the robot controller has taken the motors off."""
     return bool(state.body[OFF_UNTIL] > 0.0)
-
-
-def _slip(
-    mechanism: Mechanism, time: Array, command: Array, *, wires: Array, track: Track
-) -> tuple[Track, bool]:
-    """The motion with wheels that slip, and whether hidden effects forbid to simulate that."""
-    if not wheels_slip(mechanism, track):
-        return track, False
-    if mechanism.hidden:
-        return track, True
-    slipped = spin_wheels(mechanism, time=time, command=command, wires=wires, track=track)
-    return slipped, False
 
 
 def _record_run(
@@ -169,8 +167,8 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
         yield Doubt(
             "slip-left-out",
             f"Here the wheels would slip above {slip_voltage(mechanism):.1f} V from "
-            "standstill. With a hidden effect, the simulation leaves out the slip. Use a "
-            "smaller step, or hide no effect.",
+            "standstill. Beside a hidden joint (backlash, compliance), the simulation leaves out "
+            "the slip. Use a smaller step, or hide no joint.",
         )
     if cut:
         yield Doubt(

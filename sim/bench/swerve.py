@@ -60,18 +60,18 @@ class SwerveDrive:
     stator: float = 120.0
 
     @property
-    def lever(self) -> float:
-        """[m] from the middle to a wheel: how far its push passes from the middle."""
+    def lever_arm(self) -> float:
+        """[m] lever arm of a wheel's force about the middle of the robot."""
         return self.trackwidth / math.sqrt(2.0)
 
     @property
     def wheel_mass(self) -> float:
-        """[kg] that wheels, gears and rotors are worth to someone who pushes the robot."""
+        """[kg] equivalent mass of wheels, gears and rotors in straight motion."""
         return self.modules * self.wheel_inertia / self.wheel_radius**2
 
     @property
-    def hold(self) -> float:
-        """[N] that the floor holds."""
+    def traction_limit(self) -> float:
+        """[N] largest force before the wheels slip."""
         return self.grip * self.mass * GRAVITY
 
     @property
@@ -80,12 +80,12 @@ class SwerveDrive:
 
         Friction in the gears takes a part of it: kS is the voltage at which it begins to move.
         """
-        torque = self.hold * self.wheel_radius / (self.modules * self.ratio)
+        torque = self.traction_limit * self.wheel_radius / (self.modules * self.ratio)
         return torque / self.motor.torque_constant + self.friction / self.motor.resistance
 
     @property
     def translation(self) -> Mechanism:
-        """It going straight, its wheels locked forward."""
+        """The drive going straight."""
         return Mechanism(
             name="swerve",
             summary="a swerve drive going straight, its wheels locked forward",
@@ -108,11 +108,11 @@ class SwerveDrive:
 
     @property
     def rotation(self) -> Mechanism:
-        """It turning on the spot, its wheels across the diagonals, read by a gyro in degrees."""
+        """The drive turning on the spot, read by a gyro in degrees."""
         volts_per_torque = (
             self.motor.resistance
             * self.wheel_radius
-            / (self.modules * self.motor.torque_constant * self.ratio * self.lever)
+            / (self.modules * self.motor.torque_constant * self.ratio * self.lever_arm)
         )
         return Mechanism(
             name="swerve-rotation",
@@ -122,16 +122,16 @@ class SwerveDrive:
             motor=self.motor,
             motor_count=self.modules,
             ratio=self.ratio,
-            radius=self.wheel_radius / self.lever,
+            radius=self.wheel_radius / self.lever_arm,
             load=self.inertia,
             friction=self.friction + volts_per_torque * self.scrub,
             drag=self.drag,
-            spin=self.wheel_mass * self.lever**2 / self.inertia,
+            spin=self.wheel_mass * self.lever_arm**2 / self.inertia,
             travel=None,
             sensor=GYRO,
             spread={},
             stator=self.stator,
-            grip=(self.hold * self.lever - self.scrub) / self.inertia,
+            grip=(self.traction_limit * self.lever_arm - self.scrub) / self.inertia,
         )
 
 

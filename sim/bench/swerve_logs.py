@@ -162,7 +162,7 @@ def record_spin(
     motors = {}
     for module, share in zip(MODULES, off[1:].tolist(), strict=True):
         around = 2.0 * math.pi * worn.get(module, drive.wheel_radius)
-        motors[module] = angle * drive.lever / around * drive.ratio * (1.0 + share)
+        motors[module] = angle * drive.lever_arm / around * drive.ratio * (1.0 + share)
     return Spin(angle * (1.0 + float(off[0])), motors)
 
 
@@ -199,8 +199,8 @@ def record_wall_push(
     """
     motor, gains = drive.motor, drive.translation.gains
     volts_per_newton = gains["kA"] / (drive.mass + drive.wheel_mass)
-    breaks = gains["kS"] + volts_per_newton * drive.hold
-    slides = gains["kS"] + KINETIC * volts_per_newton * drive.hold
+    breaks = gains["kS"] + volts_per_newton * drive.traction_limit
+    slides = gains["kS"] + KINETIC * volts_per_newton * drive.traction_limit
     time = np.arange(0.0, breaks / ramp + after, LOOP)
     voltage = ramp * time
     loose = voltage > breaks

@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import partial
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -125,74 +125,54 @@ def read_logs_together(
     return first
 
 
-def read_parts(
-    files: Sequence[Path],
-    *,
-    units: str | None,
-    type: str | None,  # noqa: A002 - the field's own word
-    motor: str | None,
-    entries: Mapping[str, str | None],
-    velocity: float | None,
-    pick: int | None,
-) -> "Mapping[str, Log]":
-    """Read the files of one robot as logs of alike parts, by name.
+@dataclass(frozen=True)
+class PartReader:
+    """Reads the files of one robot as logs of alike parts, by name.
 
     Args:
-        files: in any format.
         units: of the positions in them; None believes the files.
         type: of the mechanism; None believes the files.
         motor: which one alone, where a file has several.
         entries: signal -> name of its entry; None looks for it.
         velocity: what the velocity is multiplied by; None takes the slope of the position.
         pick: which of several mechanisms, counted from 1.
-
-    Raises:
-        Refusal: a file cannot be read, or one measures a length and another an angle.
     """
-    from sim.cli.fit.parts import parts_of_files  # noqa: PLC0415 - only for a fit
 
-    read = partial(
-        read_file_parts, units=units, type=type, motor=motor, entries=entries, velocity=velocity,
-        pick=pick,
-    )  # fmt: skip
-    return parts_of_files([(file, read(file)) for file in files])
+    units: str | None = None
+    type: str | None = None
+    motor: str | None = None
+    entries: Mapping[str, str | None] = field(default_factory=dict)
+    velocity: float | None = 1.0
+    pick: int | None = None
 
+    def read(self, files: Sequence[Path]) -> "Mapping[str, Log]":
+        """The parts of all files together.
 
-def read_file_parts(
-    file: Path,
-    *,
-    units: str | None,
-    type: str | None,  # noqa: A002 - the field's own word
-    motor: str | None,
-    entries: Mapping[str, str | None],
-    velocity: float | None,
-    pick: int | None,
-) -> "dict[str, Log]":
-    """Read one file of a robot as logs of alike parts, by name.
+        Raises:
+            Refusal: a file cannot be read, or one measures a length and another an angle.
+        """
+        from sim.cli.fit.parts import list_parts  # noqa: PLC0415 - only for a fit
 
-    Args:
-        file: in any format.
-        units: of the positions in it; None believes the file.
-        type: of the mechanism; None believes the file.
-        motor: which one alone, where the file has several.
-        entries: signal -> name of its entry; None looks for it.
-        velocity: what the velocity is multiplied by; None takes the slope of the position.
-        pick: which of several mechanisms, counted from 1.
+        return list_parts([(file, self.read_file(file)) for file in files])
 
-    Raises:
-        Refusal: the file cannot be read.
-    """
-    from sim.io import read_motors  # noqa: PLC0415 - --help must not wait for it
-    from sim.io.velocity import check_velocity, scale_velocity  # noqa: PLC0415 - the same
+    def read_file(self, file: Path) -> "dict[str, Log]":
+        """The parts of one file.
 
-    named = {signal: entry for signal, entry in entries.items() if entry}
-    logs = read_motors(
-        file, units=units, type=type, motor=motor, entries=named,
-        ignore_velocity=velocity is None, pick=pick,
-    )  # fmt: skip
-    if velocity is None:
-        return logs
-    return {
-        name: check_velocity(log if velocity == 1.0 else scale_velocity(log, velocity))
-        for name, log in logs.items()
-    }
+        Raises:
+            Refusal: the file cannot be read.
+        """
+        from sim.io import read_motors  # noqa: PLC0415 - --help must not wait for it
+        from sim.io.velocity import check_velocity, scale_velocity  # noqa: PLC0415 - the same
+
+        named = {signal: entry for signal, entry in self.entries.items() if entry}
+        logs = read_motors(
+            file, units=self.units, type=self.type, motor=self.motor, entries=named,
+            ignore_velocity=self.velocity is None, pick=self.pick,
+        )  # fmt: skip
+        factor = self.velocity
+        if factor is None:
+            return logs
+        return {
+            name: check_velocity(log if factor == 1.0 else scale_velocity(log, factor))
+            for name, log in logs.items()
+        }

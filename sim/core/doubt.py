@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Doubt:
-    """One reason to look twice. In JSON output doubts stand under ``warnings``.
+    """A warning about a result. In JSON output doubts stand under ``warnings``.
 
     Args:
         code: a short fixed name for programs, e.g. ``negative-gain``.

@@ -22,7 +22,7 @@ BESIDE = {"height": ("above", "below"), "angle": ("above", "below")}
 
 @dataclass(frozen=True, eq=False)
 class FollowedProfile:
-    """A profile, and what a mechanism made of it.
+    """A motion profile, and the motion of the mechanism that followed it.
 
     Args:
         name: of the mechanism: ``elevator``.

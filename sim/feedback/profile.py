@@ -57,7 +57,7 @@ class Profile:
 
 
 def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
-    """String legs together, from rest.
+    """Join legs into a profile that starts at rest.
 
     Args:
         legs: one after another.
@@ -88,7 +88,7 @@ def join_legs(legs: Sequence[Leg], *, start: float = 0.0) -> Profile:
 def make_return_profile(
     speed: float, *, rising: float, steady: float, still: float, start: float = 0.0
 ) -> Profile:
-    """Stand, go there, stand, come back, stand.
+    """A profile that rests, moves forward, rests, moves back and rests.
 
     Args:
         speed: [unit/s] on the way.
@@ -104,7 +104,7 @@ def make_return_profile(
 
 
 def make_brisk_profile(plant: Plant) -> Profile:
-    """One way, worth looking at, of something that gravity leaves alone; its numbers are round."""
+    """A profile in one direction with round numbers, for a mechanism without gravity."""
     gains = plant.gains
     speed = float(f"{BRISK * (12.0 - gains['kS']) / gains['kV']:.0e}")
     rising = max(QUICKEST, float(f"{speed * gains['kA'] / PUSH:.0e}"))

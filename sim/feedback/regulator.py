@@ -19,7 +19,7 @@ MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself f
 
 @dataclass(frozen=True)
 class Preset:
-    """How one kind of motor controller counts.
+    """The units and loop times of one kind of motor controller.
 
     Args:
         name: as people say it.

@@ -69,7 +69,7 @@ class Plant:
 
 @dataclass(frozen=True, eq=False)
 class StepResponse:
-    """What came of a step.
+    """The simulated response to a step of the target.
 
     Args:
         loop: ``velocity`` or ``position``.
@@ -139,7 +139,7 @@ def simulate_step_response(
 
 
 class MovingPlant:
-    """A mechanism on its way, in equal steps.
+    """The state of a simulated mechanism, advanced in equal steps.
 
     Args:
         plant: what moves.

@@ -16,7 +16,7 @@ SWAPS = 3  # changes of direction in that time make a swing
 
 @dataclass(frozen=True)
 class Verdict:
-    """How a loop took a step.
+    """The verdict on a step response.
 
     Args:
         kind: ``settles``, ``rings``, ``oscillates``, ``stays-short``, ``slow`` or ``runs-away``.
@@ -43,7 +43,7 @@ class Verdict:
 
     @property
     def description(self) -> str:
-        """A clause: what it does."""
+        """The verdict as a clause in words."""
         match self.kind:
             case "settles" | "rings":
                 past = (
@@ -79,7 +79,7 @@ class Verdict:
 
 
 def judge_step_response(response: StepResponse) -> Verdict:
-    """Put a step response in numbers.
+    """Judge a step response: rise, overshoot, settling and saturation.
 
     Args:
         response: of a target that is not zero.

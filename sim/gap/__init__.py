@@ -50,7 +50,7 @@ class GapMap:
         return (self.by_run, self.by_speed, self.by_position, self.after_steps, self.at_rest)
 
     def find_places(self, most: int, *, signal: str = "") -> tuple[Place, ...]:
-        """Where it is beyond doubt that they disagree, the surest first; empty if nowhere is.
+        """The places of significant disagreement, the most significant first.
 
         Args:
             most: so many at most, and of one kind only two.

@@ -45,11 +45,11 @@ class BinnedResiduals:
 
     @property
     def significance(self) -> Array:
-        """(2, rows, columns) [standard errors] from nothing; 0 where too few samples are."""
+        """(2, rows, columns) mean residual in standard errors; 0 where samples are too few."""
         return np.nan_to_num(self.mean / self.error)
 
     def find_places(self) -> Iterator[Place]:
-        """Where it is beyond doubt; neighbors that agree in their sign are one place."""
+        """The significant bins; neighbors of one sign are merged into one place."""
         sure = self.significance
         way = np.where(np.abs(sure) >= SURE, np.sign(sure), 0.0)
         for signal, row in zip(*np.nonzero(np.any(way, axis=2)), strict=True):
@@ -69,7 +69,7 @@ class BinnedResiduals:
         return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
 
     def describe_bin(self, row: int, part: slice) -> str:
-        """A stretch of a row in words.
+        """A range of bins in words.
 
         Args:
             row: which.
@@ -110,7 +110,7 @@ class SampleTable:
         self, what: str, rows: tuple[str, ...], edges: Array, *, row: NDArray[np.intp],
         value: Array, way: Array, shares: bool = False,
     ) -> BinnedResiduals:  # fmt: skip
-        """Cells of one kind.
+        """Bin all samples along one axis.
 
         Args:
             what: of which kind.

@@ -58,7 +58,7 @@ class Anomaly:
     recurs: bool = False
 
     def candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
-        """Where it may have begun, and ended: samples within ``begin`` and ``end``.
+        """Candidate (begin, end) samples of the disturbance within the anomaly.
 
         Args:
             margin: [samples] how far from its own first and last sample to look.
@@ -67,7 +67,7 @@ class Anomaly:
         return self._span_grid(self.first, self.last + 1, reach=margin, stride=stride)
 
     def refine_spans(self, span: tuple[int, int], *, margin: int) -> list[tuple[int, int]]:
-        """The same, to the sample, about the best of ``candidate_spans``."""
+        """Candidate spans at sample resolution around the best of ``candidate_spans``."""
         first, last = span
         return self._span_grid(
             self.begin + first, self.begin + last, reach=max(1, margin // 3) - 1, stride=1
@@ -83,8 +83,8 @@ class Anomaly:
             if self.begin <= begin < end <= self.end
         ]
 
-    def explained_share(self, shape: Array) -> float:
-        """The share of what is left that a shape (end - begin,) explains; below 0 it is worse."""
+    def share_explained_by(self, shape: Array) -> float:
+        """[1] share of the squared residual that a shape (end - begin,) explains; below 0: adds."""
         total = float(self.residual @ self.residual)
         rest = self.residual - shape
         return 1.0 - float(rest @ rest) / total if total > 0.0 else 0.0

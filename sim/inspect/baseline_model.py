@@ -29,7 +29,7 @@ QUICK, SLOW = 0.004, 5.0  # [s] timescales a mechanism can have
 
 @dataclass(frozen=True, eq=False)
 class BaselineModel:
-    """Gains that describe most of a log.
+    """Gains that describe most of a log, outliers set aside.
 
     Args:
         kv: [V·s/m or V·s/rad] positive.
@@ -46,12 +46,12 @@ class BaselineModel:
     spread: float
 
     def steady_speed(self, run: Run) -> Array:
-        """(n,) [m/s or rad/s] where each voltage of a run would take it, given time."""
+        """(n,) [m/s or rad/s] steady-state velocity of each voltage of a run."""
         pull = run.voltage - self.gravity(run.position)
         return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
 
     def replay(self, run: Run, *, voltage: Array, first: int, last: int, velocity: float) -> Array:
-        """The velocity that a voltage would bring about, friction and load included.
+        """Simulate the velocity under a voltage, with friction and load.
 
         Args:
             run: whose times and positions count.
@@ -86,7 +86,7 @@ class BaselineModel:
         return self.ka / self.kv
 
     def gravity(self, position: Array) -> Array:
-        """(n,) [V] what the load takes at these positions (n,) [m or rad]."""
+        """(n,) [V] gravity voltage at positions (n,) [m or rad]."""
         k0, kc, ks = self.gravity_terms
         return np.asarray(k0 + kc * np.cos(position) + ks * np.sin(position))
 

@@ -38,7 +38,7 @@ class LogInterval:
     end: float
 
     def overlap(self, other: "LogInterval") -> float:
-        """Shared time over the time that either covers: 1 if equal, 0 if apart or other runs."""
+        """Intersection over union of two intervals: 1 if equal, 0 if apart or in other runs."""
         if (self.run, self.test) != (other.run, other.test):
             return 0.0
         shared = min(self.end, other.end) - max(self.start, other.start)
@@ -128,7 +128,7 @@ class Fault:
 
 
 def rescale_motion(run: Run, pace: Array) -> Run:
-    """A run in which the mechanism, or what reads it, goes at another pace.
+    """A run with its velocity and position steps multiplied by factors ``pace``.
 
     Velocities are multiplied, and positions put together again from their multiplied steps, so that
     a sensor's noise, its steps and its held readings stay what they are.

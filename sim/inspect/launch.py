@@ -29,7 +29,7 @@ HELD = 2  # [samples] for which a position repeats, from where single frames sho
 
 @dataclass(frozen=True)
 class LaunchEvent:
-    """A speed that fell, or waited, while it should have risen.
+    """An interval in which the speed fell or stood still while it should have risen.
 
     Args:
         kind: ``fall`` or ``wait``.
@@ -72,7 +72,7 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
 
 
 def step_start(run: Run) -> int:
-    """The sample where the voltage comes on and stays; a first sample may be of the test before."""
+    """Index of the sample at which the voltage comes on and stays."""
     size = np.abs(run.voltage)
     on = size > ON * float(size.max(initial=0.0))
     if on.size <= STAYS:

@@ -53,7 +53,7 @@ class LogFeatures:
 
     @cached_property
     def position_slopes(self) -> tuple[Array, ...]:
-        """Per run, (n,) [m/s or rad/s]: the velocity that its positions tell, by central steps."""
+        """Per run, (n,) [m/s or rad/s]: velocity by central differences of the position."""
         return tuple(
             np.gradient(run.position, run.time) if len(run) > 1 else np.zeros(len(run))
             for run in self.log.runs
@@ -76,7 +76,7 @@ class LogFeatures:
 
     @cached_property
     def recognized_tests(self) -> tuple[str, ...]:
-        """Per run, the test that its voltage and its motion make it: ``quasistatic-forward``.
+        """Per run, the test recognized from its voltage and motion, as ``quasistatic-forward``.
 
         What they do not tell is taken from the name it is filed under: the direction where voltage
         and motion disagree, and everything about a test that is neither a ramp nor a step.
@@ -103,13 +103,13 @@ class LogFeatures:
         return estimate_velocity_lag(self.log.runs)
 
     @cached_property
-    def copied(self) -> tuple[float, ...]:
-        """Per run, the factor by which its velocity is its position; 0 if it is a velocity."""
+    def position_copy_factors(self) -> tuple[float, ...]:
+        """Per run, the factor by which its velocity copies its position; 0 if it is no copy."""
         return tuple(_copied(run) for run in self.log.runs)
 
     @cached_property
     def noise(self) -> float:
-        """[m/s or rad/s] the velocity's noise in motion, told without a model.
+        """[m/s or rad/s] velocity noise in motion, estimated without a model.
 
         From third differences of readings that are new: smooth motion leaves next to nothing.
         """
@@ -123,20 +123,20 @@ class LogFeatures:
 
     @cached_property
     def still_speed(self) -> float:
-        """[m/s or rad/s] a speed that tells motion from standstill."""
+        """[m/s or rad/s] threshold between motion and standstill."""
         top = max((run.top_speed for run in self.log.runs), default=0.0)
         return STANDING * top + 3.0 * self.noise
 
     @cached_property
     def baseline(self) -> BaselineModel | None:
-        """Which voltage its motion needs, by most of the log; None if the log cannot tell."""
-        if np.count_nonzero(self.copied) > len(self.copied) / 2:
+        """The robustly fitted baseline model; None if the log does not determine one."""
+        if np.count_nonzero(self.position_copy_factors) > len(self.position_copy_factors) / 2:
             return None
         return fit_baseline(self.log.runs, still=self.still_speed, period=self.period)
 
     @cached_property
     def predicted_velocities(self) -> tuple[Array, ...]:
-        """Per run, (n,) [m/s or rad/s]: the velocity its voltage should bring; () if untold."""
+        """Per run, (n,) [m/s or rad/s]: velocity by the baseline model; () without one."""
         if self.baseline is None:
             return ()
         return tuple(
@@ -148,7 +148,7 @@ class LogFeatures:
 
     @cached_property
     def anomalies(self) -> tuple[Anomaly, ...]:
-        """Where runs do not go the way their voltage says, in the order of time."""
+        """Intervals in which runs do not follow the baseline model, in the order of time."""
         if self.baseline is None:
             return ()
         return find_anomalies(

@@ -84,7 +84,7 @@ class StepRise:
     scale: float
 
     def fit(self, held: Array) -> tuple[float, float, float]:
-        """The least miss [m/s or rad/s, RMS], the tires it is with, and when they grip [s]."""
+        """Least RMS error [m/s or rad/s], its tire parameter, and the time of grip [s]."""
         scales, tires = (
             grid.ravel() for grid in np.meshgrid(SCALES * self.scale, held, indexing="ij")
         )
@@ -104,7 +104,7 @@ class StepRise:
         return float(misses[best]), float(tires[best]), grips
 
     def fit_limited(self) -> float:
-        """The least miss of a rise of limited current, in a log of what was commanded."""
+        """Least RMS error of a current-limited rise, for a log of the commanded voltage."""
         scale, share = (
             grid.ravel()[:, None]
             for grid in np.meshgrid(SCALES * self.scale, LIMITS, indexing="ij")

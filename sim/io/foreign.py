@@ -1,10 +1,10 @@
-"""Files that people give in the place of a log, and what to tell them."""
+"""Files of other formats that people mistake for logs, and the advice for each."""
 
 from typing import NamedTuple
 
 
 class ForeignFormat(NamedTuple):
-    """How to know a file that is of no format here, and what to tell its owner."""
+    """How to recognize a file of an unsupported format, and the advice for its owner."""
 
     starts: tuple[bytes, ...]
     suffixes: tuple[str, ...]

@@ -29,7 +29,7 @@ LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the on
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What the person who reads a file recognizes about it; None where the file shall say.
+    """What a person states about a file; None where the file itself decides.
 
     Args:
         units: the unit of the positions in the file.
@@ -56,7 +56,7 @@ class ReadOptions:
 
 
 class Format(Protocol):
-    """What a module in ``sim/io/formats`` looks like from outside."""
+    """The protocol of a module in ``sim/io/formats``."""
 
     SUFFIXES: tuple[str, ...]
 
@@ -64,7 +64,7 @@ class Format(Protocol):
         """Whether a file whose first bytes are ``head`` is of this format."""
 
     def read(self, path: Path, asked: ReadOptions) -> Log:
-        """Read a file."""
+        """Read a file of this format into a log."""
 
 
 def doubt_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:

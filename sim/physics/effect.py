@@ -43,6 +43,8 @@ HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     "backlash_gap": (),
     "joint_compliance": (),
     "motor_inertia_share": (),
+    # two bodies: [V] of push that the floor passes on from the wheels to the robot
+    "grip_limit": (),
     # a sense: what the sensor says instead of ``seen``, from the motion up to sample ``now``
     "transform_velocity": ("seen", "now", "time", "position", "velocity"),
 }
@@ -78,7 +80,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Scale:
-    """What is ordinary for a mechanism, so that an effect can be given an ordinary size.
+    """Ordinary speeds, voltages and times of a mechanism, by which effects are sized.
 
     Args:
         ks: [V].
@@ -88,6 +90,7 @@ class Scale:
         reach: [unit] that a test travels.
         angular: positions are angles.
         bounded: the travel has two ends.
+        type: ``simple``, ``elevator`` or ``arm``.
     """
 
     ks: float
@@ -97,21 +100,22 @@ class Scale:
     reach: float
     angular: bool
     bounded: bool
+    type: str
 
     @property
     def speed(self) -> float:
-        """[unit/s] that the step ends in."""
+        """[unit/s] steady-state speed of the step."""
         return max(self.step - self.ks, 0.1 * self.step) / self.kv
 
     @property
     def timescale(self) -> float:
-        """[s] in which a step is answered."""
+        """[s] time constant kA/kV of a step."""
         return self.ka / self.kv
 
 
 @dataclass(frozen=True)
 class Effect:
-    """One kind of physics.
+    """One physical effect: its parameters, its functions in the engine, and its start values.
 
     Args:
         name: as on the command line: ``gravity-cosine``.
@@ -172,8 +176,18 @@ class Effect:
         return {ONSET, UNTIL} <= set(self.names)
 
     @property
+    def is_joint(self) -> bool:
+        """Whether it joins a motor to its load by free play or by something soft."""
+        return not {"backlash_gap", "joint_compliance"}.isdisjoint(self.hooks)
+
+    @property
+    def slips(self) -> bool:
+        """Whether what moves can slip on the floor."""
+        return "grip_limit" in self.hooks
+
+    @property
     def neutral(self) -> dict[str, float]:
-        """Parameters with which it is not there."""
+        """Parameter values at which the effect vanishes."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
 
     def contract_breaches(self) -> list[str]:
@@ -199,3 +213,12 @@ class Effect:
         if "transform_voltage" in self.hooks and not self.order:
             found.append("order is 0; say where on the path from command to motor it stands")
         return found
+
+
+def are_compatible(effects: Iterable[Effect]) -> bool:
+    """Whether one model can hold these effects: it has at most two bodies.
+
+    A joint has a motor and its load, slip has wheels and a robot; both together would be three.
+    """
+    known = tuple(effects)
+    return not (any(one.is_joint for one in known) and any(one.slips for one in known))

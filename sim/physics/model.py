@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from sim.core.errors import BadRequest
 from sim.core.log import TYPES
 from sim.core.units import Unit
+from sim.physics.effect import are_compatible
 from sim.physics.effects import find_effect as find
 
 
@@ -61,7 +62,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Model:
-    """What moves, as a formula with numbers.
+    """A model of a mechanism: gains, effects and travel.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
@@ -89,6 +90,11 @@ class Model:
         names = [part.effect for part in self.parts]
         if twice := [name for name in names if names.count(name) > 1]:
             raise BadRequest(f"{twice[0]} twice", advice="Add an effect once.")
+        if not are_compatible(map(find, names)):
+            raise BadRequest(
+                f"{' and '.join(names)} in one model",
+                advice="Choose slipping wheels or a joint (backlash, compliance), not both.",
+            )
 
     def __add__(self, part: Part) -> "Model":
         return replace(self, parts=(*self.parts, part))

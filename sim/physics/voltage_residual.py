@@ -60,10 +60,10 @@ class VoltageResidual:
 
     @property
     def is_unbounded(self) -> bool:
-        """Whether it turned so often that nothing can hold it to a place."""
+        """Whether it turned so often that its travel cannot be limited."""
         return find_unit(self.log.units).angular and bool(np.ptp(self.position) > ENDLESS)
 
-    def thin(self, some: slice) -> "VoltageResidual":
+    def select_samples(self, some: slice) -> "VoltageResidual":
         """Some of the samples."""
         arrays = {
             name: getattr(self, name)[some]

@@ -1,9 +1,10 @@
-"""Numbers to compare: gains against the truth, one number against another, misses of a line."""
+"""Numbers to compare: gains against the truth, one number against another, errors of a line."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
@@ -11,6 +12,7 @@ from sim.plot.picture import COLORS, INK, LINES, MARKERS, PAPER, REFERENCE, Pict
 from sim.plot.table import Cell, Table, to_text
 
 WINDOW = 0.25  # [share of the truth] always shown around it, so that a small error looks small
+GAINS = ("kS", "kV", "kA")  # each has its own color and marker; everything else has the first
 TABLE_ROWS = 8  # of a curve: a table is read, not scanned
 
 
@@ -40,7 +42,7 @@ def plot_choices(
     axes.axvline(truth, color=REFERENCE, linestyle="--", linewidth=1.2)
     rows = []
     for place, (way, value) in enumerate(values.items()):
-        _dot(axes, place, value, spread=(spreads or {}).get(way, 0.0))
+        _dot(axes, place, way, value, spread=(spreads or {}).get(way, 0.0))
         rows.append((way, value, _percent(value, truth)))
     label = f"{name} [{unit}]" if unit else name
     axes.set_xlabel(f"{label} (dashed line: the truth, {to_text(truth)})", color=INK)
@@ -58,9 +60,9 @@ def plot_choices(
     return Picture(figure, alt, Table(("which", label, "off by"), tuple(rows)))
 
 
-def _dot(axes: Axes, place: int, value: float, *, spread: float) -> None:
-    """A number's dot in its row, with the number above it."""
-    mark = place % len(MARKERS)
+def _dot(axes: Axes, place: int, way: str, value: float, *, spread: float) -> None:
+    """A number's dot in its row, with the number above it; each gain has its own color."""
+    mark = GAINS.index(way) if way in GAINS else 0
     axes.errorbar(
         value, place, xerr=spread or None, fmt=MARKERS[mark], color=COLORS[mark],
         markersize=8, capsize=4,
@@ -79,6 +81,8 @@ def plot_curves(
     ylabel: str,
     levels: Mapping[str, float] | None = None,
     marked: tuple[float, float] | None = None,
+    mark: str = "here",
+    log_scale: bool = False,
 ) -> Picture:
     """One or more curves over a common axis.
 
@@ -89,6 +93,8 @@ def plot_curves(
         ylabel: with unit.
         levels: name -> height of a horizontal line: the truth, a limit.
         marked: a point to draw attention to.
+        mark: what the legend calls the marked point.
+        log_scale: the vertical axis is logarithmic.
 
     Raises:
         BadRequest: there are no curves, or one has another length than ``x``.
@@ -107,25 +113,33 @@ def plot_curves(
     for name, level in (levels or {}).items():
         axes.axhline(level, color=REFERENCE, linestyle="--", linewidth=1.0, label=name)
     if marked is not None:
-        axes.plot(*marked, "*", color=REFERENCE, markersize=14, label="here")
+        axes.plot(*marked, "*", color=REFERENCE, markersize=14, label=mark)
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
+    if log_scale:
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.legend(fontsize=8)
-    said = [f"{ylabel} over {xlabel}."]
-    said += [
-        f"“{name}” goes from {to_text(float(y[0]))} at {x[0]:g} to {to_text(float(y[-1]))} at "
-        f"{x[-1]:g}."
-        for name, y in lines.items()
-    ]
-    said += [
-        f"A dashed line marks “{name}”, {to_text(level)}." for name, level in (levels or {}).items()
-    ]
+    said = [f"{ylabel} over {xlabel}.", *_curve_sentences(x, lines, levels or {})]
     if marked is not None:
-        said.append(f"A star marks {to_text(marked[1])} at {marked[0]:g}.")
+        said.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
         _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
     return Picture(figure, " ".join(said), Table((xlabel, *lines), rows, caption=ylabel))
+
+
+def _curve_sentences(
+    x: Sequence[float] | Array,
+    lines: Mapping[str, Sequence[float] | Array],
+    levels: Mapping[str, float],
+) -> Iterator[str]:
+    """Where each curve begins and ends, and what each dashed line marks."""
+    for name, y in lines.items():
+        first, last = to_text(float(y[0])), to_text(float(y[-1]))
+        yield f"“{name}” goes from {first} at {x[0]:g} to {last} at {x[-1]:g}."
+    for name, level in levels.items():
+        yield f"A dashed line marks “{name}”, {to_text(level)}."
 
 
 def plot_misses(
@@ -137,7 +151,7 @@ def plot_misses(
     xlabel: str,
     ylabel: str,
 ) -> Picture:
-    """A few points, a straight line, and by how much the line misses each point.
+    """A few points, a straight line, and the error of the line at each point.
 
     Args:
         x: (n,) of the points.
@@ -152,16 +166,16 @@ def plot_misses(
     figure, ((axes,),) = make_panels(1, 1)
     ends = np.array([0.0, 1.05 * across.max()])
     axes.plot(ends, intercept + slope * ends, color=COLORS[1], linestyle="--", label="the line")
-    axes.vlines(across, said, up, color=COLORS[3], linewidth=2.5, label="misses")
+    axes.vlines(across, said, up, color=COLORS[3], linewidth=2.5, label="errors")
     axes.plot(across, up, "o", color=COLORS[0], markersize=7, label="samples")
     axes.set_xlabel(xlabel, color=INK)
     axes.set_ylabel(ylabel, color=INK)
     axes.legend(fontsize=8)
     total = f"{to_text(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
-    _corner(axes, f"sum of squared misses: {total}")
+    _corner(axes, f"sum of squared errors: {total}")
     alt = (
         f"{across.size} samples of {ylabel} over {xlabel}, and the line {to_text(intercept)} + "
-        f"{to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the misses; the sum of "
+        f"{to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the errors; the sum of "
         f"their squares is {total}."
     )
     rows = tuple(
@@ -169,7 +183,7 @@ def plot_misses(
         for a, b, c in zip(across, up, said, strict=True)
     )
     unit = f" {bracket}" if (bracket := _bracket(ylabel)) else ""
-    header = (xlabel, ylabel, f"the line says{unit}", f"miss{unit}")
+    header = (xlabel, ylabel, f"the line says{unit}", f"error{unit}")
     return Picture(figure, alt, Table(header, rows))
 
 

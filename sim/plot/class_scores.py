@@ -46,7 +46,7 @@ def plot_score_histogram(shares: Sequence[float]) -> Picture:
 def plot_score_heatmap(
     students: Sequence[str], exercises: Sequence[str], shares: Sequence[Sequence[float]]
 ) -> Picture:
-    """Who earned which share where, the best above.
+    """A heatmap of scores: students by exercises, the best students on top.
 
     Args:
         students: their names.

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
+from sim.core.vocabulary import FOUR_TESTS
 from sim.fit.sysid_rows import Rows
 from sim.plot.decimate import decimate_cloud
 from sim.plot.picture import (
@@ -76,7 +77,7 @@ def plot_information_map(
     """Where in velocity and acceleration the rows lie, and how well two gains follow from them.
 
     Args:
-        rows: test -> its rows.
+        rows: one of the four tests -> its rows.
         information: (2, 2) what they tell of both gains, see ``sim.fit.information_matrix``.
         names: of the two gains, with their units.
         truth: about which the ellipse is drawn.
@@ -84,13 +85,14 @@ def plot_information_map(
         symbol: of the unit of position.
     """
     figure, ((left, right),) = make_panels(1, 2, height=3.8)
-    for index, (test, part) in enumerate(rows.items()):
+    for test, part in rows.items():
+        place = FOUR_TESTS.index(test)  # a test has its color and mark in every map
         kept = decimate_cloud(part.velocity, part.acceleration, most=MOST)
         left.plot(
             part.velocity[kept],
             part.acceleration[kept],
-            MARKERS[index],
-            color=COLORS[index],
+            MARKERS[place],
+            color=COLORS[place],
             markersize=5,
             alpha=0.7,
             label=test,
@@ -179,8 +181,8 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     if math.isinf(half[0]):
         along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
         return (
-            f"a straight strip without end; {names[1]} changes by {to_text(float(along[1]))} where "
-            f"{names[0]} changes by 1, and nobody can say where on it the truth is."
+            f"a straight band without end; {names[1]} changes by {to_text(float(along[1]))} where "
+            f"{names[0]} changes by 1, and the truth can be anywhere in the band."
         )
     first, second = _errors(information)
     return f"an ellipse; one standard error is {to_text(first)} and {to_text(second)}."
@@ -188,7 +190,7 @@ def _words(information: Array, names: tuple[str, str]) -> str:
 
 def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:
     def cell(error: float) -> str:
-        return to_text(error) if math.isfinite(error) else "anything"
+        return to_text(error) if math.isfinite(error) else "unknown"
 
     return Table(
         ("rows of", *(f"± {name}" for name in names)),

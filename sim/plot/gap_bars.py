@@ -1,4 +1,4 @@
-"""Bars of gaps: how far models miss logs, in times the noise, side by side for each log."""
+"""Bars of gaps: how far models are from logs, in times the noise, side by side for each log."""
 
 from collections.abc import Mapping
 
@@ -13,7 +13,7 @@ THICK = 0.8  # [rows] that the bars of one model take together
 
 
 def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
-    """How far each model misses each log.
+    """How far each model is from each log.
 
     Args:
         gaps: model -> log -> gap [times the noise]; every model has the same logs.
@@ -59,7 +59,7 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     )
     return Picture(
         figure,
-        f"Bars show how far each model misses each log, in times the noise: {told}. A dashed line "
+        f"Bars show how far each model is from each log, in times the noise: {told}. A dashed line "
         "marks the noise, 1.",
-        Table(("model", *(f"{log} [noises]" for log in logs)), tuple(rows)),
+        Table(("model", *logs), tuple(rows), caption="gap [times the noise]"),
     )

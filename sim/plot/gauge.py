@@ -72,8 +72,10 @@ def _draw(
 ) -> None:
     """Draw the bands, and the marks on them."""
     low, high = span
-    rest, start, last = iter(REST), low, list(bands)[-1]
+    below, above = iter(REST), reversed(REST)  # what follows the good band looks alike everywhere
+    start, last, good_ends = low, list(bands)[-1], bands[good]
     for name, end in bands.items():
+        rest = below if end < good_ends else above
         color, hatch = (GOOD, "") if name == good else WORST if name == last else next(rest)
         stop = high if name == last else end
         axes.barh(0, stop - start, left=start, height=1.0, color=color, hatch=hatch, alpha=0.45,

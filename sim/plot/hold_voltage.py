@@ -24,7 +24,7 @@ def plot_hold_window(
     symbol: str = "m",
     here: tuple[float, float] | None = None,
 ) -> Picture:
-    """How fast a mechanism moves under each voltage, and the window in which it does not.
+    """Speed over constant voltage, with the window in which friction holds the mechanism.
 
     Args:
         volts: (n,) [V] that were tried, rising.

@@ -41,7 +41,7 @@ def plot_measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
 def draw_all_runs(
     runs: Sequence[RunReplay], *, per: Unit, more: int = 0
 ) -> tuple[Figure, list[SubFigure]]:
-    """All runs in one figure, two beside each other.
+    """Draw all runs into one figure, two per row.
 
     Args:
         runs: of more than can be read the first are drawn.

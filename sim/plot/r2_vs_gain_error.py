@@ -62,7 +62,7 @@ def plot_r2_vs_gain_error(
         _errors(right, scores, off)
         add_legend(figure, [right])
     right.set_xlabel("off by [%]", color=INK)
-    right.set_title("the truth, which no robot shows", fontsize=10, color=INK)
+    right.set_title("errors of the gains (known only in simulation)", fontsize=10, color=INK)
     return Picture(figure, _words(scores, good, score, off), _table(scores, good, score, off))
 
 
@@ -91,6 +91,7 @@ def _badges(axes: Axes, scores: Mapping[str, float], *, good: float, score: str)
     axes.set_ylim(len(scores) - 0.4, -0.6)
     axes.set_xlabel(f"{score} (dashed: {good:g})", color=INK)
     axes.set_title("the score", fontsize=10, color=INK)
+    axes.set_axisbelow(True)
 
 
 def _errors(

@@ -53,10 +53,11 @@ def _floor(axes: Axes, drive: FloorTest, now: int) -> None:
     axes.set_xlim(-BEHIND, wall + 0.06 * (wall + BEHIND))
     axes.set_ylim(-1.0, 1.0)
     axes.set_yticks([])
-    axes.set_xlabel("distance from the start [m]", color=INK)
+    axes.set_xlabel("distance of the front bumper from the start [m]", color=INK)
     axes.axvspan(wall, wall + 10.0, facecolor="#DDDDDD", edgecolor=INK, hatch="xxx", linewidth=1.0)
     _sign(axes, wall, "wall", ha="right", below=True)
     axes.axvline(0.0, color=INK, linewidth=1.0, linestyle=":")
+    _sign(axes, 0.0, "start", ha="left")
     if drive.floor.tape is not None:
         axes.axvline(drive.floor.tape, color=TAPE, linewidth=5.0)
         _sign(axes, drive.floor.tape, "tape", ha="left")
@@ -140,7 +141,7 @@ def _table(drive: FloorTest) -> Table:
             "never" if drive.hit_wall is None else drive.released - drive.hit_wall,
         ),
         ("fastest [m/s]", top),
-        ("stands at [m]", drive.final_position),
+        ("stops at [m]", drive.final_position),
         (
             "room left [m]",
             "none: it hit the wall" if drive.hit_wall else drive.floor.wall - drive.final_position,
@@ -161,7 +162,7 @@ def _words(drive: FloorTest, now: int) -> str:
         said += f"It hits the wall after {drive.hit_wall:.2f} s. "
     else:
         room = drive.floor.wall - drive.final_position
-        said += f"It stands at {drive.final_position:.2f} m, {room:.2f} m before the wall. "
+        said += f"It stops at {drive.final_position:.2f} m, {room:.2f} m before the wall. "
     said += f"It is drawn at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the start. "
     said += "Below, over time: the speed, at most "
     said += f"{drive.velocity.max():.2f} m/s, and the battery, at least {drive.battery.min():.1f} V"

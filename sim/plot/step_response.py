@@ -20,7 +20,7 @@ WIDER = 1.6  # [times the step] shown around it at most: what runs away leaves t
 
 
 def plot_step_responses(tried: Sequence[FeedbackTrial], *, per: Unit) -> Picture:
-    """What each loop does when its target jumps, and the voltage it takes.
+    """The step response of each loop, with its voltage.
 
     Args:
         tried: at least one, of one loop or of both.
@@ -87,7 +87,7 @@ def _worth(trial: FeedbackTrial) -> float:
 
 
 def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
-    """What the picture of some trials shows, a sentence for each."""
+    """A sentence about each step response in the picture."""
     return " ".join(
         f"{trial.owner.capitalize()} gains of the {trial.loop} loop, "
         f"{format_gain_pair(trial.gains)}: when the target jumps by "

@@ -1,4 +1,4 @@
-"""A story's bars: the suspects of a round, and the gap that shrinks."""
+"""Bar charts of a story: the candidates of a round, and the gap after each round."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,7 @@ LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC",
 
 
 def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
-    """What was tried on top of a chapter's model, and what it would have explained.
+    """Bars of the candidates tried on a chapter's model: how much each would explain.
 
     Args:
         story: what was found.
@@ -68,7 +68,7 @@ def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
 
 
 def make_candidate_table(story: Story, chapter: int) -> Table:
-    """The same in numbers, all of them."""
+    """A table of all candidates tried on a chapter's model."""
     taken = find_next_effect(story, chapter)
     rows = tuple(
         (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
@@ -85,7 +85,7 @@ def find_next_effect(story: Story, chapter: int) -> str:
 
 
 def candidate_status(one: TriedCandidate, taken: str) -> str:
-    """Whether a suspect was taken, could have been, or could not."""
+    """Whether a candidate was added, was admissible, or was rejected."""
     if one.effect == taken:
         return TAKEN
     return PASSED if one.admitted else REFUSED
@@ -115,7 +115,7 @@ def plot_gap_by_round(story: Story) -> Picture:
     )  # fmt: skip
     axes.set_yticks(range(len(gaps)), names)
     axes.set_ylim(len(gaps) - 0.5, -0.85)
-    axes.set_xlabel("RMS velocity error of the simulation [times the noise]", color=INK)
+    axes.set_xlabel("gap: RMS velocity error of the simulation [times the noise]", color=INK)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     symbol = find_unit(story.shown.units).symbol

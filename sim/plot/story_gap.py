@@ -35,7 +35,7 @@ TITLES = {
     SPEED: "by speed",
     POSITION: "by position",
     STEPS: "after the voltage jumps (faster: the reaction is too strong)",
-    REST: "where the model rests",
+    REST: "where the model stands still",
 }
 
 
@@ -113,7 +113,7 @@ def _heads(figure: Figure, grid: "np.ndarray[tuple[int, int], np.dtype[np.object
     bar.ax.tick_params(labelsize=8, colors=INK)
     bar.set_label(
         "the robot is slower (−) or faster (+) than the simulation, in times the noise of the "
-        "velocity;\na number stands where it is more than the noise",
+        "velocity;\nnumbers are written where the error is larger than the noise",
         fontsize=8, color=INK,
     )  # fmt: skip
     figure.legend(
@@ -183,7 +183,7 @@ def _signed(value: float) -> str:
 def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     first = (
         "Maps of where the robot is slower or faster than the simulation: run by run, by speed, by "
-        "position, after the voltage jumps, and where the model rests."
+        "position, after the voltage jumps, and where the model stands still."
     )
     said = [first]
     for one, title in zip(found, titles, strict=True):

@@ -15,7 +15,7 @@ LONGEST = 1e5  # a larger number is written with an exponent
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under a header; the first cell of a row names it.
+    """A table: a header, and rows that are named by their first cell.
 
     Args:
         header: what each column holds, with its unit.
@@ -91,7 +91,7 @@ def _cell(tag: str, text: str, *, left: bool, scope: str = "col") -> str:
 
 
 def to_text(cell: Cell) -> str:
-    """A cell as text: a number with three significant digits, and a true minus sign."""
+    """A cell as text; a number gets three significant digits and a true minus sign."""
     if isinstance(cell, str):
         return cell
     if isinstance(cell, int):

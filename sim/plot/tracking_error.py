@@ -1,4 +1,4 @@
-"""A chase: a velocity that is asked for, what follows it, and by how much it misses."""
+"""A chase: a velocity that is asked for, what follows it, and its error."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ APART = 0.12  # [share of a panel] between markers
 
 @dataclass(frozen=True)
 class TrackingError:
-    """By how much something misses what it follows.
+    """RMS and largest difference from a target.
 
     Args:
         typical: root mean square.
@@ -36,7 +36,7 @@ class TrackingError:
 
 
 def measure_tracking_error(target: Array, velocity: Array) -> TrackingError:
-    """By how much a velocity misses its target.
+    """The error of a velocity against its target.
 
     Args:
         target: (n,).
@@ -55,7 +55,7 @@ def plot_tracking_error(
     title: str = "",
     quantity: str = "velocity",
 ) -> Picture:
-    """A target and what followed it, and below it what each one misses.
+    """A target and what followed it, and below it the error of each.
 
     Args:
         time: (n,) [s].
@@ -93,13 +93,13 @@ def plot_tracking_error(
     found = {name: measure_tracking_error(target, velocity) for name, velocity in followers.items()}
     alt = (
         f"A target {quantity} over time, between {to_text(float(np.min(target)))} and "
-        f"{to_text(float(np.max(target)))} {unit}, and what followed it; below, what each misses. "
+        f"{to_text(float(np.max(target)))} {unit}, and what followed it; below, the errors. "
         + " ".join(
-            f"“{name}” misses by {to_text(one.typical)} {unit} typically and by "
+            f"“{name}” is off by {to_text(one.typical)} {unit} typically and by "
             f"{to_text(one.largest)} {unit} at most."
             for name, one in found.items()
         )
     )
     rows = tuple((name, one.typical, one.largest) for name, one in found.items())
-    header = ("who", f"typical miss [{unit}]", f"largest miss [{unit}]")
+    header = ("curve", f"typical error [{unit}]", f"largest error [{unit}]")
     return Picture(figure, f"{title}. {alt}" if title else alt, Table(header, rows))

@@ -69,7 +69,7 @@ class ResidualView:
 def compute_missing_volts(
     log: Log, simulated: Sequence[Array], gains: Mapping[str, float]
 ) -> list[Array]:
-    """What a simulation would need on top of its voltage to move as the log did.
+    """Per run, (n,) [V] voltage that the simulation would need in addition to move as the log did.
 
     Args:
         log: what was measured.
@@ -151,7 +151,7 @@ def plot_voltage_residual(
     symbol = find_unit(log.units).symbol
     labels = {
         SPEED: f"simulated speed [{symbol}/s]", SINCE: "time since the voltage jumped [s]",
-        BATTERY: "battery voltage [V]", DIRECTION: "reverse (−1) and forward (+1)",
+        BATTERY: "battery voltage [V]", DIRECTION: "direction of the motion",
     }  # fmt: skip
     places = [axes for row in grid for axes in row]
     high = 1.15 * max(float(np.quantile(np.abs(lacking), EASY)), _largest(found), 1e-9)
@@ -159,18 +159,20 @@ def plot_voltage_residual(
         _draw(axes, view, high=high)
         axes.set_title(f"{name}: explains {_percent(view.explains)}", fontsize=10, color=INK)
         axes.set_xlabel(labels[name], color=INK)
-        axes.set_ylabel("missing volts [V]", color=INK)
+        axes.set_ylabel("voltage residual [V]", color=INK)
+        if name == DIRECTION:
+            axes.set_xticks([-1.0, 1.0], ["reverse", "forward"])
     for axes in places[len(found) :]:
         axes.set_axis_off()
     add_legend(figure, places[:1])
     typical = float(np.sqrt(np.mean(lacking**2)))
     told = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
     alt = (
-        f"{NUMBERS[len(found)]} views of the volts that the simulation lacks, {to_text(typical)} V "
-        f"typically: each sample as a pale dot, and the mean of each cell with its error. Of the "
-        f"squared volts, the means explain: {told}."
+        f"{NUMBERS[len(found)]} views of the voltage residual, {to_text(typical)} V typically: "
+        "each sample as a pale dot, and the mean of each group of nearby samples with its error. "
+        f"Of the squared residual, the means explain: {told}."
     )
-    return Picture(figure, alt, Table(("seen over", "explains", "cell means [V]"), tuple(
+    return Picture(figure, alt, Table(("plotted over", "explains", "means [V]"), tuple(
         (name, _percent(view.explains), _listed(view)) for name, view in found.items()
     )))  # fmt: skip
 
@@ -227,14 +229,14 @@ def _draw(axes: Axes, view: ResidualView, *, high: float) -> None:
     inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
     inside = inside[:: max(1, -(-inside.size // MOST))]
     axes.plot(
-        view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.6,
+        view.at[inside], view.volts[inside], ".", color=COLORS[0], markersize=3.5, alpha=0.8,
         label="samples",
     )  # fmt: skip
     middle = 0.5 * (view.edges[:-1] + view.edges[1:])
     axes.axhline(0.0, color=REFERENCE, linewidth=1.0)
     axes.errorbar(
         middle, view.mean, yerr=view.error, color=COLORS[1], marker=MARKERS[1], markersize=5,
-        linestyle=LINES[0], linewidth=1.4, capsize=3, label="mean of a cell",
+        linestyle=LINES[0], linewidth=1.4, capsize=3, label="mean of nearby samples",
     )  # fmt: skip
     axes.set_ylim(-high, high)
 
@@ -251,4 +253,6 @@ def _percent(share: float) -> str:
 
 
 def _listed(view: ResidualView) -> str:
-    return ", ".join("none" if np.isnan(m) else f"{m:+.2f}".replace("-", "−") for m in view.mean)
+    return ",\N{NO-BREAK SPACE}".join(
+        "none" if np.isnan(m) else f"{m:+.2f}".replace("-", "−") for m in view.mean
+    )

@@ -17,21 +17,23 @@ from dataclasses import replace
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import Unit, find_unit
-from sim.estimation.initial_guess import clamp_to_physical, guess_gains
+from sim.core.units import Unit
+from sim.estimation.initial_guess import clamp_to_physical
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import ExcludedInterval, join_records, run_records, session_length
+from sim.estimation.run_records import ExcludedInterval
+from sim.physics.engine import load_engine
 from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.damage_policy import DamageDecision, judge_damage
+from sim.reconcile.damage_policy import judge_damage
 from sim.reconcile.findings import list_remarks, make_findings, reported_rounds
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize, minimize_fully, scan_process_noise
+from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
@@ -41,8 +43,6 @@ from sim.reconcile.thresholds import LOST, MAJOR, SEARCH, WANDERS
 from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
-
-TRAIN, VALIDATION = "log", "validation"
 
 
 def reconcile(
@@ -87,22 +87,23 @@ def reconcile(
         >>> story.findings[0].effect
         'velocity-filter'
     """
+    load_engine()  # the first time it is compiled, which is no part of the search
     deadline = time.process_time() + SEARCH * time_limit
-    check_logs(log, validation, held_out, type=type, travel=travel)
-    aside = judge_damage(damages or {})
-    problem = _make_problem(log, validation, aside)
+    damage = judge_damage(damages or {})
+    recordings = Recordings(log, validation, held_out, type=type, damage=damage)
+    check_logs(recordings, travel=travel)
+    problem = recordings.make_problem()
     progress("base model", 0.05)
-    problem, base = _fit_base_model(problem, log, type=type)
+    problem, base = _fit_base_model(problem, recordings)
     problem, base, slipped = _exclude_slips(problem, base)
-    both = log if validation is None else join_records(log, validation)
     folds = make_folds([one.session for one in problem.records])
-    data = SelectionData(problem, folds, progress, deadline)
-    done = select_effects(data, base, both)
+    data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
+    done = select_effects(data, base)
     cut = time_limit if data.out_of_time() else math.inf
     progress("what remains", 0.9)
-    shown = HeldOutLog.choose({"log": log, "validation": validation, "held_out": held_out}, aside)
-    faults = _one_per_fault(slipped, aside.reported)
-    return _make_story(problem, done, shown, faults, cut=cut, per=find_unit(log.units))
+    shown = HeldOutLog.choose(recordings)
+    faults = _one_per_fault(slipped, damage.reported)
+    return _make_story(problem, done, shown, faults, cut=cut, per=recordings.unit)
 
 
 def _make_story(
@@ -146,19 +147,6 @@ def _make_story(
     )  # fmt: skip
 
 
-def _make_problem(
-    log: Log, validation: Log | None, aside: DamageDecision
-) -> PredictionErrorProblem:
-    """All runs that may be fitted; the clock of the second log goes on where the first ended."""
-    every = run_records(log, aside=aside.excluded_from(TRAIN))
-    if validation is not None:
-        since = session_length(log)
-        every += run_records(
-            validation, session=1, since=since, aside=aside.excluded_from(VALIDATION)
-        )
-    return PredictionErrorProblem.from_records(every)
-
-
 def _exclude_slips(
     problem: PredictionErrorProblem, base: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate, tuple[DamagedInterval, ...]]:
@@ -183,10 +171,7 @@ def _one_per_fault(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval
 
 
 def _fit_base_model(
-    problem: PredictionErrorProblem,
-    log: Log,
-    *,
-    type: str,  # noqa: A002 - the field's own word
+    problem: PredictionErrorProblem, recordings: Recordings
 ) -> tuple[PredictionErrorProblem, Estimate]:
     """The best point without effects, and the problem in which it was found.
 
@@ -196,17 +181,17 @@ def _fit_base_model(
     Raises:
         NotIdentifiable: no gains follow the log.
     """
-    base = _fit_structure(problem, log, type=type)
+    base = _fit_structure(problem, recordings)
     if not math.isfinite(base.cost):
         raise NotIdentifiable(
             "without its damaged parts, no gains fit this log",
-            where=log.source,
+            where=recordings.log.source,
             advice="Inspect the log, and record it again.",
         )
     if _missed_share(problem, base) < LOST:
         return problem, base
     bound = replace(problem, max_process_noise=(WANDERS * problem.top_speed) ** 2)
-    other = _fit_structure(bound, log, type=type)
+    other = _fit_structure(bound, recordings)
     if math.isfinite(other.cost) and _missed_share(bound, other) < MAJOR * _missed_share(
         problem, base
     ):
@@ -220,10 +205,10 @@ def _missed_share(problem: PredictionErrorProblem, base: Estimate) -> float:
     return missed_motion(gap / problem.noise.velocity, problem)
 
 
-def _fit_structure(problem: PredictionErrorProblem, log: Log, *, type: str) -> Estimate:  # noqa: A002 - as above
+def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
     """Fit the base model, without effects."""
-    guess = clamp_to_physical(guess_gains(log, type=type))
-    structure = ModelStructure(type)
+    guess = clamp_to_physical(recordings.initial_gains)
+    structure = ModelStructure(recordings.type)
     values = {name: guess[name] for name in structure.names}
     begin = problem.evaluate(
         structure,

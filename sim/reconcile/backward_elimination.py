@@ -7,7 +7,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
@@ -19,14 +18,12 @@ from sim.reconcile.model_selection import (
     required_improvement,
     score_improvement,
 )
-from sim.reconcile.selection_data import SelectionData, voltage_residual_at
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.thresholds import CLOSE, LOOKED_ALIKE, ONCE, SIMPLER, SURER
 
 
-def replace_effects(
-    data: SelectionData, done: list[SelectionRound], log: Log
-) -> list[SelectionRound]:
+def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Replace an earlier effect by another where that is likelier now."""
     problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
@@ -42,7 +39,7 @@ def replace_effects(
                 continue
             best = replace(reduced, effect=last.candidate.effect)
             return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
-        evidence = voltage_residual_at(log, reduced.estimate)
+        evidence = data.voltage_residual(reduced.estimate)
         found = rank_candidates(
             problem, reduced.estimate, evidence,
             only=others, seeds=last.seeds, stop=data.out_of_time,
@@ -66,9 +63,7 @@ def _required_advantage(effect: str, other: str) -> float:
     return ONCE if passing else CLOSE
 
 
-def simplify_effects(
-    data: SelectionData, done: list[SelectionRound], log: Log
-) -> list[SelectionRound]:
+def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Replace effects by their simpler forms where these explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
@@ -81,7 +76,7 @@ def simplify_effects(
         point = last.candidate.estimate
         had = point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        evidence = voltage_residual_at(log, point)
+        evidence = data.voltage_residual(point)
         begun = simplify_effect(problem, point, names, evidence, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue

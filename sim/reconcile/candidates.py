@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.estimation.random_friction import laplace_correction
-from sim.physics.effect import Effect
+from sim.physics.effect import Effect, are_compatible
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
 from sim.reconcile.backlash_phase import backlash_phase_prior
@@ -26,7 +26,7 @@ from sim.reconcile.local_minimum import (
     total_cost,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
-from sim.reconcile.two_body_starts import SHAKES, TwoBodyStarts
+from sim.reconcile.two_body_starts import TwoBodyStarts
 
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
@@ -34,8 +34,8 @@ FURTHER = 6  # steps from each valley of what shakes, which are to be compared
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 OWN: dict[str, tuple[str, ...]] = {
-    "elevator": ("constant-load", "gravity-cosine"),
-    "arm": ("gravity-cosine",),
+    "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
+    "arm": ("gravity-cosine", "wheel-slip"),
 }
 """Base type -> the effects that it has already, or cannot have: an elevator turns about nothing."""
 
@@ -86,9 +86,11 @@ def rank_candidates(
     seeds = seeds or {}
     had = (*point.structure.effects, *OWN.get(point.structure.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
+    here_already = [EFFECTS[name] for name in point.structure.effects]
+    names = [name for name in names if are_compatible([*here_already, EFFECTS[name]])]
     effects = [EFFECTS[name] for name in names]
     calmer = _find_calmer_estimate(problem, point)
-    here = effects if calmer is None else [one for one in effects if one.kind != SHAKES]
+    here = effects if calmer is None else [one for one in effects if not one.is_joint]
     begun = _best_starts(problem, point, here, evidence, seeds)[:TRIED]
     gone = [
         descend_candidate(problem, point, refine_onset(problem, one))
@@ -119,7 +121,7 @@ def rank_candidates(
 def descend_candidate(
     problem: PredictionErrorProblem, point: Estimate, start: Estimate
 ) -> Estimate:
-    """A candidate after some optimizer steps, for comparison with others.
+    """A candidate after a few optimizer steps, for comparison with others.
 
     Where in free play a run began is told before the gains have adjusted to it: if that leads to
     less than the point without the candidate, the start may do better untold.
@@ -142,7 +144,7 @@ def descend_candidate(
 
 def _ends_in_two_bodies(point: Estimate) -> bool:
     """Whether the last effect of a point is a joint of two bodies."""
-    return EFFECTS[point.structure.effects[-1]].kind == SHAKES
+    return EFFECTS[point.structure.effects[-1]].is_joint
 
 
 def _find_calmer_estimate(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
@@ -220,7 +222,7 @@ def _best_starts(
             for start in effect.start_values(evidence)
         ]
         shakes = False
-        if effect.kind == SHAKES:
+        if effect.is_joint:
             lively = lively or TwoBodyStarts(problem, point)
             if shakes := lively.there:
                 more = lively.list_starts(structure, more, heavy=heavy)

@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from sim.core.log import Log
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
@@ -47,33 +46,28 @@ from sim.reconcile.thresholds import (
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
 
 
-def select_effects(data: SelectionData, base: Estimate, log: Log) -> list[SelectionRound]:
+def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
     """The base model, then one round for each effect that was added.
 
     Args:
         data: the measurements.
         base: the best point without effects.
-        log: the runs of the problem.
     """
     gap = validation_gap(data.problem, base, data.folds)
-    done = _continue_search(
-        data, [SelectionRound(score_estimate(data.problem, base), gap, gap)], log
-    )
-    done = add_pair(data, done, log)
-    done = choose_path(data, done, log)
-    done = simplify_effects(data, done, log)
+    done = _continue_search(data, [SelectionRound(score_estimate(data.problem, base), gap, gap)])
+    done = add_pair(data, done)
+    done = choose_path(data, done)
+    done = simplify_effects(data, done)
     if data.out_of_time():
         done = take_nearest(done)
     return measure_removals(data, done)
 
 
-def _continue_search(
-    data: SelectionData, done: list[SelectionRound], log: Log
-) -> list[SelectionRound]:
+def _continue_search(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The same, gone on until nothing is to be added and no earlier effect gives way."""
     for _ in range(SECOND_THOUGHTS + 1):
-        done = _add_effects(data, done, log)
-        thought = replace_effects(data, done, log) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
+        done = _add_effects(data, done)
+        thought = replace_effects(data, done) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
         if thought is done:
             break
         done = thought
@@ -81,7 +75,7 @@ def _continue_search(
 
 
 def take_nearest(done: list[SelectionRound]) -> list[SelectionRound]:
-    """The same, with the last effect replaced by the one of its round that left the smallest gap.
+    """The rounds, with the last effect replaced by the one that left the smallest gap.
 
     What any robot has a little of goes first, since the next round finds the rest. Where there is
     no time for a next round, what closes most of the gap matters more.
@@ -95,7 +89,7 @@ def take_nearest(done: list[SelectionRound]) -> list[SelectionRound]:
     return [*done[:-1], _next_round(done[-2], nearest)]
 
 
-def add_pair(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
+def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Add two effects where one alone is likelier and yet widens the gap.
 
     What a spring gives back may be hidden by a limit that nobody has named, and misses more than no
@@ -105,21 +99,21 @@ def add_pair(data: SelectionData, done: list[SelectionRound], log: Log) -> list[
     found = list_blocked(now.candidates)
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
-    path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])], log)
+    path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
     narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
-def choose_path(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
+def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
     best, problem = done, data.problem
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
     for place, other in alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
         path = [*done[: place + 1], _next_round(done[place], other)]
-        path = _continue_search(_on_another_path(data), path, log)
+        path = _continue_search(_on_another_path(data), path)
         likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
         if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
@@ -154,13 +148,13 @@ def alternative_paths(
     return found
 
 
-def _add_effects(data: SelectionData, done: list[SelectionRound], log: Log) -> list[SelectionRound]:
+def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The same, and a round for each effect that narrows the gap."""
     done = list(done)
     while len(done) <= MOST and not _is_dead_end(data.problem, done):
         data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
         now = done[-1]
-        weighed = weigh_candidates(data, now, log)
+        weighed = weigh_candidates(data, now)
         tried = tuple(one.report for one in weighed)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))

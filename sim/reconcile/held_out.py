@@ -13,12 +13,10 @@ from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records, session_length
 from sim.gap import Place
 from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.cross_validation import open_loop_errors, rms_gap
-from sim.reconcile.damage_policy import DamageDecision
-from sim.reconcile.input_checks import count_repeated_runs
+from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.selection_round import SelectionRound, reported_estimate
 from sim.reconcile.story import Chapter
@@ -35,14 +33,13 @@ HOW: Mapping[str, str] = {
     "log": "Only one log was given: an effect is accepted if it helps to predict each run from the "
     "others. The gap is shown on the fitted log itself.",
 }
-ORDER = ("log", "validation", "held_out")  # in which they were recorded
 MESHED = (
     "Where in its free play each run began is estimated from that run itself, because no log "
     "contains it."
 )
 AGAIN: Mapping[str, str] = {
-    "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
     "validation": "The validation repeats runs of the log, so it confirms nothing.",
+    "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
 }
 
 
@@ -65,27 +62,23 @@ class HeldOutLog:
     held_out: bool
 
     @classmethod
-    def choose(cls, logs: Mapping[str, Log | None], aside: DamageDecision) -> "HeldOutLog":
+    def choose(cls, recordings: Recordings) -> "HeldOutLog":
         """The one that was used least: held out, else validation, else the log itself."""
-        given = {name: logs[name] for name in HOW if logs.get(name) is not None}
-        name, log = next(iter(given.items()))
-        first = logs["log"]
-        if log is None or first is None:
-            raise KeyError(name)
-        log = replace(log, units=first.units)  # numbers of one story have one unit
-        again = _describe_repeats(logs)
+        name = next(one for one in HOW if one in recordings.logs_by_name)
+        # numbers of one story have one unit
+        log = replace(recordings.logs_by_name[name], units=recordings.log.units)
+        again = _describe_repeats(recordings)
+        others = [text for other, text in again.items() if other != name]
         return cls(
             log,
-            PredictionErrorProblem.from_records(
-                run_records(log, since=_clock_offsets(logs, name), aside=aside.excluded_from(name))
-            ),
+            recordings.make_shown_problem(name),
             again.get(name, HOW[name]),
-            (*(text for other, text in again.items() if other != name), *_collect_doubts(given)),
+            (*others, *_collect_doubts(recordings)),
             name == "held_out" and name not in again,
-        )  # fmt: skip
+        )
 
     def notes(self, last: Chapter, fitted: float) -> tuple[str, ...]:
-        """What a person should know of the logs.
+        """Remarks about the logs, for people.
 
         Args:
             last: the last model, on this log.
@@ -113,7 +106,7 @@ class HeldOutLog:
         return tuple(one.measurements.informative for one in self.problem.records)
 
     def gap_places(self, base: Chapter) -> tuple[Place, ...]:
-        """Where the base model's velocity is off, the surest first."""
+        """Places where the base model's velocity is off, the most significant first."""
         noise = self.problem.noise.velocity
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(TOLD, signal="velocity") if found else ()
@@ -157,29 +150,18 @@ class HeldOutLog:
         return here.nuisance
 
 
-def _clock_offsets(logs: Mapping[str, Log | None], name: str) -> float:
-    """[s] of the first log's clock at which one of them began: what changed for good stays so."""
-    before = (logs.get(one) for one in ORDER[: ORDER.index(name)])
-    return session_length(*(one for one in before if one is not None))
-
-
 def _has_backlash(chapter: Chapter) -> bool:
     """Whether motor and load of its model have free play."""
     names = tuple(part.effect for part in chapter.model.parts)
     return ModelStructure(chapter.model.type, names).has_backlash
 
 
-def _describe_repeats(logs: Mapping[str, Log | None]) -> dict[str, str]:
+def _describe_repeats(recordings: Recordings) -> dict[str, str]:
     """A log that repeats runs of those before it -> what that means."""
-    log, validation, held_out = (logs.get(name) for name in ("log", "validation", "held_out"))
-    pairs = (("validation", validation, (log,)), ("held_out", held_out, (log, validation)))
-    return {
-        name: AGAIN[name]
-        for name, one, others in pairs
-        if one is not None and count_repeated_runs(one, others)
-    }
+    return {name: AGAIN[name] for name in AGAIN if recordings.count_repeated_runs(name)}
 
 
-def _collect_doubts(logs: Mapping[str, Log | None]) -> tuple[str, ...]:
-    """What reading the logs left to say, each once."""
-    return tuple(dict.fromkeys(d.message for log in logs.values() if log for d in log.doubts))
+def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
+    """What reading the logs left to say, each once; the log that was used least first."""
+    logs = [recordings.logs_by_name[name] for name in HOW if name in recordings.logs_by_name]
+    return tuple(dict.fromkeys(doubt.message for log in logs for doubt in log.doubts))

@@ -1,15 +1,16 @@
 """Check whether logs can be reconciled, and say what to record instead."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from sim.core.errors import BadRequest, NotIdentifiable
-from sim.core.log import Log, Run
-from sim.core.units import find_unit
-from sim.estimation.initial_guess import guess_gains
+from sim.core.log import Log
+from sim.core.units import Unit, find_unit
 from sim.estimation.model_structure import ModelStructure
 from sim.physics.voltage_residual import VoltageResidual, compute_voltage_residual
+from sim.reconcile.recordings import Recordings
 from sim.reconcile.thresholds import (
     BEYOND_TRAVEL,
     FEWEST_RUNS,
@@ -23,50 +24,38 @@ from sim.reconcile.thresholds import (
 )
 
 
-def check_logs(
-    log: Log, validation: Log | None, held_out: Log | None, *,
-    type: str,  # noqa: A002 - the field's own word
-    travel: float | None,
-) -> None:  # fmt: skip
+def check_logs(recordings: Recordings, *, travel: float | None) -> None:
     """Refuse logs that cannot answer.
+
+    Args:
+        recordings: the logs.
+        travel: [owner's unit] from stop to stop, if known.
 
     Raises:
         BadRequest: units or gains that do not fit together, or positions beyond the travel.
         NotIdentifiable: too few runs, samples, or voltages.
     """
+    log, base, unit = recordings.log, recordings.type, recordings.unit
     _check_size(log)
-    if type == "arm" and not find_unit(log.units).angular:
+    if base == "arm" and not unit.angular:
         raise BadRequest(
             f"an arm's position must be an angle, and this log is in {log.units}",
             where=log.source,
             advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
     _check_voltage(log)
-    guess = guess_gains(log, type=type)
-    _check_direction(log, guess, type=type)
-    others = [other for other in (validation, held_out) if other is not None]
-    for other in others:
+    guess = recordings.initial_gains
+    _check_direction(log, guess, type=base)
+    for name, other in recordings.logs_by_name.items():
+        if name == "log":
+            continue
         _check_units(log, other)
         _check_voltage(other)
         _check_moves(other, than=_top_speed(log))
-        if _follows_voltage(log, guess, type=type):
-            _check_same(log, other, guess, type=type)
+        if _follows_voltage(log, guess, type=base):
+            _check_same(log, other, guess, type=base)
     if travel is not None:
-        _check_travel(log, travel)
-
-
-def count_repeated_runs(log: Log, others: tuple[Log | None, ...]) -> int:
-    """How many runs of a log stand in others as well, sample by sample."""
-    known = [run for other in others if other is not None for run in other.runs]
-    return sum(any(_is_same_run(run, other) for other in known) for run in log.runs)
-
-
-def _is_same_run(one: Run, other: Run) -> bool:
-    return bool(
-        one.test == other.test
-        and np.array_equal(one.velocity, other.velocity)
-        and np.array_equal(one.voltage, other.voltage)
-    )
+        _check_travel(log, travel, unit)
 
 
 def _check_size(log: Log) -> None:
@@ -91,7 +80,7 @@ def _check_voltage(log: Log) -> None:
         )
 
 
-def _check_direction(log: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
+def _check_direction(log: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - as above
     """Refuse a mechanism that goes backward, and does so as a mechanism would."""
     backward = {name: -value for name, value in guess.items()}
     runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
@@ -130,8 +119,8 @@ def _top_speed(log: Log) -> float:
     return max((float(np.quantile(one, 0.98)) for one in long), default=0.0)
 
 
-def _check_same(log: Log, other: Log, guess: dict[str, float], *, type: str) -> None:  # noqa: A002 - as above
-    seen = _refuse_difference(other, guess, type=type)
+def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - as above
+    seen = _base_residual(other, guess, type=type)
     square = float(seen.velocity @ seen.velocity)
     if square == 0.0:
         raise NotIdentifiable(
@@ -157,9 +146,9 @@ def _describe_difference(factor: float, first: str) -> str:
     return f"a speed takes {times} the voltage that it takes in {first}"
 
 
-def _follows_voltage(log: Log, guess: dict[str, float], *, type: str) -> bool:  # noqa: A002 - as above
+def _follows_voltage(log: Log, guess: Mapping[str, float], *, type: str) -> bool:  # noqa: A002 - as above
     """Whether its voltages are those of a mechanism, whatever else may be missing."""
-    seen = _refuse_difference(log, guess, type=type)
+    seen = _base_residual(log, guess, type=type)
     most = float(np.max(np.abs(seen.voltage), initial=0.0))
     if guess["kV"] <= 0.0 or guess["kA"] <= 0.0 or guess["kS"] < LEAST_KS * most:
         return False
@@ -167,16 +156,16 @@ def _follows_voltage(log: Log, guess: dict[str, float], *, type: str) -> bool:  
     return missed < OBEYS_VOLTAGE**2 * whole
 
 
-def _refuse_difference(log: Log, guess: dict[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
+def _base_residual(log: Log, guess: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
     return compute_voltage_residual(log, dict(ModelStructure(type).model(guess).gains), type=type)
 
 
-def _check_travel(log: Log, travel: float) -> None:
+def _check_travel(log: Log, travel: float, unit: Unit) -> None:
     spans = [run.position for run in log.runs if len(run)]
-    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / find_unit(log.units).si
+    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / unit.si
     if not travel > 0.0 or way > BEYOND_TRAVEL * travel:
         raise BadRequest(
-            f"positions span {way:.3g} {find_unit(log.units).symbol}, and the travel is {travel:g}",
+            f"positions span {way:.3g} {unit.symbol}, and the travel is {travel:g}",
             where=log.source,
             advice="Give the distance from stop to stop, in the log's units, or leave it out.",
         )

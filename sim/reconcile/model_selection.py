@@ -3,11 +3,10 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from sim.core.log import Log
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates
 from sim.reconcile.cross_validation import Gap, validation_gap
-from sim.reconcile.selection_data import SelectionData, voltage_residual_at
+from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
@@ -27,7 +26,7 @@ HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
 
 
-def weigh_candidates(data: SelectionData, now: SelectionRound, log: Log) -> list[WeighedCandidate]:
+def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCandidate]:
     """All candidates of a round with their cross-validated gaps, likeliest first.
 
     Returns:
@@ -35,7 +34,7 @@ def weigh_candidates(data: SelectionData, now: SelectionRound, log: Log) -> list
     """
     point = now.candidate.estimate
     found = []
-    evidence = voltage_residual_at(log, point)
+    evidence = data.voltage_residual(point)
     stop = data.out_of_time
     for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds, stop=stop):
         score = now.candidate.score - candidate.score

@@ -87,7 +87,7 @@ def scan_onsets(
 
 
 def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[Estimate]:
-    """The same with an effect for good made temporary, and the other way round.
+    """The estimate with a permanent effect made temporary, and the other way round.
 
     No search moves from one to the other, and what was likelier before another effect was added may
     not be likelier beside it.
@@ -110,7 +110,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
 
 
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same at the likeliest onset nearby.
+    """The estimate with the likeliest onset nearby.
 
     No search moves a moment: across a sample what is likely jumps.
     """

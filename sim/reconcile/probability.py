@@ -48,7 +48,7 @@ class Evidence:
 
     @property
     def features(self) -> tuple[float, ...]:
-        """All of it, in the order of the fields."""
+        """The values of all fields, in their order."""
         return tuple(getattr(self, name) for name in FEATURES)
 
 
@@ -82,14 +82,14 @@ def probability_of(evidence: Evidence) -> float:
 
 
 def log_gap_ratio(with_: float, without: float) -> float:
-    """Ln of a gap over another, within what is told apart; 0 where one of them is not finite."""
+    """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
     return math.log(min(max(with_ / without, NARROWEST), 1.0 / NARROWEST))
 
 
 def log_strays(noises: float) -> float:
-    """Ln of a gap, within what is told apart.
+    """Logarithm of a gap in noises, clipped to the range that matters.
 
     Args:
         noises: of it [noises of a velocity].
@@ -98,7 +98,7 @@ def log_strays(noises: float) -> float:
 
 
 def log_size(effect: str, values: Mapping[str, float]) -> float:
-    """Ln of an effect's size over the largest that is everyday, within ``SIZES``.
+    """Logarithm of an effect's size over the largest ordinary size, clipped to ``SIZES``.
 
     Args:
         effect: its name.

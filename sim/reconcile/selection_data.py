@@ -16,12 +16,14 @@ class SelectionData:
     """The data that effects are selected by.
 
     Args:
-        problem: the measurements of all that may be fitted.
+        log: all runs that may be fitted.
+        problem: the measurements of these.
         folds: which runs predict which.
         progress: told what is done, and the share of it [1].
         deadline: [s] of ``time.process_time`` after which the best model so far is taken.
     """
 
+    log: Log
     problem: PredictionErrorProblem
     folds: Sequence[Fold]
     progress: Callable[[str, float], None] = lambda _, __: None
@@ -31,8 +33,7 @@ class SelectionData:
         """Whether the deadline is over."""
         return time.process_time() > self.deadline
 
-
-def voltage_residual_at(log: Log, point: Estimate) -> VoltageResidual:
-    """The voltage residual of a log under an estimate's base model."""
-    gains = point.structure.model(point.values).gains
-    return compute_voltage_residual(log, dict(gains), type=point.structure.type)
+    def voltage_residual(self, point: Estimate) -> VoltageResidual:
+        """The voltage residual of the log under an estimate's base model."""
+        gains = point.structure.model(point.values).gains
+        return compute_voltage_residual(self.log, dict(gains), type=point.structure.type)

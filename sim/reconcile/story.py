@@ -105,7 +105,7 @@ class Chapter:
 
 @dataclass(frozen=True, eq=False)
 class Story:
-    """All of it.
+    """The result of reconcile: verdict, findings, and the gap after each round.
 
     Args:
         verdict: ``nothing-missing``, ``explained``, ``ambiguous`` or ``unexplained``.

@@ -16,7 +16,6 @@ from sim.physics.effects import EFFECTS
 from sim.reconcile.local_minimum import Begun, predicted_improvement, total_cost
 from sim.reconcile.thresholds import SURE
 
-SHAKES = "two-body"  # kind of effects
 SLOW = "quasistatic"  # tests that say little of them
 MOST = 4  # starts of each kind that go a step downhill on the lively runs
 GO_ON = (4, 4)  # of them that go a second step, and a third

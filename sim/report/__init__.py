@@ -36,7 +36,7 @@ from sim.report.rows import (
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """What is told.
+    """The content of a report: a fit, its log and its feedback trials.
 
     Args:
         title: where the log came from.

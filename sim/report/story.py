@@ -39,7 +39,7 @@ from sim.report.page_file import choose_page_path, load_templates, write_page_fi
 
 @dataclass(frozen=True)
 class FindingText:
-    """A finding, as text.
+    """The texts of a finding on the page.
 
     Args:
         name: with its look-alikes.

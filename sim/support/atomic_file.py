@@ -30,7 +30,7 @@ def write_atomically(path: Path, content: str | bytes, *, private: bool = False)
 
 
 def write_pieces_atomically(path: Path, pieces: Iterable[bytes], *, private: bool = False) -> None:
-    """The same for a content that comes in pieces and is never whole in memory.
+    """``write_atomically`` for content that comes in pieces.
 
     Args:
         path: of the file; its folder has to be there.

@@ -8,7 +8,7 @@ INSTEAD = "\ufffd"  # the sign for a sign that cannot be shown
 
 
 def make_printable(text: str) -> str:
-    """The same text, with a visible sign for each that commands a terminal or turns text around.
+    """The text with control and bidirectional characters replaced by visible ones.
 
     Control characters (C0 and C1, but for line break and tab) can recolor, move and rename a
     terminal; the signs that set a direction of writing can make a line read as another one; half of

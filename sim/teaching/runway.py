@@ -30,7 +30,7 @@ THUMB = 0.3  # [s] from seeing the mark to having let go: a person who waits for
 
 @dataclass(frozen=True)
 class Floor:
-    """Where a test takes place.
+    """A floor with a start, a stop mark and a wall.
 
     Args:
         wall: [m] from the start to what must not be hit.
@@ -58,7 +58,7 @@ class Floor:
 
 @dataclass(frozen=True, eq=False)
 class FloorTest:
-    """A test as it went.
+    """The result of a simulated test on a floor.
 
     Args:
         floor: where.

@@ -1,6 +1,6 @@
 """Wrong answers to exercise 11, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, change_number, put_value
+from grader.mistake import Mistake, change_number, set_answer
 
 ANSWERS = "answers.toml"
 
@@ -8,14 +8,18 @@ ANSWERS = "answers.toml"
 def chose(name: str, words: str, says: str, code: str = "") -> Mistake:
     """A wrong option, chosen by its first words: letters are everybody's own."""
     check = name.lower().replace("_", "-")
-    return Mistake(f"{name}: {words}", ANSWERS, put_value(name, f'"{words}"'), check, says, code)
+    return Mistake(f"{name}: {words}", ANSWERS, set_answer(name, f'"{words}"'), check, says, code)
 
 
 MISTAKES = (
-    Mistake("nothing chosen", ANSWERS, put_value("KC1_answer", '""'), "kc1-answer", "nothing yet"),
-    Mistake("a number", ANSWERS, put_value("KC1_answer", "1"), "kc1-answer", "not a letter"),
+    Mistake("nothing chosen", ANSWERS, set_answer("KC1_answer", '""'), "kc1-answer", "nothing yet"),
+    Mistake("a number", ANSWERS, set_answer("KC1_answer", "1"), "kc1-answer", "not a letter"),
     Mistake(
-        "a letter too far", ANSWERS, put_value("KC1_answer", '"z"'), "kc1-answer", "one letter, a"
+        "a letter too far",
+        ANSWERS,
+        set_answer("KC1_answer", '"z"'),
+        "kc1-answer",
+        "of your questions.md: a",
     ),
     chose(
         "Q0_guess", "Which model of the physics", "This question needs recorded tests. Somebody who"
@@ -78,35 +82,35 @@ MISTAKES = (
     Mistake(
         "no test for the drivetrain",
         ANSWERS,
-        put_value("drivetrain", '"usually not"'),
+        set_answer("drivetrain", '"usually not"'),
         "decision-drivetrain",
         "autonomous path",
     ),
     Mistake(
         "a shooter that may be guessed",
         ANSWERS,
-        put_value("shooter", '"optional"'),
+        set_answer("shooter", '"optional"'),
         "decision-shooter",
         "3 % less speed",
     ),
     Mistake(
         "always, without a reason that carries it",
         ANSWERS,
-        put_value("conveyor", '"always"'),
+        set_answer("conveyor", '"always"'),
         "decision-conveyor",
         "do better",
     ),
     Mistake(
         "a word that is none",
         ANSWERS,
-        put_value("arm", '"maybe"'),
+        set_answer("arm", '"maybe"'),
         "decision-arm",
         "Choose one of: always, recommended, optional, usually not",
     ),
     Mistake(
         "no reason",
         ANSWERS,
-        put_value("climber_reason", '""'),
+        set_answer("climber_reason", '""'),
         "reason-climber",
         "letter of a reason",
     ),

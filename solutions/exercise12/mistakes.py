@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value
+from grader.mistake import Mistake, set_answer
 
 ANSWERS = "answers.toml"
 LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)
@@ -12,32 +12,43 @@ LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILI
 def named(change: Callable[[str], str], lines: str = "") -> Callable[[str], str]:
     """Change the list of names, and add lines with parameters."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = re.search(r"^effects = \[(.*?)\]", text, re.MULTILINE)
         if found is None:
             raise ValueError("the solution names no effects")
         return text.replace(found[0], f"effects = [{change(found[1])}]") + lines
 
-    return make
+    return edit_text
 
 
 def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
     """Change the first parameter."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         if not LINE.search(text):
             raise ValueError("the solution has no parameters")
         return LINE.sub(lambda one: change(one["name"], float(one["value"])), text, count=1)
 
-    return make
+    return edit_text
+
+
+def gaps_swapped(text: str) -> str:
+    """Each gap in the place of the other."""
+    before, after = (
+        re.search(rf"^{name} = ([\d.]+)", text, re.MULTILINE)
+        for name in ("gap_before", "gap_after")
+    )
+    if before is None or after is None:
+        raise ValueError("the solution has no gaps")
+    return set_answer("gap_before", after[1])(set_answer("gap_after", before[1])(text))
 
 
 MISTAKES = (
-    Mistake("no effect named", ANSWERS, put_value("effects", "[]"), "first-effect", "nothing yet"),
+    Mistake("no effect named", ANSWERS, set_answer("effects", "[]"), "first-effect", "nothing yet"),
     Mistake(
         "kA fixes it",
         ANSWERS,
-        put_value("effects", '["kA"]'),
+        set_answer("effects", '["kA"]'),
         "first-effect",
         "hides the missing effect",
     ),
@@ -54,7 +65,7 @@ MISTAKES = (
     Mistake(
         "a word of one's own",
         ANSWERS,
-        put_value("effects", '["air resistance"]'),
+        set_answer("effects", '["air resistance"]'),
         "first-effect",
         "sysid effects lists the names",
     ),
@@ -87,7 +98,7 @@ MISTAKES = (
         ANSWERS,
         named(lambda _: '"delay"', "delay.lag = 0.04\n"),
         "all-effects",
-        "not all of these are right. An",
+        "not all of these are right. Two effects",
     ),
     Mistake(
         "an effect of nothing",
@@ -121,14 +132,21 @@ MISTAKES = (
     Mistake(
         "no gaps written down",
         ANSWERS,
-        put_value("gap_after", '""'),
+        set_answer("gap_after", '""'),
         "held-out",
         "gap_after: nothing",
     ),
     Mistake(
+        "the two gaps swapped",
+        ANSWERS,
+        gaps_swapped,
+        "held-out",
+        "this is the other gap",
+    ),
+    Mistake(
         "a gap below what noise allows",
         ANSWERS,
-        put_value("gap_after", "0.2"),
+        set_answer("gap_after", "0.2"),
         "held-out",
         "not the gap of your model",
     ),

@@ -6,9 +6,9 @@ from grader.mistake import (
     Mistake,
     change_number,
     exchange_numbers,
-    put_value,
     replace_text,
     scale_numbers,
+    set_answer,
 )
 
 ANSWERS = "answers.toml"
@@ -18,17 +18,17 @@ MODULES = ("front-left", "front-right", "back-left", "back-right")
 def another_module(text: str) -> str:
     """The module after the right one."""
     right = next(name for name in MODULES if f'worn = "{name}"' in text)
-    return put_value("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
+    return set_answer("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
 
 
 MISTAKES = (
-    Mistake("nothing for kV", ANSWERS, put_value("kV", '""'), "kv", "nothing yet"),
+    Mistake("nothing for kV", ANSWERS, set_answer("kV", '""'), "kv", "nothing yet"),
     Mistake(
-        "velocity in rotations of a wheel's radian",
+        "velocity per minute",
         ANSWERS,
-        scale_numbers(2 * math.pi, "kV", "kA"),
+        scale_numbers(1 / 60, "kV", "kA"),
         "kv",
-        "2π = 6.28",
+        "one minute has 60 seconds",
         "M-UNITS",
     ),
     Mistake(
@@ -45,11 +45,10 @@ MISTAKES = (
         exchange_numbers("kS", "kV"),
         "kv",
         "did you swap them?",
-        "M-ARGORDER",
     ),
     Mistake("another module", ANSWERS, another_module, "worn", "turns more often over the same"),
     Mistake(
-        "a module there is not", ANSWERS, put_value("worn", '"middle"'), "worn", "none of them"
+        "a module there is not", ANSWERS, set_answer("worn", '"middle"'), "worn", "none of them"
     ),
     Mistake(
         "a diameter",
@@ -57,7 +56,7 @@ MISTAKES = (
         scale_numbers(2.0, "worn_radius"),
         "worn-radius",
         "a diameter",
-        "M-UNITS",
+        "M-GEARING",
     ),
     Mistake(
         "the gyro's degrees",
@@ -86,7 +85,7 @@ MISTAKES = (
     Mistake(
         "a rate called volts",
         ANSWERS,
-        put_value("rate_unit", '"volts"'),
+        set_answer("rate_unit", '"volts"'),
         "rate-unit",
         "SysId knows only volts",
         "M-UNITS",
@@ -94,7 +93,7 @@ MISTAKES = (
     Mistake(
         "a rate in degrees",
         ANSWERS,
-        put_value("rate_unit", '"degrees-per-second"'),
+        set_answer("rate_unit", '"degrees-per-second"'),
         "rate-unit",
         "compare it with the gyro",
         "M-UNITS",
@@ -128,7 +127,7 @@ MISTAKES = (
     Mistake(
         "a unit that measures something else",
         ANSWERS,
-        put_value("inertia", '"5 kg·m"'),
+        set_answer("inertia", '"5 kg·m"'),
         "inertia",
         "is not a unit of",
         "M-UNITS",
@@ -147,6 +146,59 @@ MISTAKES = (
         "top-speed",
         "is this a rate of turning?",
         "M-UNITS",
+    ),
+    Mistake(
+        "a radius in millimeters",
+        ANSWERS,
+        scale_numbers(1000.0, "worn_radius"),
+        "worn-radius",
+        "1 m is 1000 mm",
+        "M-UNITS",
+    ),
+    Mistake(
+        "the trackwidth in the spin",
+        ANSWERS,
+        scale_numbers(math.sqrt(2.0), "worn_radius"),
+        "worn-radius",
+        "the trackwidth for the lever?",
+        "M-LEVER",
+    ),
+    Mistake(
+        "speed for each volt",
+        ANSWERS,
+        change_number("kV", lambda right: 1.0 / right["kV"]),
+        "kv",
+        "speed for each volt",
+    ),
+    Mistake(
+        "a quarter of a motor's current",
+        ANSWERS,
+        scale_numbers(0.25, "slip_current"),
+        "slip-current",
+        "did you divide by four?",
+    ),
+    Mistake(
+        "a speed in km/h",
+        ANSWERS,
+        scale_numbers(3.6, "top_speed"),
+        "top-speed",
+        "Is this in km/h?",
+        "M-UNITS",
+    ),
+    Mistake(
+        "a torque from a wrong current",
+        ANSWERS,
+        scale_numbers(1.31, "slip_current", "max_torque"),
+        "max-torque",
+        "it follows from your slip_current",
+    ),
+    Mistake(
+        "the lever twice",
+        ANSWERS,
+        change_number("inertia", lambda right: right["inertia"] * right["lever"]),
+        "inertia",
+        "by the lever twice?",
+        "M-LEVER",
     ),
     Mistake(
         "a number from nowhere",

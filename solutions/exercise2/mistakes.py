@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, change_number, put_value, scale_numbers
+from grader.mistake import Mistake, change_number, scale_numbers, set_answer
 
 ANSWERS = "answers.toml"
 
@@ -17,12 +17,12 @@ def measured(right: str) -> float:
 
 def verdict(text: str) -> str:
     """A verdict of another bucket: ok, or what a low kV is called."""
-    return put_value("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
+    return set_answer("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
 
 
 def flag(text: str) -> str:
     """Another word about kS."""
-    return put_value("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
+    return set_answer("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
 
 
 def wires_first(text: str) -> str:
@@ -36,11 +36,11 @@ def wires_first(text: str) -> str:
 
 def causes(*words: str) -> Callable[[str], str]:
     """Make another list of causes."""
-    return put_value("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
+    return set_answer("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
 
 
 MISTAKES = (
-    Mistake("nothing", ANSWERS, put_value("kV_theory", '""'), "kv-theory", "nothing yet"),
+    Mistake("nothing", ANSWERS, set_answer("kV_theory", '""'), "kv-theory", "nothing yet"),
     Mistake(
         "divided by rpm",
         ANSWERS,
@@ -66,6 +66,20 @@ MISTAKES = (
         "M-DUTY",
     ),
     Mistake(
+        "the free speed itself",
+        ANSWERS,
+        change_number("kV_theory", lambda right: 12.0 / right["kV_theory"]),
+        "kv-theory",
+        "this is the free speed of your mechanism",
+    ),
+    Mistake(
+        "speed for each volt",
+        ANSWERS,
+        change_number("kV_theory", lambda right: 1.0 / right["kV_theory"]),
+        "kv-theory",
+        "this is upside down",
+    ),
+    Mistake(
         "the measured kV",
         ANSWERS,
         lambda text: change_number("kV_theory", lambda right: right["kV_theory"] * measured(text))(
@@ -77,7 +91,7 @@ MISTAKES = (
     Mistake(
         "a unit that measures something else",
         ANSWERS,
-        put_value("kV_theory", '"2 m/s"'),
+        set_answer("kV_theory", '"2 m/s"'),
         "kv-theory",
         "is not a unit of",
         "M-UNITS",
@@ -116,7 +130,7 @@ MISTAKES = (
     Mistake(
         "a word that is none",
         ANSWERS,
-        put_value("verdict", '"great"'),
+        set_answer("verdict", '"great"'),
         "verdict",
         "Choose one of: bookkeeping, ok, watch, inspect",
     ),
@@ -159,7 +173,7 @@ MISTAKES = (
     Mistake(
         "no list",
         ANSWERS,
-        put_value("inspection", "[]"),
+        set_answer("inspection", "[]"),
         "inspection",
         "Choose from: constant-friction",
     ),

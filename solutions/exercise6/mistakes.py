@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value, scale_numbers
+from grader.mistake import Mistake, scale_numbers, set_answer
 
 ANSWERS = "answers.toml"
 BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
@@ -12,25 +12,25 @@ BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
 def puts(**values: str) -> Callable[[str], str]:
     """Give several lines other values, as TOML."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for name, value in values.items():
-            text = put_value(name, value)(text)
+            text = set_answer(name, value)(text)
         return text
 
-    return make
+    return edit_text
 
 
 def turn_around(item: str) -> Callable[[str], str]:
     """Decide the other way about one thing of the morning."""
     other = {"go": "no-go", "no-go": "go"}
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = re.search(rf'^check_{item} = "(.*)"$', text, re.MULTILINE)
         if found is None:
             raise ValueError(f"the solution decides nothing about {item}")
-        return put_value(f"check_{item}", f'"{other[found[1]]}"')(text)
+        return set_answer(f"check_{item}", f'"{other[found[1]]}"')(text)
 
-    return make
+    return edit_text
 
 
 MORNING = ("travel", "battery", "encoder", "log", "guard", "driver_station")
@@ -39,7 +39,7 @@ MISTAKES = (
     Mistake(
         "nothing for the ramp",
         ANSWERS,
-        put_value("drivetrain_ramp", '""'),
+        set_answer("drivetrain_ramp", '""'),
         "drivetrain",
         "drivetrain_ramp: nothing yet",
     ),
@@ -59,9 +59,17 @@ MISTAKES = (
         "It hits the end at",
     ),
     Mistake(
+        "a mark in degrees",
+        ANSWERS,
+        scale_numbers(360.0, "turret_release"),
+        "turret",
+        "Is your number in degrees?",
+        "M-UNITS",
+    ),
+    Mistake(
         "a step that burns rubber",
         ANSWERS,
-        put_value("drivetrain_step", "11"),
+        set_answer("drivetrain_step", "11"),
         "drivetrain",
         "The wheels spin, and the encoder counts",
         BIG,
@@ -69,7 +77,7 @@ MISTAKES = (
     Mistake(
         "a step beyond the current limit",
         ANSWERS,
-        put_value("shooter_step", "9"),
+        set_answer("shooter_step", "9"),
         "shooter",
         "at standstill your step draws",
         BIG,
@@ -77,21 +85,21 @@ MISTAKES = (
     Mistake(
         "a step that drowns in noise",
         ANSWERS,
-        put_value("turret_step", "0.5"),
+        set_answer("turret_step", "0.5"),
         "turret",
         "times. You cannot see it in the",
     ),
     Mistake(
         "a step that gravity eats",
         ANSWERS,
-        put_value("elevator_step", "0.3"),
+        set_answer("elevator_step", "0.3"),
         "elevator",
         "does not move it",
     ),
     Mistake(
         "a timeout that ends it too soon",
         ANSWERS,
-        put_value("shooter_timeout", "2"),
+        set_answer("shooter_timeout", "2"),
         "shooter",
         "s until the timeout; at least 3 s",
     ),
@@ -105,7 +113,7 @@ MISTAKES = (
     Mistake(
         "a mark too far away",
         ANSWERS,
-        lambda text: put_value("elevator_timeout", "10")(
+        lambda text: set_answer("elevator_timeout", "10")(
             scale_numbers(4.0, "elevator_release")(text)
         ),
         "elevator",
@@ -114,7 +122,7 @@ MISTAKES = (
     Mistake(
         "a timeout that saves nobody",
         ANSWERS,
-        put_value("shooter_timeout", "30"),
+        set_answer("shooter_timeout", "30"),
         "shooter",
         "no test may be longer",
     ),
@@ -135,7 +143,7 @@ MISTAKES = (
     Mistake(
         "a speed for a mark",
         ANSWERS,
-        put_value("drivetrain_release", '"3 m/s"'),
+        set_answer("drivetrain_release", '"3 m/s"'),
         "drivetrain",
         "is not a unit of",
         "M-UNITS",
@@ -143,7 +151,7 @@ MISTAKES = (
     Mistake(
         "a mark that is none",
         ANSWERS,
-        put_value("elevator_release", '"at the top"'),
+        set_answer("elevator_release", '"at the top"'),
         "elevator",
         "if nobody lets go before it",
     ),
@@ -171,35 +179,35 @@ MISTAKES = (
     Mistake(
         "a decision that is none",
         ANSWERS,
-        put_value("check_guard", '"perhaps"'),
+        set_answer("check_guard", '"perhaps"'),
         "checklist",
         "Choose one of: go, no-go",
     ),
     Mistake(
         "gains before they are looked at",
         ANSWERS,
-        put_value("steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'),
+        set_answer("steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'),
         "steps",
         "place-gains comes too early",
     ),
     Mistake(
         "three steps",
         ANSWERS,
-        put_value("steps", '["wire-routine", "run-tests", "place-gains"]'),
+        set_answer("steps", '["wire-routine", "run-tests", "place-gains"]'),
         "steps",
         "each of the four once",
     ),
     Mistake(
         "where the program lies",
         ANSWERS,
-        put_value("log_2026", '"/home/lvuser/deploy"'),
+        set_answer("log_2026", '"/home/lvuser/deploy"'),
         "log-2026",
         "your program is there, but not its",
     ),
     Mistake(
         "last year's controller",
         ANSWERS,
-        put_value("log_2027", '"/home/lvuser/logs"'),
+        set_answer("log_2027", '"/home/lvuser/logs"'),
         "log-2027",
         "a Systemcore has another user name than",
     ),
@@ -214,7 +222,7 @@ MISTAKES = (
     Mistake(
         "in the pit",
         ANSWERS,
-        put_value("schedule", '"first-regional"'),
+        set_answer("schedule", '"first-regional"'),
         "schedule",
         "there are eight minutes between matches, and",
     ),

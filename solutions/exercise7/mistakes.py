@@ -6,7 +6,7 @@ They change the first log, which has one fault in a part of one test.
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value
+from grader.mistake import Mistake, set_answer
 
 ANSWERS = "answers.toml"
 FIRST = re.compile(
@@ -26,15 +26,20 @@ OTHER_WAY = {"forward": "reverse", "reverse": "forward"}
 def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
     """Make another line of the first, out of its parts: some of them changed."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = FIRST.search(text)
         if found is None:
             raise ValueError("the first line of the solution is not what it was")
         parts = found.groupdict()
         parts |= {name: change(parts[name]) for name, change in changes.items()}
-        return put_value("log01", f'"{line.format(**parts)}"')(text)
+        return set_answer("log01", f'"{line.format(**parts)}"')(text)
 
-    return make
+    return edit_text
+
+
+def milli(seconds: str) -> str:
+    """A time in milliseconds."""
+    return f"{1000 * float(seconds):.0f}"
 
 
 WHOLE = "{fault}, {kind}-{way}, {begin} to {end}, {action}"
@@ -43,12 +48,12 @@ MISTAKES = (
     Mistake(
         "all sound, as R² is fine",
         ANSWERS,
-        put_value("log01", '"clean"'),
+        set_answer("log01", '"clean"'),
         "log01",
         "Something is wrong here. The R² may",
         "M-R2",
     ),
-    Mistake("nothing", ANSWERS, put_value("log01", '""'), "log01", "nothing yet"),
+    Mistake("nothing", ANSWERS, set_answer("log01", '""'), "log01", "nothing yet"),
     Mistake(
         "what it is taken for",
         ANSWERS,
@@ -58,6 +63,13 @@ MISTAKES = (
     ),
     Mistake(
         "the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01", "the place"
+    ),
+    Mistake(
+        "milliseconds",
+        ANSWERS,
+        first(WHOLE, begin=milli, end=milli),
+        "log01",
+        "Are your times in milliseconds?",
     ),
     Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),
     Mistake(
@@ -84,7 +96,7 @@ MISTAKES = (
     Mistake(
         "a word that is none",
         ANSWERS,
-        put_value("log01", '"sensor broke, rerun"'),
+        set_answer("log01", '"sensor broke, rerun"'),
         "log01",
         "Choose one of: clean, encoder-slip",
     ),

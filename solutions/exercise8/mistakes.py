@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from grader.mistake import Mistake, put_value, scale_numbers
+from grader.mistake import Mistake, scale_numbers, set_answer
 
 ANSWERS = "answers.toml"
 RAMPS = ("quasistatic_forward", "quasistatic_reverse")
@@ -12,30 +12,32 @@ STEPS = ("dynamic_forward", "dynamic_reverse")
 def windows(span: str, *names: str) -> Callable[[str], str]:
     """Keep the same of some tests."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for name in names:
-            text = put_value(name, f'"{span}"')(text)
+            text = set_answer(name, f'"{span}"')(text)
         return text
 
-    return make
+    return edit_text
 
 
 def both(*changes: Callable[[str], str]) -> Callable[[str], str]:
     """Make several changes."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for change in changes:
             text = change(text)
         return text
 
-    return make
+    return edit_text
 
 
 MISTAKES = (
     Mistake(
         "nothing is done",
         ANSWERS,
-        both(windows("all", *RAMPS, *STEPS), put_value("threshold", "0"), put_value("median", "1")),
+        both(
+            windows("all", *RAMPS, *STEPS), set_answer("threshold", "0"), set_answer("median", "1")
+        ),
         "ka",
         "comes out",
     ),
@@ -49,16 +51,16 @@ MISTAKES = (
     Mistake(
         "a filter for a picture",
         ANSWERS,
-        put_value("median", "15"),
+        set_answer("median", "15"),
         "ka",
         "A median of so many samples flattens",
         "M-FILTER-FREE",
     ),
-    Mistake("no filter", ANSWERS, put_value("median", "1"), "ka", "Single readings are far off"),
+    Mistake("no filter", ANSWERS, set_answer("median", "1"), "ka", "Single readings are far off"),
     Mistake(
         "no threshold",
         ANSWERS,
-        put_value("threshold", "0"),
+        set_answer("threshold", "0"),
         "ks",
         "You keep samples from before the mechanism",
     ),
@@ -94,17 +96,19 @@ MISTAKES = (
         "You cut away too much",
         "M-TRIM-PRETTY",
     ),
-    Mistake("nothing yet", ANSWERS, put_value("threshold", '""'), "kept", "threshold: nothing yet"),
+    Mistake(
+        "nothing yet", ANSWERS, set_answer("threshold", '""'), "kept", "threshold: nothing yet"
+    ),
     Mistake(
         "a threshold in volts",
         ANSWERS,
-        put_value("threshold", '"0.2 V"'),
+        set_answer("threshold", '"0.2 V"'),
         "kept",
         "is not a unit of",
         "M-UNITS",
     ),
     Mistake(
-        "half a sample", ANSWERS, put_value("median", "2.5"), "kept", "whole number of samples"
+        "half a sample", ANSWERS, set_answer("median", "2.5"), "kept", "whole number of samples"
     ),
     Mistake("it ends before it begins", ANSWERS, windows("3 to 1", *RAMPS), "kept", "ends before"),
     Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "not two times"),

@@ -1,6 +1,6 @@
 """Wrong answers to the practice, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, change_number, put_value, replace_text, scale_numbers
+from grader.mistake import Mistake, change_number, replace_text, scale_numbers, set_answer
 
 ANSWERS = "answers.toml"
 
@@ -21,7 +21,7 @@ class ExampleSubsystem extends SubsystemBase {
 
 MISTAKES = (
     Mistake("kV for rpm", ANSWERS, scale_numbers(1 / 60, "kV"), "gains-kv", "rpm", "M-UNITS"),
-    Mistake("no kP noted", ANSWERS, put_value("kP", '""'), "gains-kp", "nothing yet"),
+    Mistake("no kP noted", ANSWERS, set_answer("kP", '""'), "gains-kp", "nothing yet"),
     Mistake(
         "R² in percent",
         ANSWERS,
@@ -41,7 +41,7 @@ MISTAKES = (
     Mistake(
         "a wrong verdict",
         ANSWERS,
-        put_value("verdict", '"inspect"'),
+        set_answer("verdict", '"inspect"'),
         "theory-verdict",
         "with its sign",
     ),

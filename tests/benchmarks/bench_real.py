@@ -61,7 +61,7 @@ LOGS = {
 
 
 @dataclass(frozen=True)
-class HeldOut:
+class HeldOutScore:
     """What both methods make of a run they have not seen.
 
     Args:
@@ -85,7 +85,7 @@ def folder() -> Path:
     return Path(os.environ.get("SYSID_SHARED", beside)) / "data" / "real"
 
 
-def held_out(where: Path) -> Iterator[HeldOut]:
+def held_out(where: Path) -> Iterator[HeldOutScore]:
     """Every run of every log in a folder; nothing where there are none."""
     for name, type_ in LOGS.items():
         path = where / f"{name}.json"
@@ -93,12 +93,12 @@ def held_out(where: Path) -> Iterator[HeldOut]:
             yield from leave_out_each(sim.read(path), name, type_)
 
 
-def leave_out_each(log: Log, name: str, type_: str) -> Iterator[HeldOut]:
+def leave_out_each(log: Log, name: str, type_: str) -> Iterator[HeldOutScore]:
     """Every run of a log, predicted from the others."""
     unit = "rad" if type_ == "arm" else "m"
     for run in log.runs:
         errors = [miss(way(log, run, type_), log, run) for way in (by_recipe, by_ours)]
-        yield HeldOut(name, run.test, unit, *errors)
+        yield HeldOutScore(name, run.test, unit, *errors)
 
 
 def by_recipe(log: Log, run: Run, type_: str) -> Model | None:
@@ -163,7 +163,7 @@ class FittedLog:
         return (str(self.path.parent), family, day[0] if day else "", angular, *kind)
 
 
-def logs_in(where: Path, only: str) -> list[Path]:
+def list_logs(where: Path, only: str) -> list[Path]:
     """The logs of a folder and those below it, whose names contain a word."""
     found = [one for one in where.rglob("*") if one.suffix.lower() in SUFFIXES]
     return sorted(one for one in found if only in one.name)
@@ -322,7 +322,7 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
         print(f"{name:60} refused: {str(refused).splitlines()[0]}", flush=True)
         return None
     seconds = time.process_time() - started
-    share = explained_share(story)
+    share = find_explained_share(story)
     held_out = math.nan
     if other is not None and other.log is not None:
         held_out = error_of(story, -1, other.log) / error_of(story, 0, other.log)
@@ -347,7 +347,7 @@ def error_of(story: Story, chapter: int, log: Log) -> float:
     return float(np.sqrt(np.mean(np.square(np.concatenate(errors)))))
 
 
-def explained_share(story: Story) -> float:
+def find_explained_share(story: Story) -> float:
     """Of the squared error that a black box explains, the share that the named effects do [1].
 
     The black box predicts the base model's velocity error of each run after it was trained on the
@@ -413,7 +413,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="only files whose name contains this")
     parser.add_argument("--time-limit", type=float, default=20.0, help="of reconcile [s]")
     given = parser.parse_args()
-    paths = logs_in(given.folder, given.only)
+    paths = list_logs(given.folder, given.only)
     if not paths:
         print(
             f"no logs of real robots in {given.folder} (set SYSID_SHARED to the folder above data)"

@@ -24,7 +24,7 @@ TARGET = 4.0  # [s]
 def main() -> None:
     """Print a table."""
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 7
-    if not bench.installed():
+    if not bench.is_robotpy_installed():
         print("RobotPy (extra `robot`) is not installed: there is nothing to run")
         return
     with tempfile.TemporaryDirectory() as place:

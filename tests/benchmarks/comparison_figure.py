@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import numpy as np
-from bench_real import HeldOut
+from bench_real import HeldOutScore
 from comparison_fits import OURS, RECIPE, Found
 from comparison_measured import Measured, ratios
 from comparison_page import WAYS, share, told
@@ -91,7 +91,7 @@ def points(
                 axes.plot(at, np.clip(end, LEAST, MOST), shown, color=color, clip_on=False)
 
 
-def real(axes: Axes, runs: Sequence[HeldOut]) -> str:
+def real(axes: Axes, runs: Sequence[HeldOutScore]) -> str:
     """Our error over the recipe's, run by run of each log; what it shows in words."""
     logs = list(dict.fromkeys(one.log for one in runs))
     color, marker, _ = LOOKS[OURS]

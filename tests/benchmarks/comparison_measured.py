@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from bench_gains import NOISES, one_cell
-from bench_real import HeldOut, held_out
+from bench_real import HeldOutScore, held_out
 from comparison_fits import BUILT, METHODS, SUBSETS, Found, found, outcomes
 from comparison_plan import SECTIONS, Row
 
@@ -33,7 +33,7 @@ class Measured:
     rows: Mapping[Row, Mapping[str, Found]]
     dirty: Mapping[tuple[str, float], Mapping[str, Mapping[str, float]]]
     subsets: Mapping[tuple[tuple[str, ...], str, str], Mapping[str, int]]
-    real: tuple[HeldOut, ...]
+    real: tuple[HeldOutScore, ...]
 
     @property
     def few(self) -> int:

@@ -38,7 +38,7 @@ def read(path, *, student):
 def _of(name):
     def look(answers):
         asked = AskedNumber(name, KEY[name], "", Band({band}, {band}))
-        if not asked.right(read_answer_number(answers.get(name), asked)):
+        if not asked.is_right(read_answer_number(answers.get(name), asked)):
             raise WrongAnswer("outside", hint="Fit once more.")
 
     look.__name__, look.__doc__ = name, f"{{name}} of the log."

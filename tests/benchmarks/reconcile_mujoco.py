@@ -4,7 +4,8 @@ Inertia, weight, dry friction, back-EMF, stops, springs, and joints that give or
 MuJoCo's, in volts instead of newtons. What a motor controller and a sensor make of a command and of
 a motion are the effects' own functions, asked in every step. Nothing is exact as on the bench:
 friction creeps a little at rest, stops and teeth give a little, steps are of a millisecond.
-Motor and load rub as much as they are heavy; what pulls does so at the load.
+Motor and load rub as much as they are heavy, wheels that slip rub alone; what pulls does so at the
+load.
 
 Words of a scene: https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-joint
 """
@@ -135,6 +136,10 @@ def _joins(part: Part, ka: float) -> dict[str, str]:
     if part.effect == "backlash":
         half = 0.5 * values["slack"]
         return {"limited": "true", "range": f"{-half} {half}", "solreflimit": FIRM}
+    if part.effect == "wheel-slip":  # the floor holds as dry friction does
+        return {
+            "frictionloss": f"{values['grip']}", "solreffriction": FIRM, "solimpfriction": GRIPS
+        }  # fmt: skip
     stiff = 1.0 / values["softness"]
     damping = 2.0 * DAMPED * math.sqrt(stiff * ka * values["share"] * (1.0 - values["share"]))
     return {"stiffness": f"{stiff}", "damping": f"{damping}"}
@@ -164,7 +169,8 @@ class _Body:
         self.kv, self.ka = mechanism.gains["kV"], mechanism.gains["kA"]
         self.ks = mechanism.gains["kS"]
         between = _between(mechanism)
-        self.share = between.parameters["share"] if between else 1.0  # on the motor's side
+        joined = between and find(between.effect).is_joint
+        self.share = between.parameters["share"] if joined else 1.0  # of what rubs, at the motor
         self.memory = {part.effect: 0.0 for part in mechanism.hidden}
         self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
         parts = sorted(mechanism.hidden, key=lambda part: find(part.effect).order)

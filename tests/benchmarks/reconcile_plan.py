@@ -36,8 +36,10 @@ LEFT_OUT = {
 NESTED = (
     {"constant-load", "asymmetric-friction", "spring", "gravity-cosine"},  # one family
     {"backlash", "compliance"},  # one joint
+    {"backlash", "wheel-slip"},  # three bodies
+    {"compliance", "wheel-slip"},
 )
-"""Of these, two at once are one and another size of it."""
+"""Of these, two at once are one and another size of it, or more than a model can hold."""
 
 
 @dataclass(frozen=True)

@@ -37,10 +37,10 @@ from grader.robotcode.bench.sandboxed_run import (
     GIVEN,
     GRACE,
     Start,
-    child_command,
+    make_child_command,
     run_confined,
 )
-from grader.robotcode.bench.tampering import refuse_tampering, simulation_awareness
+from grader.robotcode.bench.tampering import find_simulation_check, refuse_tampering
 
 __all__ = [
     "SECONDS",
@@ -49,8 +49,8 @@ __all__ = [
     "LoggedMotor",
     "RunFacts",
     "RunOutcome",
-    "installed",
-    "press",
+    "is_robotpy_installed",
+    "press_buttons",
     "refuse_tampering",
     "run",
 ]
@@ -58,7 +58,7 @@ __all__ = [
 SECONDS = 10.0  # [s] a run takes 0.5 s alone on a machine, and several on one that is busy
 
 
-def installed() -> bool:
+def is_robotpy_installed() -> bool:
     """Whether RobotPy is here to run code with."""
     return all(find_spec(name) is not None for name in ("wpilib", "commands2"))
 
@@ -80,7 +80,7 @@ def run(
     return _run(path, name, BENCH, start=start, seconds=seconds)
 
 
-def press(
+def press_buttons(
     path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
 ) -> RunFacts:
     """Press every button of a robot in RobotPy, in test mode and out of it.
@@ -98,7 +98,7 @@ def press(
 
 
 def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -> RunFacts:
-    if not installed():
+    if not is_robotpy_installed():
         return RunFacts(RunOutcome.CANNOT, "RobotPy is not installed here")
     from grader.robotcode.bench.log_facts import read_facts  # noqa: PLC0415 - needs NumPy
 
@@ -107,9 +107,9 @@ def _run(path: Path, name: str, script: Path, *, start: Start, seconds: float) -
         folder.mkdir()
         copy = copy_program(path, folder.with_name(GIVEN))
         ended = start(
-            child_command(copy, name, folder, seconds=seconds, script=script),
+            make_child_command(copy, name, folder, seconds=seconds, script=script),
             folder,
             seconds + GRACE,
         )
         found = read_facts(folder, path, ended=ended, seconds=seconds)
-        return replace(found, aware=simulation_awareness(path))
+        return replace(found, aware=find_simulation_check(path))

@@ -61,7 +61,7 @@ def find_stop(ran: RunFacts, *, where: str) -> RunFault | None:
 def check_setting(
     got: float, wanted: float, *, said: str, unit: str, advice: str, within: float = 1e-6
 ) -> RunFault | None:
-    """A number of the Config.
+    """Compare a number of the Config with what the exercise asks for.
 
     Args:
         got: what the run showed, in SI.
@@ -78,7 +78,7 @@ def check_setting(
 
 
 def check_driven_motors(ran: RunFacts) -> RunFault | None:
-    """What every motor got, held against what the tests asked for."""
+    """Compare the voltage that every motor got with what the tests asked for."""
     wrong = [(motor, fault) for motor in ran.motors if (fault := _driven(motor))]
     if not wrong:
         return None
@@ -106,7 +106,7 @@ def _driven(motor: DrivenMotor) -> tuple[str, str, str] | None:
 
 
 def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> RunFault | None:
-    """What the log says of the motors' voltages, and of which motor it says it.
+    """Compare the logged voltages with those that each motor got.
 
     Args:
         ran: the run.
@@ -231,6 +231,6 @@ def _of(one: ButtonPress) -> str:
 
 
 def format_figures(ran: RunFacts) -> str:
-    """The numbers of a run, for a note."""
+    """The numbers of a run as one line of text."""
     ends = f"{ran.timeout:.4g} s" if math.isfinite(ran.timeout) else "no end"
     return f"{ran.ramp:.4g} V/s, {ran.step:.4g} V, {ends}"

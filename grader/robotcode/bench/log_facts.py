@@ -1,4 +1,4 @@
-"""What the child left behind, in facts: the robot's own log held against what the bench saw.
+"""Facts of a run: the robot's own log compared with what the simulation recorded.
 
 A learner's code may have written all of it: it is read as JSON and as a WPILOG, from plain files of
 an ordinary size, and what is told on is one line.
@@ -77,7 +77,7 @@ class BenchTrace:
 
 
 def read_facts(folder: Path, file: Path, *, ended: bool, seconds: float) -> RunFacts:
-    """The facts.
+    """Read what the child left behind, and compare the robot's log with the simulation.
 
     Args:
         folder: where the child left its results.

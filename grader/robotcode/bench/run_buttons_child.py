@@ -20,7 +20,7 @@ NONE = "kNone"
 
 
 class Panel:
-    """A robot's container, and every button in front of it."""
+    """Every button of a robot's controllers, pressed in simulation."""
 
     def __init__(self, container: Any) -> None:  # noqa: ANN401 - RobotPy's own classes have no types here
         import commands2  # noqa: PLC0415 - whoever only reads needs none
@@ -28,12 +28,13 @@ class Panel:
         from wpilib import DriverStation, simulation  # noqa: PLC0415 - the same
 
         bench = importlib.import_module("run_routine_child")
-        self.named, self.simulation, self.station = bench.named, simulation, DriverStation
+        self.named = bench.get_by_season_name
+        self.simulation, self.station = simulation, DriverStation
         self.sim = simulation.DriverStationSim
         self.period = bench.PERIOD
         self.scheduler = self.named(commands2.CommandScheduler, "getInstance")()
         self.now: set[str] = set()  # the tests that run
-        routines = [one for _, one in bench.walk(container) if isinstance(one, SysIdRoutine)]
+        routines = [one for _, one in bench.walk_fields(container) if isinstance(one, SysIdRoutine)]
         if not routines:
             raise bench.CannotRun("no SysIdRoutine is in a field of its subsystems")
         for routine in routines:
@@ -56,8 +57,8 @@ class Panel:
 
         return log_state
 
-    def told(self) -> dict[str, object]:
-        """What every button did that started a test."""
+    def observe(self) -> dict[str, object]:
+        """Press every button; what those did that started a test."""
         presses = []
         for testing in (True, False):
             self.named(self.sim, "setTest")(testing)
@@ -109,4 +110,4 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parent))  # where nobody has loaded it before
     bench = importlib.import_module("run_routine_child")
     del sys.path[0]
-    bench.start(Panel)
+    bench.start_child(Panel)

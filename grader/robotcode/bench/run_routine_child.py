@@ -37,11 +37,11 @@ CHANNELS, DEEP = 20, 4  # for PWM on a roboRIO; fields of fields that are looked
 
 
 class CannotRun(Exception):  # noqa: N818 - says what is lacking; no fault of the learner's
-    """The simulation has no hold on this program."""
+    """The simulation cannot run this program."""
 
 
-def named(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy's own classes have no types here
-    """An attribute under its name of 2026, ``setVInVoltage``, or that of 2027."""
+def get_by_season_name(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy's own classes have no types here
+    """An attribute by its name of 2026 (``setVInVoltage``) or of 2027."""
     snake = "".join(f"_{a.lower()}" if a.isupper() else a for a in name)
     return getattr(thing, name if hasattr(thing, name) else snake)
 
@@ -54,7 +54,7 @@ class Wheel:
         self.position = self.velocity = 0.0  # [m], [m/s]
 
     def move(self, voltage: float) -> None:
-        """Let one loop pass: exactly, apart from the moment it comes to rest."""
+        """Advance by one loop: the exact solution, except in the loop in which it comes to rest."""
         after = 0.0
         if self.velocity or abs(voltage) > self.ks:
             final = (voltage - math.copysign(self.ks, self.velocity or voltage)) / self.kv
@@ -74,7 +74,7 @@ class Bench:
         from wpilib import simulation  # noqa: PLC0415 - the same
 
         self.simulation, self.routine_type, self.subsystem = simulation, SysIdRoutine, subsystem
-        fields = list(walk(subsystem))
+        fields = list(walk_fields(subsystem))
         routines = [one for _, one in fields if isinstance(one, SysIdRoutine)]
         if not routines:
             raise CannotRun(f"{type(subsystem).__name__} keeps no SysIdRoutine in a field")
@@ -86,46 +86,48 @@ class Bench:
         own = {name: one for name, one in fields if isinstance(one, wpilib.Encoder)}
         self.encoders = [simulation.EncoderSim(one) for one in own.values()]
         self.turned_by = [self._partner(name, at / len(own)) for at, name in enumerate(own)]
-        self.per_pulse = [abs(named(one, "getDistancePerPulse")()) for one in self.encoders]
+        self.per_pulse = [
+            abs(get_by_season_name(one, "getDistancePerPulse")()) for one in self.encoders
+        ]
         self.distances = [0.0] * len(self.encoders)  # in the program's own unit
         self.voltages = [0.0] * len(self.motors)  # [V] at the motors
         self.rows: list[tuple[str, float, float, list[float], list[float]]] = []
         self.test, self.began, self.asked = "", 0.0, 0.0
-        self.battery(BATTERY)
+        self.set_battery_voltage(BATTERY)
 
     def _motors(self, fields: list[tuple[str, Any]], wpilib: ModuleType) -> Iterator[Any]:
         """Name -> the share of the battery each motor gets, as its own program counts."""
         seen = set()
         for name, one in fields:
             if isinstance(one, wpilib.PWMMotorController):
-                seen.add(named(one, "getChannel")())
+                seen.add(get_by_season_name(one, "getChannel")())
                 yield name, one.get if hasattr(one, "get") else one.get_throttle
         for channel in range(CHANNELS):
             pwm = self.simulation.PWMSim(channel)
-            if channel not in seen and named(pwm, "getInitialized")():
-                yield f"PWM {channel}", named(pwm, "getSpeed")
+            if channel not in seen and get_by_season_name(pwm, "getInitialized")():
+                yield f"PWM {channel}", get_by_season_name(pwm, "getSpeed")
 
     def _partner(self, encoder: str, share: float) -> int:
         """The motor that turns an encoder: ``left`` for ``left_encoder``, else by their order."""
         near = (number for number, name in enumerate(self.motors) if name in encoder)
         return next(near, int(share * len(self.motors)))
 
-    def battery(self, voltage: float) -> None:
+    def set_battery_voltage(self, voltage: float) -> None:
         """Set the battery's voltage [V]."""
         self.volts = voltage
-        named(self.simulation.RoboRioSim, "setVInVoltage")(voltage)
+        get_by_season_name(self.simulation.RoboRioSim, "setVInVoltage")(voltage)
 
-    def watch(self, now: Callable[[], float]) -> None:
-        """Stand between the routine and its two callbacks."""
+    def wrap_callbacks(self, now: Callable[[], float]) -> None:
+        """Wrap the routine's two callbacks, so that their calls are recorded."""
         drive, log = self.routine.mechanism.drive, self.routine.mechanism.log
 
         def drive_callback(voltage: float) -> None:
-            self.battery(BATTERY)
+            self.set_battery_voltage(BATTERY)
             self.asked = float(voltage)
             drive(voltage)
             passed = now() - self.began
             if self.test.startswith("dynamic") and SAG[0] < passed < SAG[1]:
-                self.battery(SAGGED)
+                self.set_battery_voltage(SAGGED)
             self.voltages = [duty() * self.volts for duty in self.motors.values()]
 
         def log_callback(record: Any) -> None:  # noqa: ANN401 - the same
@@ -136,12 +138,12 @@ class Bench:
         self.routine.mechanism.drive = drive_callback
         self.routine.mechanism.log = log_callback
 
-    def loop(self, run: Callable[[], None]) -> None:
-        """One loop of the robot program, and what moves meanwhile."""
+    def run_loop(self, run: Callable[[], None]) -> None:
+        """Run one loop of the robot program, and move the mechanisms meanwhile."""
         from wpilib import DriverStation  # noqa: PLC0415 - whoever only reads needs none
 
-        named(self.simulation.DriverStationSim, "notifyNewData")()
-        named(DriverStation, "refreshData")()
+        get_by_season_name(self.simulation.DriverStationSim, "notifyNewData")()
+        get_by_season_name(DriverStation, "refreshData")()
         run()
         self.voltages = [duty() * self.volts for duty in self.motors.values()]
         for wheel, voltage in zip(self.wheels, self.voltages, strict=True):
@@ -150,18 +152,18 @@ class Bench:
             wheel = self.wheels[self.turned_by[number]]
             size = self.per_pulse[number] / METERS_PER_PULSE  # the same pulses, whatever they mean
             self.distances[number] = wheel.position * size
-            named(encoder, "setDistance")(self.distances[number])
-            named(encoder, "setRate")(wheel.velocity * size)
-        named(self.simulation, "stepTiming")(PERIOD)
+            get_by_season_name(encoder, "setDistance")(self.distances[number])
+            get_by_season_name(encoder, "setRate")(wheel.velocity * size)
+        get_by_season_name(self.simulation, "stepTiming")(PERIOD)
 
-    def told(self) -> dict[str, object]:
+    def observe(self) -> dict[str, object]:
         """Run the four tests: what was seen, and how long each took [s] until it was over."""
         import commands2  # noqa: PLC0415 - whoever only reads needs none
         from wpilib import Timer  # noqa: PLC0415 - the same
 
-        scheduler = named(commands2.CommandScheduler, "getInstance")()
-        now = named(Timer, "getFPGATimestamp")
-        self.watch(now)
+        scheduler = get_by_season_name(commands2.CommandScheduler, "getInstance")()
+        now = get_by_season_name(Timer, "getFPGATimestamp")
+        self.wrap_callbacks(now)
         ways, lasted = self.routine_type.Direction, {}
         for kind in ("quasistatic", "dynamic"):
             for way in ("forward", "reverse"):
@@ -177,22 +179,22 @@ class Bench:
     def _rest(self, scheduler: Any) -> None:  # noqa: ANN401 - the same
         self.test = ""
         for _ in range(round(REST / PERIOD)):
-            self.loop(scheduler.run)
+            self.run_loop(scheduler.run)
 
     def _hold(self, command: Any, scheduler: Any) -> float:  # noqa: ANN401 - the same
         """Hold down the button of a test, until it ends or has shown enough."""
         loops = round(SHORT.get(self.test, LONGEST) / PERIOD)
-        self.required = self.subsystem in named(command, "getRequirements")()
+        self.required = self.subsystem in get_by_season_name(command, "getRequirements")()
         scheduler.schedule(command)
         for passed in range(loops):
-            self.loop(scheduler.run)
-            if not named(command, "isScheduled")():
+            self.run_loop(scheduler.run)
+            if not get_by_season_name(command, "isScheduled")():
                 return passed * PERIOD
         command.cancel()
         return loops * PERIOD
 
 
-def walk(thing: object) -> Iterator[tuple[str, Any]]:
+def walk_fields(thing: object) -> Iterator[tuple[str, Any]]:
     """An object's fields and what they hold, each object once, with the names that lead there."""
     seen: set[int] = set()
 
@@ -217,8 +219,8 @@ def walk(thing: object) -> Iterator[tuple[str, Any]]:
     return fields(thing, "", 0)
 
 
-def load(file: Path) -> ModuleType:
-    """The learner's module."""
+def load_module(file: Path) -> ModuleType:
+    """Import the learner's file as a module."""
     sys.path[:0] = [str(file.parent), str(file.parent.parent)]
     spec = importlib.util.spec_from_file_location(file.stem, file)
     if spec is None or spec.loader is None:
@@ -235,8 +237,8 @@ def load(file: Path) -> ModuleType:
     return module
 
 
-def make(module: ModuleType, name: str) -> object:
-    """The learner's subsystem."""
+def make_subsystem(module: ModuleType, name: str) -> object:
+    """Construct the learner's subsystem."""
     kind = getattr(module, name, None)
     if not isinstance(kind, type):
         raise CannotRun(f"there is no class {name} in it")
@@ -250,8 +252,8 @@ def make(module: ModuleType, name: str) -> object:
     return kind()
 
 
-def crash(error: BaseException, file: Path) -> dict[str, object]:
-    """Where and why the learner's code stopped."""
+def describe_crash(error: BaseException, file: Path) -> dict[str, object]:
+    """The line and the error at which the learner's code stopped."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [one for one in frames if Path(one.filename).parent in {file.parent, file.parent.parent}]
     where = [one.name for one in frames if one.name in {"drive_callback", "log_callback"}]
@@ -263,50 +265,50 @@ def crash(error: BaseException, file: Path) -> dict[str, object]:
     }
 
 
-def enable(folder: Path) -> None:
+def enable_test_mode(folder: Path) -> None:
     """Start the log, stop the clock, and switch the robot to test mode."""
     from wpilib import DataLogManager, simulation  # noqa: PLC0415 - whoever only reads needs none
 
-    named(DataLogManager, "start")(str(folder), "robot.wpilog")
-    named(DataLogManager, "logNetworkTables")(False)  # noqa: FBT003 - RobotPy takes it by position
-    named(simulation, "pauseTiming")()
-    named(simulation, "restartTiming")()
+    get_by_season_name(DataLogManager, "start")(str(folder), "robot.wpilog")
+    get_by_season_name(DataLogManager, "logNetworkTables")(False)  # noqa: FBT003 - RobotPy takes it by position
+    get_by_season_name(simulation, "pauseTiming")()
+    get_by_season_name(simulation, "restartTiming")()
     for switch in ("setDsAttached", "setTest", "setEnabled"):
-        named(simulation.DriverStationSim, switch)(True)  # noqa: FBT003 - the same
+        get_by_season_name(simulation.DriverStationSim, switch)(True)  # noqa: FBT003 - the same
 
 
-def main(file: Path, name: str, folder: Path, look: Callable[[Any], Any]) -> dict[str, object]:
-    """Run one file; everything that happens to it is an answer."""
+def run_file(file: Path, name: str, folder: Path, look: Callable[[Any], Any]) -> dict[str, object]:
+    """Run one file; errors of the learner's code are part of the result."""
     bench = None
     try:
-        enable(folder)
-        bench = look(make(load(file), name))
-        return dict(bench.told())
+        enable_test_mode(folder)
+        bench = look(make_subsystem(load_module(file), name))
+        return dict(bench.observe())
     except CannotRun as lacking:
         return {"cannot": str(lacking)}
     except BaseException as error:  # noqa: BLE001 - a learner's code may raise whatever it likes
-        what = crash(error, file)
+        what = describe_crash(error, file)
         if isinstance(error, (FileNotFoundError, PermissionError)):
             return {"cannot": f"it asks for what it cannot have here: {what['error']}"}
         return {"crash": what} if bench or what["line"] else {"cannot": what["error"]}
 
 
-def last_word(nonce: str, told: bytes) -> bytes:
-    """What a program prints that came to its end: the nonce, and the digest of what it saw."""
+def sign_result(nonce: str, told: bytes) -> bytes:
+    """What a program prints at its end: the nonce, and the digest of its results."""
     return f"{nonce} {hashlib.sha256(told).hexdigest()}".encode()
 
 
-def start(look: Callable[[Any], Any] = Bench) -> None:
-    """Do what the command line asks for, and give up in time."""
+def start_child(look: Callable[[Any], Any] = Bench) -> None:
+    """Run the file of the command line within its time limit, and write the results."""
     nonce, place = sys.stdin.read(), Path(sys.argv[3])
     out = os.dup(1)
     os.dup2(2, 1)  # what the learner's code prints is no word of ours
     stuck = (place / "endless.txt").open("w", encoding="utf-8")
     faulthandler.dump_traceback_later(float(sys.argv[4]), exit=True, file=stuck)
-    told = json.dumps(main(Path(sys.argv[1]), sys.argv[2], place, look)).encode()
+    told = json.dumps(run_file(Path(sys.argv[1]), sys.argv[2], place, look)).encode()
     (place / "seen.json").write_bytes(told)
-    os.write(out, last_word(nonce, told))
+    os.write(out, sign_result(nonce, told))
 
 
 if __name__ == "__main__":
-    start()
+    start_child()

@@ -22,7 +22,7 @@ def copy_program(path: Path, given: Path) -> Path:
     file = path.resolve()
     above = file.parent.parent
     (given / above.name / file.parent.name).mkdir(parents=True)
-    for found in program_files(file):
+    for found in list_program_files(file):
         copy = given / above.name / found.relative_to(above)
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_bytes(found.read_bytes())
@@ -31,7 +31,7 @@ def copy_program(path: Path, given: Path) -> Path:
     return copied
 
 
-def program_files(path: Path) -> Iterator[Path]:
+def list_program_files(path: Path) -> Iterator[Path]:
     """The files that a run may read of the program in ``path``, ``MOST`` at most."""
     return islice(_belonging(path.resolve()), MOST)
 

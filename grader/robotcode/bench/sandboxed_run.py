@@ -28,10 +28,10 @@ KEPT = ("PATH", "SYSTEMROOT", "SYSTEMDRIVE", "TEMP", "TMP", "HOME", "USERPROFILE
 GRACE = 2.0  # [s] the child gives up by itself, and says where it was; after that it is ended
 
 
-def child_command(
+def make_child_command(
     file: Path, name: str, folder: Path, *, seconds: float, script: Path = BENCH
 ) -> list[str]:
-    """The program to start: it leaves ``seen.json`` and ``robot.wpilog`` in the folder.
+    """The child's command line; it writes ``seen.json`` and ``robot.wpilog`` into the folder.
 
     Args:
         file: the learner's.
@@ -101,7 +101,7 @@ def _discard_unfinished(folder: Path, nonce: str, said: bytes) -> None:
     with contextlib.suppress(OSError):
         about = seen.lstat()
         ours = stat.S_ISREG(about.st_mode) and about.st_size <= LARGEST
-        if ours and said == run_routine_child.last_word(nonce, seen.read_bytes()):
+        if ours and said == run_routine_child.sign_result(nonce, seen.read_bytes()):
             return
         if not stat.S_ISDIR(about.st_mode):
             seen.unlink()

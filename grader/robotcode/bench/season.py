@@ -3,7 +3,7 @@
 import re
 from importlib.metadata import PackageNotFoundError, version
 
-from grader.robotcode.vocabulary import other_season
+from grader.robotcode.vocabulary import find_season_of
 
 ABOUT = re.compile(
     r"AttributeError: .* has no attribute '(\w+)'"
@@ -29,7 +29,7 @@ def explain_other_season(error: str, code: str) -> str:
     except PackageNotFoundError:
         return ""
     for name in names:
-        season = other_season(name)
+        season = find_season_of(name)
         if season and not here.startswith(season):
             return f"{name} is a name of {season}, and the RobotPy installed here is {here}"
     return ""

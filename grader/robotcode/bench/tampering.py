@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Iterator
 from pathlib import Path
 
-from grader.robotcode.bench.sandbox_files import program_files
+from grader.robotcode.bench.sandbox_files import list_program_files
 from grader.robotcode.bench.sandboxed_run import PACKAGES
 from sim.core.errors import UnreadableFile
 
@@ -76,8 +76,8 @@ def refuse_tampering(path: Path) -> None:
             raise _refusal(what, path if file == path else Path(file.name), line)
 
 
-def simulation_awareness(path: Path) -> str:
-    """Where a program asks whether it is simulated, or sets the simulation; empty if nowhere.
+def find_simulation_check(path: Path) -> str:
+    """The place where a program asks whether it is simulated, or changes the simulation; or empty.
 
     Such a program may do something else on a robot, so a run of it proves nothing right.
     """
@@ -103,7 +103,7 @@ def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
     Raises:
         UnreadableFile: it is too much, or in an encoding that hides what is in it.
     """
-    there = [path, *(one for one in program_files(path) if one.suffix == ".py")]
+    there = [path, *(one for one in list_program_files(path) if one.suffix == ".py")]
     todo, seen, size = [path], {path.resolve()}, 0
     while todo:
         file = todo.pop()
@@ -131,7 +131,7 @@ def _parsed(path: Path) -> Iterator[tuple[Path, ast.Module]]:
 
 def _local(path: Path) -> frozenset[str]:
     """The names of modules that are the program's own."""
-    files = [one for one in program_files(path) if one.suffix == ".py"]
+    files = [one for one in list_program_files(path) if one.suffix == ".py"]
     return frozenset({one.stem for one in files} | {one.parent.name for one in files})
 
 

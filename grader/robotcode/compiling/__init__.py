@@ -8,7 +8,7 @@ from grader.robotcode.facts import ParseProblem
 from grader.robotcode.symbol_table import SymbolTable
 
 
-def compile_errors(names: SymbolTable) -> tuple[ParseProblem, ...]:
+def find_compile_errors(names: SymbolTable) -> tuple[ParseProblem, ...]:
     """What keeps a program from being compiled, or in Python from being run, in the order of lines.
 
     Args:
@@ -20,12 +20,12 @@ def compile_errors(names: SymbolTable) -> tuple[ParseProblem, ...]:
     if names.main.problems:
         return ()
     if names.main.language == "python":
-        from grader.robotcode.compiling.python import python_errors  # noqa: PLC0415 - no ast for Java
+        from grader.robotcode.compiling.python import find_python_errors  # noqa: PLC0415 - no ast for Java
 
-        found = python_errors(names)
+        found = find_python_errors(names)
     else:
-        from grader.robotcode.compiling.java import java_errors as java_errors  # noqa: PLC0415 - the same
+        from grader.robotcode.compiling.java import find_java_errors as find_java_errors  # noqa: PLC0415 - the same
 
-        found = java_errors(names)
+        found = find_java_errors(names)
     by_line = {one.line: one for one in sorted(found, key=lambda one: -one.line)}
     return tuple(by_line[line] for line in sorted(by_line))

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from grader.robotcode.button_vocabulary import MODES_OF
-from grader.robotcode.compiling.java_types import type_errors
+from grader.robotcode.compiling.java_types import find_type_errors
 from grader.robotcode.compiling.season import (
     CAN_DEVICES,
     DIRECTIONS_OF_2027,
@@ -17,8 +17,8 @@ from grader.robotcode.compiling.season import (
     PLAIN,
     PWM_MOTORS,
     SEASON,
-    import_season,
-    name_misspelled,
+    find_season,
+    make_spelling_problem,
     suggest_name,
 )
 from grader.robotcode.facts import ParseProblem
@@ -38,15 +38,15 @@ from grader.robotcode.ir import (
     Text,
 )
 from grader.robotcode.name_resolution import (
-    called_functions,
-    class_of,
-    constructed_class,
+    find_called_functions,
+    find_class,
+    find_constructed_class,
+    find_methods,
+    infer_type,
     last_name,
-    methods,
     simple_type_name,
-    type_of,
 )
-from grader.robotcode.scope import Scope, walk
+from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import COMMANDS_V3, UNITS, is_motor
 
@@ -83,21 +83,21 @@ GENERATED = "AutoLogged"  # how the classes end that AdvantageKit writes when it
 PACKAGE = re.compile(r"(edu|com|org|java|javax|frc|swervelib|choreo)$")
 
 
-def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
-    """What a compiler would stop at; nothing for a file without a package, a part of a program."""
+def find_java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
+    """Compile errors of a Java file; none for an excerpt, which has no package."""
     module = names.main
     if not module.package:
         return
     yield from _imports(names)
     yield from _replaced(names)
-    yield from type_errors(names)
+    yield from find_type_errors(names)
     yield from _file_name(names)
     yield from _constructors(names)
     yield from _never_set(names)
-    every = list(walk(module.body, Scope(module)))
+    every = list(walk_with_scopes(module.body, Scope(module)))
     yield from _inheritance(every, names)
     yield from _runs_of_v3(every, names)
-    season = import_season(module.imports)
+    season = find_season(module.imports)
     if season == OLD_SEASON:
         yield from _names_of_2027(every, names)
     elif season:
@@ -118,7 +118,7 @@ def java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             if not open_ and not _is_type(name, declared, scope, names):
                 yield _undeclared(name, scope, line)
         method = node in targets and not getattr(node, "name", "")[:1].isupper()
-        if isinstance(node, Name) and name_is_value(node) and not method:
+        if isinstance(node, Name) and is_value_name(node) and not method:
             yield from _variable(node, declared, scope, names, open_=open_)
         elif isinstance(node, Call):
             yield from _method(node, scope, names, defined)
@@ -130,7 +130,7 @@ def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Itera
         if not isinstance(node, Member):
             continue
         of_mode = node.name in MODES_OF_2027 and last_name(node.owner) in MODES_OF
-        of_motor = node.name in MOTORS_OF_2027 and is_motor(type_of(node.owner, scope, names))
+        of_motor = node.name in MOTORS_OF_2027 and is_motor(infer_type(node.owner, scope, names))
         if of_mode or of_motor:
             old = (MODES_OF_2027 | MOTORS_OF_2027)[node.name]
             said = f"{node.name} is a name of WPILib 2027, and your imports are older"
@@ -145,7 +145,7 @@ def _names_before_2027(
     of_direction = {old: new for new, old in DIRECTIONS_OF_2027.items()}
     for node, scope in every:
         if isinstance(node, Call) and isinstance(dict(enumerate(node.args)).get(1), Text):
-            made = constructed_class(node, scope, names)
+            made = find_constructed_class(node, scope, names)
             if made in CAN_DEVICES:
                 # Phoenix 6, 25.90.0-alpha-2: the constructor that takes the bus as text is removed.
                 said = f"for WPILib 2027, {made} takes a CANBus, and no text: new CANBus(...)"
@@ -154,8 +154,8 @@ def _names_before_2027(
             continue
         new = ""
         if node.name in of_motor:
-            type_ = simple_type_name(type_of(node.owner, scope, names))
-            if type_ in PWM_MOTORS and names.named(type_, scope) is None:
+            type_ = simple_type_name(infer_type(node.owner, scope, names))
+            if type_ in PWM_MOTORS and names.find_by_name(type_, scope) is None:
                 new = of_motor[node.name]
         elif last_name(node.owner) == "Direction":
             new = of_direction.get(node.name, "")
@@ -183,7 +183,7 @@ def _runs_of_v3(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator
             continue
         owner = node.target.owner if isinstance(node.target, Member) else Self(node.place)
         given = node.args[0]
-        own = bool(called_functions(node, scope, names)) or not isinstance(owner, Self)
+        own = bool(find_called_functions(node, scope, names)) or not isinstance(owner, Self)
         if not own and isinstance(given, Function) and not given.parameters:
             said = "run() of a Mechanism takes a coroutine: run(coroutine -> ...), or runRepeatedly"
             yield ParseProblem(said, node.place.line)
@@ -205,7 +205,7 @@ def _inheritance(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterato
                     one.name == base and one.path.startswith(LIBRARIES)
                     for one in scope.module.imports
                 )
-                if base in kinds and brought and names.named(base, scope) is None:
+                if base in kinds and brought and names.find_by_name(base, scope) is None:
                     kind = "a class" if instead == "extends" else "an interface"
                     said = f"{base} is {kind}: write {instead} {base}"
                     yield ParseProblem(said, node.place.line)
@@ -232,7 +232,7 @@ def _never_set(names: SymbolTable) -> Iterator[ParseProblem]:
             yield ParseProblem(f"{name} is final and never gets a value", line)
 
 
-def name_is_value(node: Name) -> bool:
+def is_value_name(node: Name) -> bool:
     """Whether a name can be a variable, a constant or a class."""
     return node.name not in {"super", "this", "_", "length"} and node.name.isidentifier()
 
@@ -250,13 +250,13 @@ def _imports(names: SymbolTable) -> Iterator[ParseProblem]:
         if owner.rpartition(".")[2] == "Units" and name[:1].isupper() and "units" in owner:
             meant = suggest_name(name, frozenset(UNITS))
             if name not in UNITS and meant:
-                yield name_misspelled("unit", name, meant=meant, line=line)
+                yield make_spelling_problem("unit", name, meant=meant, line=line)
             continue
         if one.name == "*" or not one.path.startswith(SEASON):
             continue
         meant = suggest_name(name, HOME)
         if meant:
-            yield name_misspelled("class", name, meant=meant, line=line)
+            yield make_spelling_problem("class", name, meant=meant, line=line)
         elif name in HOME and not HOME[name].startswith(owner):
             yield ParseProblem(f"{name} is not in {owner}: it is in {HOME[name]}", line)
 
@@ -272,7 +272,7 @@ def _replaced(names: SymbolTable) -> Iterator[ParseProblem]:
             known
             and one.path.startswith(f"{team}.")
             and not one.path.startswith(LIBRARIES)
-            and names.named(name, Scope(names.main)) is None
+            and names.find_by_name(name, Scope(names.main)) is None
         ):
             lines = enumerate(text.split("\n"), 1)
             line = next((at for at, row in lines if _imports_it(row, one)), 1)
@@ -311,19 +311,19 @@ def _is_type(name: str, declared: set[str], scope: Scope, names: SymbolTable) ->
         inherited = re.search(rf"[A-Z]\w*\.{name}\b", source)
         if inherited and not scope.classes:
             return True
-    return names.named(name, scope) is not None
+    return names.find_by_name(name, scope) is not None
 
 
 def _undeclared(name: str, scope: Scope, line: int) -> ParseProblem:
     # WPILib 2027 moved its classes: the packages that HOME knows are those before it.
-    moved = import_season(scope.module.imports) > OLD_SEASON
+    moved = find_season(scope.module.imports) > OLD_SEASON
     if moved and HOME.get(name, "").startswith("edu.wpi."):
         return ParseProblem(f"{name} is not imported", line)
     if name in HOME:
         return ParseProblem(f"{name} is not imported: import {HOME[name]}.{name};", line)
     meant = suggest_name(name, HOME)
     if meant:
-        return name_misspelled("class", name, meant=meant, line=line)
+        return make_spelling_problem("class", name, meant=meant, line=line)
     return ParseProblem(f"{name} is not imported", line)
 
 
@@ -331,10 +331,10 @@ def _variable(
     node: Name, declared: set[str], scope: Scope, names: SymbolTable, *, open_: bool
 ) -> Iterator[ParseProblem]:
     name = node.name
-    if names.local(name, scope) or names.definitions(node, scope) or PACKAGE.match(name):
+    if names.find_local(name, scope) or names.find_definitions(node, scope) or PACKAGE.match(name):
         return
     imported = any(one.name == name for one in scope.module.imports)
-    if imported or name in declared or _is_field(name, scope, names):
+    if imported or name in declared or _is_field(name, scope, names) or _is_case(node):
         return
     wide = any(one.name == "*" and _static(one) for one in scope.module.imports)
     if name in UNITS:
@@ -345,6 +345,12 @@ def _variable(
             yield _undeclared(name, scope, node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
         yield ParseProblem(f"{name} is not declared", node.place.line)
+
+
+def _is_case(node: Name) -> bool:
+    """Whether a name is a constant that a ``case`` of a switch stands for."""
+    source = node.place.source[max(node.place.start - 80, 0) : node.place.start]
+    return bool(re.search(rb"\bcase\s+([\w.]+\s*,\s*)*$", source))
 
 
 def _is_plain(node: Name, scope: Scope) -> bool:
@@ -359,7 +365,7 @@ def _is_plain(node: Name, scope: Scope) -> bool:
 def _is_field(name: str, scope: Scope, names: SymbolTable) -> bool:
     for count in range(len(scope.classes), 0, -1):
         home = Scope(scope.module, scope.classes[:count])
-        if any(name in names.fields(place) for place in names.lineage(home)):
+        if any(name in names.find_fields(place) for place in names.list_base_classes(home)):
             return True
         body = home.classes[-1].place.text if count else ""
         if "enum" in body:
@@ -370,11 +376,11 @@ def _is_field(name: str, scope: Scope, names: SymbolTable) -> bool:
 def _closed(scope: Scope, names: SymbolTable) -> bool:
     """Whether all that the classes around inherit is known."""
     for count in range(len(scope.classes), 0, -1):
-        for place in names.lineage(Scope(scope.module, scope.classes[:count])):
+        for place in names.list_base_classes(Scope(scope.module, scope.classes[:count])):
             for base in place.classes[-1].bases:
                 if (
                     simple_type_name(base) not in PLAIN
-                    and names.named(simple_type_name(base), place) is None
+                    and names.find_by_name(simple_type_name(base), place) is None
                 ):
                     return False
     return True
@@ -387,11 +393,12 @@ def _method(
     target = call.target
     line = target.place.line
     if isinstance(target, Member) and not isinstance(target, Reference):
-        if called_functions(call, scope, names) or isinstance(target.owner, Self):
+        made = target.name[:1].isupper() and names.find_home(target, scope)  # new Outer.Inner()
+        if find_called_functions(call, scope, names) or isinstance(target.owner, Self) or made:
             return
-        home = class_of(target.owner, scope, names)
+        home = find_class(target.owner, scope, names)
         if home is not None and home.classes and _closed(home, names):
-            there = methods(target.name, home, names) or target.name in INHERITED
+            there = find_methods(target.name, home, names) or target.name in INHERITED
             record = home.classes[-1].place.text.split("{")[0]
             if not there and "enum" not in record and "record" not in record:
                 yield _missing_method(target, home, names)
@@ -400,14 +407,14 @@ def _method(
             return
         meant = suggest_name(target.name, METHODS)
         if meant and target.name[:1].islower():
-            yield name_misspelled("method", target.name, meant=meant, line=line)
+            yield make_spelling_problem("method", target.name, meant=meant, line=line)
     elif isinstance(target, Name) and target.name[:1].islower():
         static = any(
             one.name == target.name or (one.name == "*" and _static(one))
             for one in scope.module.imports
         )
         if (
-            called_functions(call, scope, names)
+            find_called_functions(call, scope, names)
             or target.name in INHERITED
             or target.name in defined
         ):
@@ -421,7 +428,7 @@ def _missing_method(target: Member, home: Scope, names: SymbolTable) -> ParsePro
     line = target.place.line
     meant = suggest_name(target.name, _own_methods(home, names) | METHODS)
     if meant:
-        return name_misspelled("method", target.name, meant=meant, line=line)
+        return make_spelling_problem("method", target.name, meant=meant, line=line)
     return ParseProblem(f"{home.classes[-1].name} has no method {target.name}()", line)
 
 
@@ -429,7 +436,7 @@ def _own_methods(home: Scope, names: SymbolTable) -> frozenset[str]:
     """The names of the methods that a class defines or inherits from classes in sight."""
     return frozenset(
         node.name
-        for place in names.lineage(home)
+        for place in names.list_base_classes(home)
         for node in place.classes[-1].body
         if isinstance(node, Function)
     )

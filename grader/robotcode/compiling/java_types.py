@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from grader.robotcode.compiling.season import HOME, PACKAGES_OF, called_on_class
+from grader.robotcode.compiling.season import HOME, PACKAGES_OF, find_call_on_class
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import (
     Call,
@@ -20,14 +20,14 @@ from grader.robotcode.ir import (
     Self,
 )
 from grader.robotcode.name_resolution import (
-    called_functions,
-    constructed_class,
+    find_called_functions,
+    find_constructed_class,
+    find_methods,
     last_name,
-    methods,
     simple_type_name,
 )
-from grader.robotcode.readings import device_of, quantity_of
-from grader.robotcode.scope import Scope, walk
+from grader.robotcode.readings import find_device, find_quantity
+from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     COMMANDS_V3,
@@ -85,9 +85,9 @@ PLAIN_NUMBERS = frozenset(
 KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
 
 
-def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
+def find_type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     """Arguments of the SysId log, of units and of the callbacks that are of another type."""
-    for node, scope in walk(names.main.body, Scope(names.main)):
+    for node, scope in walk_with_scopes(names.main.body, Scope(names.main)):
         if isinstance(node, Operation) and node.sign in ARITHMETIC:
             yield from _operands(node, scope, names)
         if not isinstance(node, Call):
@@ -96,18 +96,18 @@ def type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
         if isinstance(node.target, Member):
             yield from _one_argument(node, node.target, scope, names)
             owner, line = last_name(node.target.owner), node.place.line
-            yield from called_on_class(name, owner, held="m_routine", line=line)
+            yield from find_call_on_class(name, owner, held="m_routine", line=line)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
         yield from _routine_part(node, scope, names)
-        if constructed_class(node, scope, names) in MECHANISMS:
+        if find_constructed_class(node, scope, names) in MECHANISMS:
             yield from _callbacks(node, scope, names)
 
 
 def _operands(node: Operation, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
     """Arithmetic with what is no number: Java has no operators for measures and signals."""
     for part in (node.left, node.right):
-        given = "" if part is None else type_of_expression(part, scope, names)
+        given = "" if part is None else infer_expression_type(part, scope, names)
         if given == SIGNAL or given in MEASURES:
             what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
             yield ParseProblem(
@@ -118,7 +118,7 @@ def _operands(node: Operation, scope: Scope, names: SymbolTable) -> Iterator[Par
 def _argument(
     call: Call, target: Member, name: str, scope: Scope, names: SymbolTable
 ) -> Iterator[ParseProblem]:
-    given = type_of_expression(call.args[0], scope, names)
+    given = infer_expression_type(call.args[0], scope, names)
     wanted = WANTED.get(name, "")
     line = target.place.line
     if (
@@ -136,7 +136,7 @@ def _argument(
         yield ParseProblem(
             f"{last_name(target.owner)}.of() takes a number, and this is {what}", line
         )
-    owner = type_of_expression(target.owner, scope, names) if name == "in" else ""
+    owner = infer_expression_type(target.owner, scope, names) if name == "in" else ""
     asked = measure_of_unit(last_name(call.args[0])) if name == "in" else ""
     if owner in MEASURES and asked and asked != owner:
         yield ParseProblem(f"a {owner} cannot be given in {last_name(call.args[0])}", line)
@@ -157,10 +157,10 @@ def _one_argument(
     takes = name in WANTED and _logs(target)
     takes |= name == "of" and bool(measure_of_unit(last_name(target.owner)))
     if name == "in":
-        takes |= type_of_expression(target.owner, scope, names) in MEASURES
+        takes |= infer_expression_type(target.owner, scope, names) in MEASURES
     elif name == "setVoltage":
-        _, type_ = device_of(target.owner, scope, names)
-        takes |= type_ in HOME and is_motor(type_) and names.named(type_, scope) is None
+        _, type_ = find_device(target.owner, scope, names)
+        takes |= type_ in HOME and is_motor(type_) and names.find_by_name(type_, scope) is None
     if takes:
         said = f"{name}() takes one argument, and gets {len(call.args)}"
         yield ParseProblem(said, target.place.line)
@@ -194,7 +194,7 @@ def _routine_part(call: Call, scope: Scope, names: SymbolTable) -> Iterator[Pars
 def _config_types(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParseProblem]:
     """Arguments of a Config that are of another type."""
     for given, (what, wanted) in zip(call.args, CONFIG_TYPES, strict=False):
-        type_ = type_of_expression(given, scope, names)
+        type_ = infer_expression_type(given, scope, names)
         if type_ and type_ != wanted:
             is_ = {NUMBER: "a plain number", SIGNAL: "a signal"}.get(type_, f"a {type_}")
             yield ParseProblem(f"{what} has to be a {wanted}, and this is {is_}", given.place.line)
@@ -244,8 +244,8 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParsePr
     for given, allowed in zip(call.args, PARAMETERS, strict=False):
         if not isinstance(given, Reference) or not isinstance(given.owner, Self):
             continue
-        found = methods(given.name, scope.home, names) if scope.classes else []
-        if scope.classes and not found and len(names.lineage(scope.home)) == 1:
+        found = find_methods(given.name, scope.home, names) if scope.classes else []
+        if scope.classes and not found and len(names.list_base_classes(scope.home)) == 1:
             yield ParseProblem(f"the method {given.name}() is not declared", given.place.line)
         fits = [
             one
@@ -278,7 +278,7 @@ def measure_of_unit(unit: str) -> str:
     return "Current" if "amp" in unit.lower() else ""
 
 
-def type_of_expression(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
+def infer_expression_type(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
     """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if not told."""
     depth += 1
     found = ""
@@ -291,7 +291,7 @@ def type_of_expression(node: Node, scope: Scope, names: SymbolTable, *, depth: i
     elif isinstance(node, Cast):
         found = _named(node.type)
     elif isinstance(node, Choice):
-        found = type_of_expression(node.one, scope, names, depth=depth)
+        found = infer_expression_type(node.one, scope, names, depth=depth)
     elif isinstance(node, Call):
         found = _of_call(node, scope, names, depth)
     elif isinstance(node, Name | Member) and not isinstance(node, Reference):
@@ -307,18 +307,18 @@ def _named(type_: str) -> str:
 
 
 def _of_variable(node: Node, scope: Scope, names: SymbolTable, depth: int) -> str:
-    for one in names.definitions(node, scope):
+    for one in names.find_definitions(node, scope):
         if isinstance(one.value, FunctionParameter):
             return _named(one.value.type)
         if one.type and one.type != "var":
             return _named(one.type)
         if one.value is not None and not isinstance(one.value, Function):
-            return type_of_expression(one.value, one.scope, names, depth=depth)
+            return infer_expression_type(one.value, one.scope, names, depth=depth)
     return ""
 
 
 def _of_call(call: Call, scope: Scope, names: SymbolTable, depth: int) -> str:
-    functions = called_functions(call, scope, names)
+    functions = find_called_functions(call, scope, names)
     if functions:
         return _named(functions[0][0].type)
     target = call.target
@@ -337,8 +337,8 @@ def _of_call(call: Call, scope: Scope, names: SymbolTable, depth: int) -> str:
 
 def _of_device(target: Member, scope: Scope, names: SymbolTable) -> str:
     """What a method of a motor controller or an encoder gives; empty if it is none."""
-    device, type_ = device_of(target.owner, scope, names)
-    if not device or not quantity_of(target.name, motor=is_motor(type_)):
+    device, type_ = find_device(target.owner, scope, names)
+    if not device or not find_quantity(target.name, motor=is_motor(type_)):
         return ""
     return SIGNAL if ROTATIONS.fullmatch(type_) else NUMBER
 
@@ -346,10 +346,10 @@ def _of_device(target: Member, scope: Scope, names: SymbolTable) -> str:
 def _of_measure(target: Member, scope: Scope, names: SymbolTable, depth: int) -> str:
     """What a method of a measure or of a signal gives; empty if it cannot be told."""
     name, inner = target.name, target.owner
-    owner = type_of_expression(inner, scope, names, depth=depth)
+    owner = infer_expression_type(inner, scope, names, depth=depth)
     if owner == SIGNAL and name == "getValue":
         asked = last_name(inner.target) if isinstance(inner, Call) else ""
-        return VALUES.get(quantity_of(asked, motor=True), "")
+        return VALUES.get(find_quantity(asked, motor=True), "")
     if owner == SIGNAL:
         return SIGNAL if name == "refresh" else ""
     return owner if owner in MEASURES and KEEPS.fullmatch(name) else ""

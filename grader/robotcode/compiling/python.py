@@ -11,8 +11,8 @@ from grader.robotcode.compiling.season import (
     MODULE_OF,
     PLAIN,
     ROBOTPY,
-    called_on_class,
-    name_misspelled,
+    find_call_on_class,
+    make_spelling_problem,
     suggest_name,
 )
 from grader.robotcode.facts import ParseProblem
@@ -23,7 +23,7 @@ ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annot
 OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
 
 
-def python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
+def find_python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     """Names that nothing defines, imports that do not exist, attributes that nobody sets."""
     try:
         tree = ast.parse(names.main.source.decode("utf-8", errors="replace"))
@@ -43,7 +43,7 @@ def python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             owner = one.func.value
             name = owner.attr if isinstance(owner, ast.Attribute) else getattr(owner, "id", "")
             method, line = one.func.attr, one.lineno
-            yield from called_on_class(method, name, held="self.routine", line=line)
+            yield from find_call_on_class(method, name, held="self.routine", line=line)
     yield from _attributes(every)
 
 
@@ -84,7 +84,7 @@ def _imported(name: str, module: str, line: int) -> Iterator[ParseProblem]:
     meant = suggest_name(name, CLASSES) if name[:1].isupper() else ""
     home = MODULE_OF.get(name, "")
     if meant and name not in CLASSES:
-        yield name_misspelled("class", name, meant=meant, line=line)
+        yield make_spelling_problem("class", name, meant=meant, line=line)
     elif home and module in {*MODULE_OF.values()} and home != module:
         yield ParseProblem(f"{name} is not in {module}: it is in {home}", line)
 
@@ -129,7 +129,7 @@ def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
             meant = suggest_name(node.func.attr, METHODS)
             line = node.func.end_lineno or node.lineno
             if meant and node.func.attr not in own and java_spelling(node.func.attr) not in METHODS:
-                yield name_misspelled("method", node.func.attr, meant=meant, line=line)
+                yield make_spelling_problem("method", node.func.attr, meant=meant, line=line)
 
 
 def _is_set(node: ast.Attribute) -> bool:

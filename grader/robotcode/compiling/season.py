@@ -138,7 +138,7 @@ PLAIN = frozenset(  # classes from which no field of interest is inherited
 )
 
 
-def import_season(imports: Iterable[Import]) -> int:
+def find_season(imports: Iterable[Import]) -> int:
     """The season that a Java file is written for, by the packages it imports; 0 if none tells."""
     for one in imports:
         for package, season in PACKAGES_OF.items():
@@ -147,7 +147,7 @@ def import_season(imports: Iterable[Import]) -> int:
     return 0
 
 
-def name_misspelled(kind: str, name: str, *, meant: str, line: int) -> ParseProblem:
+def make_spelling_problem(kind: str, name: str, *, meant: str, line: int) -> ParseProblem:
     """The problem with a misspelled name.
 
     Args:
@@ -159,7 +159,7 @@ def name_misspelled(kind: str, name: str, *, meant: str, line: int) -> ParseProb
     return ParseProblem(f"unknown {kind} {name}. Did you mean {meant}?", line, meant)
 
 
-def called_on_class(method: str, owner: str, *, held: str, line: int) -> Iterator[ParseProblem]:
+def find_call_on_class(method: str, owner: str, *, held: str, line: int) -> Iterator[ParseProblem]:
     """A test that is asked of the class SysIdRoutine, and not of the routine.
 
     WPILib's documentation has its Python example so (frc-docs, commit d57699a).

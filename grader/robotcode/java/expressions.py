@@ -7,19 +7,19 @@ from grader.robotcode.java.to_ir import SKIPPED, IrBuilder, Maker
 
 
 def _name(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    return (ir.Name(lowering.place(tree), lowering.said(tree)),)
+    return (ir.Name(lowering.span_of(tree), lowering.source_text(tree)),)
 
 
 def _self(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    return (ir.Self(lowering.place(tree)),)
+    return (ir.Self(lowering.span_of(tree)),)
 
 
 def _null(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    return (ir.Null(lowering.place(tree)),)
+    return (ir.Null(lowering.span_of(tree)),)
 
 
 def _number(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    place, digits = lowering.place(tree), lowering.said(tree).replace("_", "").lower()
+    place, digits = lowering.span_of(tree), lowering.source_text(tree).replace("_", "").lower()
     try:
         if tree.type == "decimal_floating_point_literal":
             return (ir.Number(place, float(digits.rstrip("fd")), integer=False),)
@@ -30,45 +30,45 @@ def _number(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
 
 
 def _string(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    return (ir.Text(lowering.place(tree), lowering.said(tree).strip('"').strip()),)
+    return (ir.Text(lowering.span_of(tree), lowering.source_text(tree).strip('"').strip()),)
 
 
 def _member(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     field = tree.child_by_field_name("field")
     if field is not None and field.type == "this":  # Outer.this
         return _self(lowering, tree)
-    owner = lowering.field(tree, "object")
-    return (ir.Member(lowering.place(tree), owner, lowering.said(field)),)
+    owner = lowering.child_node(tree, "object")
+    return (ir.Member(lowering.span_of(tree), owner, lowering.source_text(field)),)
 
 
 def _reference(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     named = tree.named_children
-    owner = lowering.one(named[0] if named else None, around=tree)
-    name = lowering.said(named[-1]) if len(named) > 1 else "new"
-    return (ir.Reference(lowering.place(tree), owner, name),)
+    owner = lowering.node_of(named[0] if named else None, around=tree)
+    name = lowering.source_text(named[-1]) if len(named) > 1 else "new"
+    return (ir.Reference(lowering.span_of(tree), owner, name),)
 
 
 def _scoped_type(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     named = tree.named_children
     if not named:
         return ()
-    owner = lowering.one(named[0], around=tree)
-    return (ir.Member(lowering.place(tree), owner, lowering.said(named[-1])),)
+    owner = lowering.node_of(named[0], around=tree)
+    return (ir.Member(lowering.span_of(tree), owner, lowering.source_text(named[-1])),)
 
 
 def _generic_type(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    return (lowering.one(tree.named_children[0] if tree.named_children else None, around=tree),)
+    return (lowering.node_of(tree.named_children[0] if tree.named_children else None, around=tree),)
 
 
 def _method_call(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     name = tree.child_by_field_name("name") or tree
     owner = tree.child_by_field_name("object")
-    start = lowering.place(name)
+    start = lowering.span_of(name)
     place = ir.SourceSpan(lowering.source, name.start_byte, tree.end_byte, start.line)
-    target: ir.Node = ir.Name(place, lowering.said(name))
+    target: ir.Node = ir.Name(place, lowering.source_text(name))
     if owner is not None:  # a chain begins far above; its method stands where its name does
-        target = ir.Member(place, lowering.one(owner, around=tree), lowering.said(name))
-    return (ir.Call(lowering.place(tree), target, _arguments(lowering, tree)),)
+        target = ir.Member(place, lowering.node_of(owner, around=tree), lowering.source_text(name))
+    return (ir.Call(lowering.span_of(tree), target, _arguments(lowering, tree)),)
 
 
 def _creation(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
@@ -77,13 +77,13 @@ def _creation(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     methods = [
         node
         for body in bodies
-        for node in lowering.many(body.children)
+        for node in lowering.nodes_of(body.children)
         if isinstance(node, ir.Function)
     ]
     if len(methods) == 1 and not args:  # an anonymous Consumer is a lambda written long
         method = methods[0]
         return (ir.Function(method.place, "", method.parameters, method.body),)
-    return (ir.Call(lowering.place(tree), lowering.field(tree, "type"), args),)
+    return (ir.Call(lowering.span_of(tree), lowering.child_node(tree, "type"), args),)
 
 
 def _arguments(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
@@ -92,55 +92,57 @@ def _arguments(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     if arguments is None:
         return ()
     return tuple(
-        lowering.one(child, around=arguments)
+        lowering.node_of(child, around=arguments)
         for child in arguments.named_children
         if child.type not in SKIPPED
     )
 
 
 def _operation(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    sign = lowering.said(tree.child_by_field_name("operator"))
-    place = lowering.place(tree)
+    sign = lowering.source_text(tree.child_by_field_name("operator"))
+    place = lowering.span_of(tree)
     if tree.type == "unary_expression":
-        return (ir.Operation(place, sign, None, lowering.field(tree, "operand")),)
-    left, right = lowering.field(tree, "left"), lowering.field(tree, "right")
+        return (ir.Operation(place, sign, None, lowering.child_node(tree, "operand")),)
+    left, right = lowering.child_node(tree, "left"), lowering.child_node(tree, "right")
     return (ir.Operation(place, sign, left, right),)
 
 
 def _choice(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    three = (lowering.field(tree, name) for name in ("condition", "consequence", "alternative"))
-    return (ir.Choice(lowering.place(tree), *three),)
+    three = (
+        lowering.child_node(tree, name) for name in ("condition", "consequence", "alternative")
+    )
+    return (ir.Choice(lowering.span_of(tree), *three),)
 
 
 def _cast(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    type_ = lowering.said(tree.child_by_field_name("type"))
-    return (ir.Cast(lowering.place(tree), type_, lowering.field(tree, "value")),)
+    type_ = lowering.source_text(tree.child_by_field_name("type"))
+    return (ir.Cast(lowering.span_of(tree), type_, lowering.child_node(tree, "value")),)
 
 
 def _element(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    owner, index = lowering.field(tree, "array"), lowering.field(tree, "index")
-    return (ir.Element(lowering.place(tree), owner, index),)
+    owner, index = lowering.child_node(tree, "array"), lowering.child_node(tree, "index")
+    return (ir.Element(lowering.span_of(tree), owner, index),)
 
 
 def _items(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    return (ir.Items(lowering.place(tree), lowering.many(tree.children)),)
+    return (ir.Items(lowering.span_of(tree), lowering.nodes_of(tree.children)),)
 
 
 def _array(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
     value = tree.child_by_field_name("value")
-    return lowering.done[value.id] if value is not None else (ir.Opaque(lowering.place(tree)),)
+    return lowering.done[value.id] if value is not None else (ir.Opaque(lowering.span_of(tree)),)
 
 
 def _assignment(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    place, sign = lowering.place(tree), lowering.said(tree.child_by_field_name("operator"))
-    target, value = lowering.field(tree, "left"), lowering.field(tree, "right")
+    place, sign = lowering.span_of(tree), lowering.source_text(tree.child_by_field_name("operator"))
+    target, value = lowering.child_node(tree, "left"), lowering.child_node(tree, "right")
     if sign != "=":
         value = ir.Operation(place, sign.removesuffix("="), _again(target), value)
     return (ir.Assign(place, target, value),)
 
 
 def _update(lowering: IrBuilder, tree: Tree) -> tuple[ir.Node, ...]:
-    place, inside = lowering.place(tree), lowering.many(tree.children)
+    place, inside = lowering.span_of(tree), lowering.nodes_of(tree.children)
     if len(inside) != 1:
         return inside
     return (ir.Assign(place, inside[0], ir.Opaque(place, ())),)

@@ -37,7 +37,7 @@ class IrBuilder:
             order.extend(tree.children)
         for tree in reversed(order):
             self.done[tree.id] = self._made(tree)
-        return self.many(root.children)
+        return self.nodes_of(root.children)
 
     def _made(self, tree: Tree) -> tuple[ir.Node, ...]:
         if not tree.is_named or tree.type in SKIPPED:
@@ -45,32 +45,32 @@ class IrBuilder:
         make = self.makers.get(tree.type)
         if make is not None:
             return make(self, tree)
-        parts = self.many(tree.children)
+        parts = self.nodes_of(tree.children)
         if tree.type in BRANCHES:
-            return (ir.Branch(self.place(tree), parts),)
-        return parts if len(parts) == 1 else (ir.Opaque(self.place(tree), parts),)
+            return (ir.Branch(self.span_of(tree), parts),)
+        return parts if len(parts) == 1 else (ir.Opaque(self.span_of(tree), parts),)
 
-    def place(self, tree: Tree) -> ir.SourceSpan:
+    def span_of(self, tree: Tree) -> ir.SourceSpan:
         """Where a tree stands in the file."""
         return ir.SourceSpan(self.source, tree.start_byte, tree.end_byte, tree.start_point[0] + 1)
 
-    def said(self, tree: Tree | None) -> str:
+    def source_text(self, tree: Tree | None) -> str:
         """The source text of a tree."""
         text = b"" if tree is None else self.source[tree.start_byte : tree.end_byte]
         return text.decode("utf-8", errors="replace")
 
-    def many(self, trees: Iterable[Tree]) -> tuple[ir.Node, ...]:
+    def nodes_of(self, trees: Iterable[Tree]) -> tuple[ir.Node, ...]:
         """What some trees became."""
         return tuple(node for tree in trees for node in self.done[tree.id])
 
-    def one(self, tree: Tree | None, *, around: Tree) -> ir.Node:
+    def node_of(self, tree: Tree | None, *, around: Tree) -> ir.Node:
         """What a tree became; where a mistake in the code left none, a node that says nothing."""
         made = () if tree is None else self.done[tree.id]
-        return made[0] if len(made) == 1 else ir.Opaque(self.place(tree or around), made)
+        return made[0] if len(made) == 1 else ir.Opaque(self.span_of(tree or around), made)
 
-    def field(self, tree: Tree, name: str) -> ir.Node:
+    def child_node(self, tree: Tree, name: str) -> ir.Node:
         """What one named child of a tree became."""
-        return self.one(tree.child_by_field_name(name), around=tree)
+        return self.node_of(tree.child_by_field_name(name), around=tree)
 
 
 Maker = Callable[[IrBuilder, Tree], tuple[ir.Node, ...]]

@@ -8,7 +8,7 @@ from grader.robotcode import ir
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.python.expressions import EXPRESSIONS
 from grader.robotcode.python.statements import STATEMENTS
-from grader.robotcode.python.to_ir import Lowering
+from grader.robotcode.python.to_ir import IrBuilder
 
 
 def parse(text: str, path: Path) -> ir.Module:
@@ -32,7 +32,7 @@ def parse(text: str, path: Path) -> ir.Module:
     except (RecursionError, MemoryError, ValueError):
         problem = ParseProblem("the code is nested deeper than Python itself can read", 1)
     else:
-        lowering = Lowering(source, EXPRESSIONS | STATEMENTS)
+        lowering = IrBuilder(source, EXPRESSIONS | STATEMENTS)
         body = lowering.lower(tree)
         return ir.Module(path, "python", source, body, tuple(reversed(lowering.imports)))
     return ir.Module(path, "python", source, (), problems=(problem,))

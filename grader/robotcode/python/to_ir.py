@@ -20,7 +20,7 @@ SIGNS: dict[type[ast.AST], str] = {
 }
 
 
-class Lowering:
+class IrBuilder:
     """One file on its way to the common syntax; leaves first, so that no depth can hurt."""
 
     def __init__(self, source: bytes, makers: "dict[type[ast.AST], Maker]") -> None:
@@ -38,39 +38,39 @@ class Lowering:
             order.extend(ast.iter_child_nodes(tree))
         for tree in reversed(order):
             self.done[id(tree)] = self._made(tree)
-        return self.many(root.body)
+        return self.nodes_of(root.body)
 
     def _made(self, tree: ast.AST) -> tuple[ir.Node, ...]:
         make = self.makers.get(type(tree))
         if make is not None:
             return make(self, tree)
-        parts = self.many(ast.iter_child_nodes(tree))
+        parts = self.nodes_of(ast.iter_child_nodes(tree))
         if not isinstance(tree, ast.expr | ast.stmt):
             return parts
         if isinstance(tree, BRANCHES):
-            return (ir.Branch(self.place(tree), parts),)
-        return (ir.Opaque(self.place(tree), parts),)
+            return (ir.Branch(self.span_of(tree), parts),)
+        return (ir.Opaque(self.span_of(tree), parts),)
 
-    def place(self, tree: ast.expr | ast.stmt | ast.arg) -> ir.SourceSpan:
+    def span_of(self, tree: ast.expr | ast.stmt | ast.arg) -> ir.SourceSpan:
         """Where a tree stands in the file."""
         start = self.begins[tree.lineno - 1] + tree.col_offset
         end = self.begins[(tree.end_lineno or tree.lineno) - 1] + (tree.end_col_offset or 0)
         return ir.SourceSpan(self.source, start, end, tree.lineno)
 
-    def many(self, trees: Iterable[ast.AST]) -> tuple[ir.Node, ...]:
+    def nodes_of(self, trees: Iterable[ast.AST]) -> tuple[ir.Node, ...]:
         """What some trees became."""
         return tuple(node for tree in trees for node in self.done[id(tree)])
 
-    def one(self, tree: ast.expr | ast.stmt) -> ir.Node:
+    def node_of(self, tree: ast.expr | ast.stmt) -> ir.Node:
         """What a tree became, as one node."""
         made = self.done[id(tree)]
-        return made[0] if len(made) == 1 else ir.Opaque(self.place(tree), made)
+        return made[0] if len(made) == 1 else ir.Opaque(self.span_of(tree), made)
 
-    def said(self, tree: ast.expr | None) -> str:
+    def source_text(self, tree: ast.expr | None) -> str:
         """The source text of a tree."""
-        return "" if tree is None else self.place(tree).text
+        return "" if tree is None else self.span_of(tree).text
 
-    def variables(self, target: ast.expr) -> tuple[str, ...]:
+    def loop_variables(self, target: ast.expr) -> tuple[str, ...]:
         """The names that a loop fills; empty where it fills something else."""
         several = target.elts if isinstance(target, ast.List | ast.Tuple) else [target]
         return tuple(one.id if isinstance(one, ast.Name) else "" for one in several)

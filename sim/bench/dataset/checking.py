@@ -13,7 +13,7 @@ from sim.core.errors import BadRequest
 def verify_dataset(
     folder: Path, jobs: Sequence[LogJob], *, key: Path, secret: Secret
 ) -> tuple[str, ...]:
-    """What is not as it was made, a line each; empty if all is.
+    """The differences between a dataset and its key, a line each; empty if there are none.
 
     Args:
         folder: of the dataset.

@@ -17,7 +17,7 @@ LISTED = 3  # [files] that a refusal names
 
 @dataclass(frozen=True)
 class FolderSurvey:
-    """What is there already of a plan.
+    """Which files of a planned dataset are in its folder already.
 
     Args:
         kept: the entries of logs that are finished.
@@ -33,7 +33,7 @@ class FolderSurvey:
 
 
 def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry]) -> FolderSurvey:
-    """Look at what is there.
+    """Compare a folder with the files of a planned dataset.
 
     Args:
         folder: of the dataset; need not exist.
@@ -85,7 +85,7 @@ def file_digest(path: Path) -> str:
 
 
 def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
-    """Log files in the folder that are none of those known."""
+    """Log files in the folder that do not belong to the dataset."""
     mine = set(known)
     endings = {Path(file).suffix for file in mine}
     found = (
@@ -150,7 +150,7 @@ class DatasetFolder:
                     part.unlink()
 
     def remove_empty_folders(self) -> None:
-        """Remove the folders that were made for nothing."""
+        """Remove folders that were made and stayed empty."""
         for folder in reversed(self._made):
             with suppress(OSError):  # there is a file in it
                 folder.rmdir()

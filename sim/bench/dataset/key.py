@@ -33,7 +33,7 @@ def default_key_path(folder: Path) -> Path:
 
 
 def entries_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
-    """The entry of each file."""
+    """File -> its entry."""
     return {file: entry for entry in entries for file in entry["files"]}
 
 
@@ -84,14 +84,16 @@ def write_key(path: Path, journal: "Journal", *, dataset: str, secret: Secret) -
     Raises:
         OSError: it cannot be written.
     """
-    places = journal.places()
+    places = journal.locate_entries()
     head = {
         "dataset": dataset,
         "made_with": f"sysid-course {version('sysid-course')}",
         "sealed_with": "secret" if secret.hidden else "seed",
     }
-    seal = secret.seal_pieces(_plain_pieces(head, journal.at(places)))
-    write_pieces_atomically(path, _text_pieces(head, journal.at(places), seal), private=True)
+    seal = secret.seal_pieces(_plain_pieces(head, journal.read_entries_at(places)))
+    write_pieces_atomically(
+        path, _text_pieces(head, journal.read_entries_at(places), seal), private=True
+    )
     return len(places)
 
 
@@ -121,7 +123,7 @@ def _text_pieces(head: Mapping[str, str], entries: Iterable[Entry], seal: str) -
 
 
 class Journal:
-    """What is known of the logs that are finished, until the key is written.
+    """A journal of finished logs, from which the key is written at the end.
 
     Args:
         key: where the key will be.
@@ -146,7 +148,7 @@ class Journal:
             return ()
         return tuple(entry for line in lines if (entry := self._entry(line)) is not None)
 
-    def places(self) -> list[tuple[int, int]]:
+    def locate_entries(self) -> list[tuple[int, int]]:
         """Where in it each sealed line begins and how long it is, in the order of their files.
 
         Raises:
@@ -162,8 +164,8 @@ class Journal:
                 begin += len(line)
         return [(begin, length) for _, begin, length in sorted(found)]
 
-    def at(self, places: Iterable[tuple[int, int]]) -> Iterator[Entry]:
-        """The entries at some places, one after another.
+    def read_entries_at(self, places: Iterable[tuple[int, int]]) -> Iterator[Entry]:
+        """Read the entries at some places, one after another.
 
         Raises:
             OSError: it cannot be read, or was changed meanwhile.
@@ -185,7 +187,7 @@ class Journal:
         return entry
 
     def start(self, entries: Iterable[Entry]) -> None:
-        """Start with what is known already; what else was in it goes.
+        """Start the journal anew with entries that are known already.
 
         Raises:
             OSError: it cannot be written.
@@ -201,7 +203,7 @@ class Journal:
         self._stream = self.path.open("ab")
 
     def add(self, entry: Entry) -> None:
-        """Keep what is known of one more log.
+        """Append the entry of one more log.
 
         Raises:
             OSError: the disk is full, for example; then nothing of it stays.
@@ -224,7 +226,7 @@ class Journal:
                 self.remove()
 
     def remove(self) -> None:
-        """Remove it: everything in it stands in the key."""
+        """Remove the journal, whose entries are in the key by now."""
         with suppress(OSError):  # one that stays is passed over, or read again: both are right
             self.path.unlink()
 

@@ -82,18 +82,18 @@ class LogJob:
 
     @property
     def fingerprint(self) -> str:
-        """Another one means that the files would be others."""
+        """A digest of everything that its files depend on."""
         content: dict[str, Any] = asdict(self)
         del content["where"]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     def random_stream(self, *which: int) -> np.random.Generator:
-        """A source of chance of its own for each purpose: a new fault leaves the rest as it is."""
+        """An independent random generator for each purpose: a new fault changes nothing else."""
         return random_stream(self.seed, *which)
 
 
 def random_stream(seed: int, *which: int) -> np.random.Generator:
-    """One of the unrelated sources of chance that a seed gives."""
+    """One of the independent random generators of a seed."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
 
 

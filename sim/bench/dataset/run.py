@@ -18,7 +18,7 @@ Maker = Callable[[Sequence[LogJob]], Iterator[MadeLog | FailedLog]]
 
 @dataclass(frozen=True)
 class DatasetPlace:
-    """Where a dataset goes.
+    """The folder of a dataset, and the file of its key.
 
     Args:
         folder: for the files.
@@ -52,7 +52,7 @@ class DatasetPlace:
 def check_folder(
     place: DatasetPlace, jobs: Sequence[LogJob], *, secret: Secret, overwrite: bool
 ) -> FolderSurvey:
-    """What is there already, or a refusal if something else is.
+    """Survey the folder of a dataset; refuse if it holds anything else.
 
     Args:
         place: where the dataset goes.
@@ -92,7 +92,7 @@ def check_folder(
 
 
 def rehearse_jobs(jobs: Sequence[LogJob]) -> None:
-    """Make the fullest log of each kind and throw it away: what is impossible shows at once.
+    """Make one log of each kind with all its effects and faults, to find impossible specs early.
 
     Raises:
         BadRequest: one of them cannot be made.
@@ -116,7 +116,7 @@ def finish_dataset(
     overwrite: bool,
     say: Callable[[], None],
 ) -> None:
-    """Make what is left, and write the key.
+    """Make the logs that are missing, and write the key.
 
     Args:
         place: where the dataset goes.

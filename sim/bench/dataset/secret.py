@@ -26,7 +26,7 @@ SIZE = 32  # [bytes] of a new one
 
 @dataclass(frozen=True)
 class Secret:
-    """What everything is drawn from.
+    """The secret that random choices are drawn from and keys are sealed with.
 
     Args:
         value: the secret itself.
@@ -43,11 +43,11 @@ class Secret:
         return f"Secret(hidden={self.hidden}, new={self.new})"
 
     def derive_seed(self, *which: str | int) -> int:
-        """The number that one thing is drawn from."""
+        """The seed of one random choice."""
         return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
 
     def seal(self, content: bytes) -> str:
-        """A text that only the holder of the secret can find for this content."""
+        """The seal (HMAC) of a content, which only the holder of the secret can compute."""
         return self._code("seal", content).hex()
 
     def seal_pieces(self, pieces: Iterable[bytes]) -> str:

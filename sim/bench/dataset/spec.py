@@ -20,7 +20,7 @@ TOP = ("name", "seed", "secret", "students", "formats", "routine", "logs")
 
 @dataclass(frozen=True)
 class Spec:
-    """A dataset, as asked for.
+    """The specification of a dataset.
 
     Args:
         where: the file, as given.

@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, NoReturn, TypeVar
+from typing import TYPE_CHECKING, NoReturn
 
 from sim.core.errors import BadRequest
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     import numpy as np
 
 SHOWN = 40  # [characters] of a wrong value that a refusal repeats
-Kind = TypeVar("Kind")
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ class NumberRange:
     most: float
 
     def draw(self, rng: "np.random.Generator") -> float:
-        """A number of the span."""
+        """Draw a number from the range."""
         return float(rng.uniform(self.least, self.most))
 
 
@@ -162,7 +161,7 @@ class TomlTable:
 
 
 def suggest_word(word: str, options: Sequence[str]) -> str:
-    """Advice for a word that is none of some: the one it is likely to mean, or all."""
+    """Advice for an unknown word: the option it probably means, or all options."""
     close = get_close_matches(word, options, n=1, cutoff=0.5)
     if close:
         return f"Did you mean {_shown(close[0])}?"

@@ -9,7 +9,7 @@ from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="arm",
-    summary="one NEO at 60:1 with 4 kg half a meter out, read in radians from level",
+    summary="one NEO at 60:1 with 4 kg half a meter out, angles in radians from level",
     type="arm",
     units="radians",
     motor=find_motor("neo"),

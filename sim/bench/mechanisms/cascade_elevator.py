@@ -18,7 +18,7 @@ WEIGHT, INERTIA = CARRIAGE + STAGE / 2.0, CARRIAGE + STAGE / 4.0  # [kg] in mete
 
 MECHANISM = Mechanism(
     name="cascade-elevator",
-    summary="two NEO at 8:1, a carriage of 12 kg on a stage of 8 kg at half its speed, in meters",
+    summary="two NEO at 8:1, a carriage of 12 kg, a lower stage of 8 kg at half its speed",
     type="elevator",
     units="meters",
     motor=find_motor("neo"),

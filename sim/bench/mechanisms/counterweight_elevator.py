@@ -15,7 +15,7 @@ WEIGHT, INERTIA = CARRIAGE - COUNTERWEIGHT, CARRIAGE + COUNTERWEIGHT  # [kg]
 
 MECHANISM = Mechanism(
     name="counterweight-elevator",
-    summary="two NEO at 5:1 on a drum of 22 mm, 15 kg against 6 kg, read in meters",
+    summary="two NEO at 5:1 on a drum of 22 mm, 15 kg and a counterweight of 6 kg",
     type="elevator",
     units="meters",
     motor=find_motor("neo"),

@@ -8,7 +8,7 @@ from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="drivetrain",
-    summary="four Kraken X60 on 4 inch wheels, 60 kg, read in meters",
+    summary="four Kraken X60 on 4 inch wheels, 60 kg, positions in meters",
     type="simple",
     units="meters",
     motor=find_motor("krakenX60"),

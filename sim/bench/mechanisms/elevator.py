@@ -9,7 +9,7 @@ from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="elevator",
-    summary="two NEO at 5:1 on a drum of 22 mm, 20 kg, read in meters",
+    summary="two NEO at 5:1 on a drum of 22 mm, 20 kg, positions in meters",
     type="elevator",
     units="meters",
     motor=find_motor("neo"),

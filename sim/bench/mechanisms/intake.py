@@ -13,7 +13,7 @@ TURN = 2.0 * math.pi  # [rad]
 
 MECHANISM = Mechanism(
     name="intake",
-    summary="one NEO Vortex at 3:1 on rollers of 0.0013 kg·m², read in rotations",
+    summary="one NEO Vortex at 3:1 on rollers of 0.0013 kg·m², positions in rotations",
     type="simple",
     units="rotations",
     motor=find_motor("neoVortex"),

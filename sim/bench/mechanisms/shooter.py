@@ -12,7 +12,7 @@ TURN = 2.0 * math.pi  # [rad]
 
 MECHANISM = Mechanism(
     name="shooter",
-    summary="two Kraken X60 on a flywheel of 0.006 kg·m², read in rotations",
+    summary="two Kraken X60 on a flywheel of 0.006 kg·m², positions in rotations",
     type="simple",
     units="rotations",
     motor=find_motor("krakenX60"),

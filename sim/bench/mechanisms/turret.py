@@ -8,7 +8,7 @@ from sim.physics.motors import find_motor
 
 MECHANISM = Mechanism(
     name="turret",
-    summary="one Kraken X44 at 45:1 on 0.8 kg·m², a turn between its stops, read in degrees",
+    summary="one Kraken X44 at 45:1 on 0.8 kg·m², a turn between its stops, positions in degrees",
     type="simple",
     units="degrees",
     motor=find_motor("krakenX44"),

@@ -10,11 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.against import check_against_physics, compare_directions_alone, read_motor_parts
 from sim.cli.fit.inertia import add_inertia, turning_options
-from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts
+from sim.cli.fit.parts import describe_kind, fit_parts, join_parts
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
-from sim.cli.options import FILE, as_json, read_parts, reading_options, velocity_options
+from sim.cli.fit.plausibility import (
+    check_against_physics,
+    compare_directions_alone,
+    read_motor_parts,
+)
+from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -31,7 +35,7 @@ LOOPS = ("velocity", "position")
 
 
 def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options that put the learner's own gains on trial."""
+    """The options for the user's own feedback gains, to be simulated, too."""
     options = (
         click.option("--own-kp", type=float, help="Try your own kP in simulation …"),
         click.option("--own-kd", type=float, help="… and your own kD (0 if left out) …"),
@@ -147,13 +151,13 @@ def fit(  # noqa: PLR0917 - click passes options by name
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
-    parts = read_parts(
-        files, units=units, type=type_, motor=motor, entries=entries, pick=pick,
-        velocity=None if ignore_velocity else velocity_scale,
-    )  # fmt: skip
-    log = joined_log(parts)
+    reader = PartReader(
+        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
+    )
+    parts = reader.read(files)
+    log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
-    pooled = fit_parts(parts, find, kind=kind_of_parts(parts, len(files)))
+    pooled = fit_parts(parts, find, kind=describe_kind(parts, len(files)))
     found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
@@ -186,7 +190,7 @@ class _FitOutput:
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:
-            self.show()
+            self.print_result()
         return NOT_RIGHT if any(doubt.grave for doubt in self.found.doubts) else DONE
 
     def to_json(self) -> dict[str, object]:
@@ -203,8 +207,8 @@ class _FitOutput:
         said |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
         return said | ({"parts": self.parts} if self.parts else {})
 
-    def show(self) -> None:
-        """Print it."""
+    def print_result(self) -> None:
+        """Print the fit on the terminal."""
         from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - only for people
 
         title = ", ".join(map(str, self.files))

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.parts import fit_parts, kind_of_parts
-from sim.cli.options import FILE, read_parts
+from sim.cli.fit.parts import describe_kind, fit_parts
+from sim.cli.options import FILE, PartReader
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ FINEST = 0.005  # [share] no scale tells a mass better
 
 @dataclass(frozen=True)
 class Turning:
-    """What is said about a robot that turns on the spot.
+    """The options about a robot that turns on the spot.
 
     Args:
         straight: log of the same robot going straight.
@@ -104,17 +104,9 @@ def find_inertia(
             where=log.source,
             advice="Name the MotorVoltage of a drive motor with --voltage.",
         )
-    parts = read_parts(
-        (turning.straight,),
-        units=None,
-        type="simple",
-        motor=None,
-        entries={},
-        velocity=1.0,
-        pick=None,
-    )
+    parts = PartReader(type="simple").read((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
-    gone = fit_parts(parts, find, kind=kind_of_parts(parts, 1)).found
+    gone = fit_parts(parts, find, kind=describe_kind(parts, 1)).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
     return moment_of_inertia(found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels)
 
@@ -135,7 +127,7 @@ def add_inertia(
 
 
 def describe_inertia(turned: "MomentOfInertia") -> str:
-    """The moment of inertia in a sentence, and what rotors and wheels have to do with it."""
+    """The moment of inertia in a sentence, with the share of rotors and wheels."""
     least, most = turned.without_rotors
     share = turned.error / turned.value
     error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"

@@ -25,7 +25,7 @@ SURELY = 3.0  # [standard errors] beyond which a difference is no accident of no
 SHOWN = 4  # [parts] whose gains a sentence lists; of more, the lowest and the highest
 
 
-def parts_of_files(logs: Sequence[tuple[Path, Parts]]) -> Parts:
+def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     """The parts of a robot that some files hold, in the order of the files.
 
     Args:
@@ -48,14 +48,14 @@ def parts_of_files(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     return joined
 
 
-def kind_of_parts(parts: Parts, files: int) -> str:
+def describe_kind(parts: Parts, files: int) -> str:
     """What the parts are: two sides, several motors, or several files."""
     if set(map(str.lower, parts)) == set(SIDES):
         return SIDE
     return FILE if files > 1 and len(parts) >= files else MOTOR
 
 
-def joined_log(parts: Parts) -> "Log":
+def join_parts(parts: Parts) -> "Log":
     """All runs of all parts as one log, to show; what several parts say is said once."""
     first, *others = parts.values()
     for log in others:
@@ -74,7 +74,7 @@ def _joined(first: "Log", other: "Log") -> "Log":
 
 @dataclass(frozen=True)
 class PooledParts:
-    """The answer of several parts.
+    """The pooled fit of several parts, and the fit of each.
 
     Args:
         found: the pooled fit, where the parts differ among its doubts.

@@ -1,4 +1,4 @@
-"""What the page is told of a log, as plain data: runs, faults, gains with their doubts.
+"""A log for the page, as plain data: runs, faults, gains with their doubts.
 
 Samples are in SI; gains and their unit are those of the log, with the factor between both.
 """
@@ -31,7 +31,7 @@ FEWEST = 4  # [samples] a shorter run is no test, and is not simulated
 
 
 def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> dict[str, Any]:
-    """Name, unit, type and runs of a log, and what was odd about it unless that is not wanted.
+    """Name, unit, type and runs of a log, with its doubts if wanted.
 
     Raises:
         Refusal: it cannot be read in this way.
@@ -142,12 +142,12 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
 
 
 def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
-    """What forward and reverse runs, each fitted alone, say against the fit.
+    """The gains of forward and reverse runs, each fitted alone, where they disagree with the fit.
 
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.cli.fit.against import compare_directions_alone  # noqa: PLC0415 - once it is needed
+    from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
 
     found = one.fit(reading).found
     doubted, notes = compare_directions_alone(found, one.log(reading), patient=False)

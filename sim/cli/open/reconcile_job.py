@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 from sim.core.errors import Refusal
 
 if TYPE_CHECKING:
-    from sim.cli.open.session import OpenLog, Reading
+    from collections.abc import Callable
+
+    from sim.core.log import Log
     from sim.reconcile import Story
 
 PLACES = 5  # where the base model disagrees most, that are told
@@ -17,12 +19,13 @@ class ReconcileJob:
     """One search, in a thread of its own.
 
     Args:
-        one: the log.
-        reading: how it is read.
+        read: reads the log.
+        name: of its file, as it is shown.
+        type: of the mechanism; None believes the file.
     """
 
-    def __init__(self, one: "OpenLog", reading: "Reading") -> None:
-        self._one, self._reading = one, reading
+    def __init__(self, read: "Callable[[], Log]", *, name: str, type: str | None) -> None:  # noqa: A002 - the field's own word
+        self._read, self._name, self._type = read, name, type
         self._words, self._share = "looking for damage", 0.0
         self._story: dict[str, Any] | None = None
         self._refusal: Refusal | None = None
@@ -44,17 +47,13 @@ class ReconcileJob:
             default_time_limit,
             inspect_damage,
         )
-        from sim.io import read  # noqa: PLC0415 - the same
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
 
         try:
-            one, reading = self._one, self._reading
-            log = read(
-                one.path, units=reading.units, type=reading.type, entries=dict(reading.entries)
-            )
+            log = self._read()
             story = reconcile(
                 log,
-                type=reading.type or log.type or "simple",
+                type=self._type or log.type or "simple",
                 damages={"log": inspect_damage(log)},
                 time_limit=default_time_limit(),
                 progress=self._note,
@@ -65,7 +64,7 @@ class ReconcileJob:
         except Exception as error:  # noqa: BLE001 - a mistake of ours must not leave the page waiting
             self._refusal = Refusal(
                 f"our mistake, not yours ({type(error).__name__}: {error})",
-                where=self._one.name,
+                where=self._name,
                 advice="Try sysid reconcile, which says more.",
             )
 

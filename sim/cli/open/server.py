@@ -70,13 +70,13 @@ class PageServer(ThreadingHTTPServer):
 
     @property
     def hosts(self) -> tuple[str, ...]:
-        """How a request of our own page names this server."""
+        """The values of the Host header that a request of our own page may have."""
         port = self.server_address[1]
         return (f"127.0.0.1:{port}", f"localhost:{port}")
 
     @property
     def address(self) -> str:
-        """What to open in a browser."""
+        """The address to open in a browser."""
         return f"http://{self.hosts[0]}/{self.word}/"
 
     def handle_error(self, request: object, client_address: object) -> None:

@@ -40,7 +40,7 @@ class Reading:
     entries: tuple[tuple[str, str], ...] = ()
 
     @property
-    def needs_slope(self) -> bool:
+    def differentiates_position(self) -> bool:
         """Whether a position was chosen and no velocity: its slope is the velocity."""
         chosen = dict(self.entries)
         return "position" in chosen and "velocity" not in chosen
@@ -93,15 +93,15 @@ class OpenLog:
         def read() -> "dict[str, Log]":
             if self.finished is not None and reading == Reading():
                 return dict(self.finished)
-            from sim.cli.options import read_parts  # noqa: PLC0415 - reads formats
+            from sim.cli.options import PartReader  # noqa: PLC0415 - reads formats
 
-            return dict(
-                read_parts(
-                    [self.path], units=reading.units, type=reading.type, motor=None,
-                    entries=dict(reading.entries),
-                    velocity=None if reading.needs_slope else 1.0, pick=None,
-                )
-            )  # fmt: skip
+            reader = PartReader(
+                reading.units,
+                reading.type,
+                entries=dict(reading.entries),
+                velocity=None if reading.differentiates_position else 1.0,
+            )
+            return dict(reader.read([self.path]))
 
         return self._once(("parts", reading), read)
 
@@ -111,9 +111,9 @@ class OpenLog:
         Raises:
             Refusal: as ``parts``.
         """
-        from sim.cli.fit.parts import joined_log  # noqa: PLC0415 - with the formats
+        from sim.cli.fit.parts import join_parts  # noqa: PLC0415 - with the formats
 
-        return self._once(("log", reading), lambda: joined_log(self.parts(reading)))
+        return self._once(("log", reading), lambda: join_parts(self.parts(reading)))
 
     def entries(self) -> "list[Entry]":
         """The entries of the file, for a person who chooses signals.
@@ -143,12 +143,12 @@ class OpenLog:
         """
 
         def find() -> "PooledParts":
-            from sim.cli.fit.parts import fit_parts, kind_of_parts  # noqa: PLC0415 - once needed
+            from sim.cli.fit.parts import describe_kind, fit_parts  # noqa: PLC0415 - once needed
             from sim.fit import fit  # noqa: PLC0415 - the same
 
             parts = self.parts(reading)
             return fit_parts(
-                parts, lambda log: fit(log, type=reading.type or ""), kind=kind_of_parts(parts, 1)
+                parts, lambda log: fit(log, type=reading.type or ""), kind=describe_kind(parts, 1)
             )
 
         return self._once(("fit", reading), find)
@@ -157,10 +157,19 @@ class OpenLog:
         """The search for missing effects, begun when it is first asked for."""
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
-        return self._once(("reconcile", reading), lambda: ReconcileJob(self, reading))
+        def read_file() -> "Log":
+            from sim.io import read  # noqa: PLC0415 - reads formats
+
+            entries = dict(reading.entries)
+            return read(self.path, units=reading.units, type=reading.type, entries=entries)
+
+        return self._once(
+            ("reconcile", reading),
+            lambda: ReconcileJob(read_file, name=self.name, type=reading.type),
+        )
 
     def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:
-        """Take the tests that have ended by now; what was computed of fewer is forgotten."""
+        """Replace the finished tests; results computed from fewer tests are dropped."""
         self.finished, self.path, self.revision = finished, path, self.revision + 1
         self._kept = {}
 
@@ -253,7 +262,7 @@ class Session:
         return plain, folder / plain
 
     def find(self, number: int) -> OpenLog:
-        """An open log.
+        """Look up an open log by its number.
 
         Raises:
             BadRequest: it is not open.
@@ -306,12 +315,12 @@ class Session:
             import sim.physics.engine  # noqa: F401, PLC0415 - the same
 
     def import_everything(self) -> None:
-        """Import what requests need, as ``import_reading``."""
+        """Import all that requests need, once and in one thread."""
         self.import_reading()
         with self._imports:
             import sim.bench.mechanisms  # noqa: PLC0415 - as above
             import sim.bench.simulate  # noqa: PLC0415 - the same
-            import sim.cli.fit.against  # noqa: PLC0415 - the same
+            import sim.cli.fit.plausibility  # noqa: PLC0415 - the same
             import sim.cli.open.reconcile_job  # noqa: PLC0415 - the same
             import sim.cli.reconcile  # noqa: PLC0415 - the same
             import sim.fit.physics  # noqa: PLC0415 - the same

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class SpanText:
-    """How the spans that a person marks are written, to be pasted.
+    """The text format of marked time spans, for pasting into an answer.
 
     Texts in braces are replaced: ``{log}`` the file without its suffix, ``{test}``, ``{key}`` the
     test with ``_`` for ``-``, ``{begin}`` and ``{end}`` in seconds since the test began.

@@ -7,15 +7,14 @@ import threading
 import time
 from contextlib import ExitStack, suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.fit.against import check_against_physics, compare_directions_alone
+from sim.cli.fit.plausibility import check_against_physics, compare_directions_alone
 from sim.cli.open import open_browser, page_options
-from sim.cli.options import FILE, as_json, read_file_parts, reading_options, velocity_options
+from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
 from sim.core.vocabulary import FOUR_TESTS
 from sim.feedback import PRESETS
 from sim.support.command_line import DONE
@@ -73,13 +72,12 @@ def watch(
         raise click.UsageError("--save keeps what NetworkTables sends, so it needs --nt.")
     from sim.cli.watch.live_fit import LiveFit  # noqa: PLC0415 - --help must not wait for it
 
-    read = partial(
-        read_file_parts, units=units, type=type_, motor=motor, entries=entries,
-        velocity=None if ignore_velocity else velocity_scale, pick=pick,
-    )  # fmt: skip
+    reader = PartReader(
+        units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
+    )
     with ExitStack() as ends:
         source = _open_source(place, nt=nt, save=save, state=entries["state"], ends=ends)
-        live = LiveFit(source, read, type=type_ or "")
+        live = LiveFit(source, reader.read_file, type=type_ or "")
         session = _open_page(port, ends=ends, no_browser=no_browser) if page else None
         if not as_json:
             click.echo(f"Run {', '.join(FOUR_TESTS)}, in any order.\nCtrl-C here ends it.")
@@ -152,7 +150,7 @@ def _follow(live: "LiveFit", session: "Session | None", *, as_json: bool) -> Non
     """Look again and again; only an exception ends it."""
     status = ""
     while True:
-        update = live.look()
+        update = live.poll()
         if update is not None:
             show = _show_json if as_json else _show_update
             show(update)
@@ -171,7 +169,7 @@ def _renew_page(session: "Session", live: "LiveFit") -> None:
     """Show on the page what has ended since, and what to do next."""
     from sim.cli.open.session import LiveView  # noqa: PLC0415 - only with --page
 
-    for one in live.take_renewed():
+    for one in live.take_changed():
         session.renew(one, one.path, one.logs)
     update = live.last
     log = None if update is None else update.log

@@ -6,8 +6,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sim.cli.fit.parts import fit_parts, joined_log, kind_of_parts, parts_of_files
-from sim.cli.watch.recordings import Recording, Source, split_finished
+from sim.cli.fit.parts import describe_kind, fit_parts, join_parts, list_parts
+from sim.cli.watch.recordings import Recording, Source, split_finished_tests
 from sim.core.errors import Refusal
 from sim.core.log import Log
 
@@ -21,7 +21,7 @@ Reader = Callable[[Path], Mapping[str, Log]]
 
 @dataclass(frozen=True, eq=False)
 class WatchUpdate:
-    """What is known after a test.
+    """The results after a test: logs, fit and advice.
 
     Args:
         tests: those that have ended since the last update, in their order.
@@ -42,7 +42,7 @@ class WatchUpdate:
     @property
     def log(self) -> Log | None:
         """All runs of all parts."""
-        return joined_log(self.parts) if self.parts else None
+        return join_parts(self.parts) if self.parts else None
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid watch --json`` prints it."""
@@ -79,19 +79,19 @@ class LiveFit:
         self._read, self._type = read, type
         self._renewed: dict[Recording, None] = {}
 
-    def take_renewed(self) -> tuple[Recording, ...]:
+    def take_changed(self) -> tuple[Recording, ...]:
         """The recordings whose logs were read anew since this was last asked."""
         renewed = tuple(self._renewed)
         self._renewed.clear()
         return renewed
 
-    def look(self) -> WatchUpdate | None:
-        """What is new since the last look; None if no test has ended.
+    def poll(self) -> WatchUpdate | None:
+        """The update since the last call; None if no test has ended.
 
         Raises:
             Refusal: what is followed is no log, or several entries name the same tests.
         """
-        recordings = tuple(self.source.look())
+        recordings = tuple(self.source.poll())
         refusals: list[Refusal] = []
         ended = [test for one in recordings for test in self._follow(one, refusals)]
         if not ended:
@@ -105,7 +105,7 @@ class LiveFit:
             tests = one.growing.list_tests()
         except FileNotFoundError:  # it is being renamed, or was removed
             return []
-        finished, running = split_finished(tests)
+        finished, running = split_finished_tests(tests)
         new = [interval.test for interval in finished if interval not in one.finished]
         if new:
             one.finished = finished
@@ -128,12 +128,12 @@ class LiveFit:
         paths = tuple(path for path, _ in files)
         if not files:
             return WatchUpdate(ended, {}, None, refusals[0], refusals[0].advice, paths)
-        parts = parts_of_files(files)
+        parts = list_parts(files)
         pooled, refusal, found = None, None, None
         try:
-            log = joined_log(parts)
+            log = join_parts(parts)
             pooled = fit_parts(
-                parts, partial(fit, type=self._type), kind=kind_of_parts(parts, len(files))
+                parts, partial(fit, type=self._type), kind=describe_kind(parts, len(files))
             )
             found = pooled.found
             pooled = replace(pooled, found=found.in_log_units())

@@ -59,13 +59,13 @@ class NetworkTablesSource:
 
     @property
     def status(self) -> str:
-        """What it waits for or follows."""
+        """The status: what it waits for or follows."""
         if self._connected:
             return f"following NetworkTables of {self._address}"
         again = " again" if self._recordings else ""
         return f"waiting for NetworkTables of {self._address}{again}"
 
-    def look(self) -> Sequence[Recording]:
+    def poll(self) -> Sequence[Recording]:
         """All recordings so far, with what has arrived since the last look."""
         flags, lost = self._ntcore.EventFlags, False
         for event in self._client.poller.readQueue():
@@ -87,7 +87,7 @@ class NetworkTablesSource:
         return self._recordings
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the connection."""
         self._end_recording()
         self._client.close()
 
@@ -141,7 +141,7 @@ class _Client:
             self._instance.setServer(host, port)
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the connection."""
         self._instance.stopClient()
         self.poller.close()
         self._subscriber.close()

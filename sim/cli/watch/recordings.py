@@ -40,12 +40,12 @@ class Recording:
 class Source(Protocol):
     """Where recordings come from."""
 
-    def look(self) -> Sequence[Recording]:
+    def poll(self) -> Sequence[Recording]:
         """All recordings so far, the last of which may still grow."""
 
     @property
     def status(self) -> str:
-        """What it waits for or follows, in a few words."""
+        """The status in a few words: what it waits for or follows."""
 
     def close(self) -> None:
         """Stop following."""
@@ -89,7 +89,7 @@ class FileSource:
             return f"following {self._recordings[-1].path}"
         return f"waiting for a log that grows in the folder {self.place}"
 
-    def look(self) -> Sequence[Recording]:
+    def poll(self) -> Sequence[Recording]:
         """All recordings so far."""
         for path, key, size in self._list():
             if key in self._known:
@@ -137,7 +137,7 @@ def _identify(path: Path) -> tuple[int, int]:
     return told.st_dev, told.st_ino
 
 
-def split_finished(
+def split_finished_tests(
     tests: Sequence[RunInterval],
 ) -> tuple[tuple[RunInterval, ...], float]:
     """The tests that have ended, and when the one that runs began [s]; infinite if none runs."""

@@ -39,7 +39,7 @@ MISTAKEN = (
 
 @dataclass(frozen=True)
 class MomentOfInertia:
-    """What two tests tell about how hard a robot is to turn.
+    """The moment of inertia of a robot, with its error and the lever arm that was used.
 
     Args:
         value: [kg·m²] J = m·R·kA'/kA, rotors and wheels included.

@@ -27,7 +27,7 @@ class _Line:
 
 
 def check_directions(features: LogFeatures) -> list[Doubt]:
-    """Forward and reverse ramps that need different voltages for the same speed."""
+    """Doubts about forward and reverse ramps that need different voltages for one speed."""
     forward, reverse = (_line(features, way) for way in DIRECTIONS)
     if forward is None or reverse is None:
         return []

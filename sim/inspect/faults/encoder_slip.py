@@ -46,7 +46,7 @@ AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the sensor read too little, or hop, for a moment."""
+    """Reduce or shift the sensor's readings for a moment."""
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
     left = float(run.time[-1]) - start
@@ -136,7 +136,7 @@ def _loss(
         shape[first:last] *= np.hanning(last - first + 2)[1:-1]
     size = float(shape @ shape)
     loss = -float(shape @ anomaly.residual) / size if size > 0.0 else 0.0
-    return (anomaly.explained_share(-loss * shape), loss, first, last)
+    return (anomaly.share_explained_by(-loss * shape), loss, first, last)
 
 
 FAULT = Fault(

@@ -45,7 +45,9 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare the signs of voltage, velocity and the slope of position in every run."""
     for index, run in enumerate(features.log.runs):
-        if features.copied[index]:  # a velocity that is a position has no sign of its own
+        if features.position_copy_factors[
+            index
+        ]:  # a velocity that is a position has no sign of its own
             continue
         slope, moving = features.position_slopes[index], features.moving[index]
         against_slope = _against(run.velocity, slope, moving & _hard(slope))

@@ -64,7 +64,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for index, (run, ratio) in enumerate(
         zip(features.log.runs, features.distance_ratios, strict=True)
     ):
-        times = features.copied[index]
+        times = features.position_copy_factors[index]
         said = _named(ratio) if _named(usual) else ""
         if times:
             yield Damage(

@@ -44,7 +44,7 @@ CALLS = {
 
 @dataclass(frozen=True, eq=False)
 class MotorEntries:
-    """What was recorded of one motor.
+    """The entries of one motor's signals.
 
     Args:
         name: as in its entries; empty if they were named one by one.

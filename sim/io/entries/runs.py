@@ -36,7 +36,7 @@ Signals: TypeAlias = Mapping[str, Sequence[Series]]  # signal -> its series, mot
 
 @dataclass(frozen=True)
 class CutRuns:
-    """What the tests of a mechanism come to.
+    """The runs cut from a mechanism's signals, with doubts about them.
 
     Args:
         runs: in the order they were recorded.

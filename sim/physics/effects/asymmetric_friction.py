@@ -16,23 +16,23 @@ EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of 
 
 
 def coulomb_friction(way: float, lean: float) -> float:
-    """[V] beyond kS."""
+    """[V] dry friction beyond kS."""
     return lean * way
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Two thirds of kS, for size 1."""
+    """Parameters of size 1: two thirds of kS."""
     return {"lean": 0.67 * scale.ks * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The mean of what is missing: more forward, less in reverse."""
+    """Start values: the mean of what is missing: more forward, less in reverse."""
     (lean,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"lean": float(lean)}
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """No gear and no bearing runs alike both ways."""
+    """Whether any robot has as much: no gear and no bearing runs alike both ways."""
     return abs(values["lean"]) <= EVERYDAY
 
 

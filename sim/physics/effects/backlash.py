@@ -16,22 +16,22 @@ LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom fin
 
 
 def backlash_gap(slack: float) -> float:
-    """[unit] from tooth to tooth."""
+    """[unit] free play, from tooth to tooth."""
     return slack
 
 
 def motor_inertia_share(share: float) -> float:
-    """[1] of the inertia on the motor's side."""
+    """[1] share of the inertia on the motor's side."""
     return share
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """The way of 10 ms at the speed of a step, a quarter of the inertia before it, for size 1."""
+    """Parameters of size 1: 10 ms at the speed of a step, a quarter of the inertia before it."""
     return {"slack": 0.01 * scale.speed * size, "share": 0.25}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Ways of some milliseconds at the top speed; how heavy the motor is shows beside all of kA."""
+    """Start values: some milliseconds at top speed, with several shares of kA in the motor."""
     for share in (LIGHT, HEAVY):
         for moment in MOMENTS:
             yield {"slack": moment * max(seen.top_speed, 1e-6), "share": share}

@@ -18,19 +18,19 @@ NOMINAL = 12.0  # [V] that a duty cycle of one stands for
 
 
 def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
-    """[V] at the motor."""
+    """[V] voltage at the motor, when ``u`` is asked for."""
     duty = min(abs(u) / NOMINAL, 1.0)
     emf = kv * v
     return emf + (u - emf) / (1.0 + share * duty * duty)
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """Four Kraken X60 on 20 milliohms, for size 1."""
+    """Parameters of size 1: Four Kraken X60 on 20 milliohms."""
     return {"share": 2.4 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """What is missing where much current flows, and two sizes to try besides."""
+    """Start values: what is missing where much current flows, and two sizes to try besides."""
     duty = np.minimum(np.abs(seen.voltage) / NOMINAL, 1.0)
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     (share,) = seen.fit_columns(torque * duty**2)
@@ -40,7 +40,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """What a good battery and good plugs make of it."""
+    """Whether any robot has as much: what a good battery and good plugs make of it."""
     return values["share"] <= EVERYDAY
 
 

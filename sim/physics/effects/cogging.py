@@ -21,17 +21,17 @@ SHOWN = 3  # peaks of the spectrum that are worth a start
 
 
 def force(x: float, cosine: float, sine: float, turns: float) -> float:
-    """[V] toward negative positions."""
+    """[V] force toward negative positions."""
     return cosine * math.cos(turns * x) + sine * math.sin(turns * x)
 
 
 def stored_energy(x: float, cosine: float, sine: float, turns: float) -> float:
-    """[V·unit] held at a place."""
+    """[V·unit] energy held at a place."""
     return (cosine * math.sin(turns * x) - sine * math.cos(turns * x)) / turns
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """A fifth of a volt, twelve times along the travel, for size 1."""
+    """Parameters of size 1: a fifth of a volt, twelve times along the travel."""
     turns = 2.0 * math.pi * 12.0 / scale.reach
     return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
 
@@ -42,12 +42,12 @@ def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> flo
 
 
 def shortest_length(values: Mapping[str, float]) -> float:
-    """[unit] a period over 2π."""
+    """[unit] one period over 2π, which steps must resolve."""
     return 1.0 / max(values["turns"], 1e-9)
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The strongest lines in the spectrum of what is missing over position.
+    """Start values: the strongest lines in the spectrum of what is missing over position.
 
     What comes back less than four times is not seen to come back: a bump, or a brake along a part
     of the way, has one wave or two.
@@ -57,7 +57,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         return
     tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
     some = slice(None, None, max(seen.position.size // ENOUGH, 1))
-    few = seen.thin(some)
+    few = seen.select_samples(some)
     turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # by which each wave is ahead
     waves = np.repeat(turned[:, None], tried.size, axis=1)
     waves[:, 0] = np.exp(1j * tried[0] * few.position)
@@ -75,7 +75,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """The ripple that teeth and magnets leave in any mechanism."""
+    """Whether any robot has as much: the ripple that teeth and magnets leave in any mechanism."""
     return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
 
 

@@ -19,23 +19,23 @@ LIGHT, HALF = 0.15, 0.5  # [1] shares of the motor: a search from one seldom fin
 
 
 def joint_compliance(softness: float) -> float:
-    """[unit/V] that it gives."""
+    """[unit/V] compliance of the joint between motor and load."""
     return softness
 
 
 def motor_inertia_share(share: float) -> float:
-    """[1] of the inertia on the motor's side."""
+    """[1] share of the inertia on the motor's side."""
     return share
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """The load swings at 5 Hz on a motor that is held, for size 1; slower for more."""
+    """Parameters of size 1: the load swings at 5 Hz on a motor that is held; slower for more."""
     stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
     return {"softness": size / stiff, "share": 0.3}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Swings of every pace that a log can show, of a light motor and of half the inertia."""
+    """Start values: frequencies that a log can show, for a light motor and half the inertia."""
     for share in (LIGHT, HALF):
         reduced = share * (1.0 - share) * abs(seen.gains["kA"])
         for number in range(TRIED):

@@ -16,28 +16,28 @@ EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of 
 
 
 def force(load: float) -> float:
-    """[V] toward negative positions."""
+    """[V] force toward negative positions."""
     return load
 
 
 def stored_energy(x: float, load: float) -> float:
-    """[V·unit] of lifting it."""
+    """[V·unit] energy of lifting it."""
     return load * x
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """An eighth of the step, for size 1."""
+    """Parameters of size 1: an eighth of the step."""
     return {"load": 0.125 * scale.step * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The mean of what is missing."""
+    """Start values: the mean of what is missing."""
     (load,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"load": float(load)}
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """No floor is level, and no gear runs alike both ways."""
+    """Whether any robot has as much: no floor is level, and no gear runs alike both ways."""
     return abs(values["load"]) <= EVERYDAY
 
 

@@ -14,18 +14,18 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def transform_voltage(u: float, v: float, kv: float, limit: float) -> float:
-    """[V] at the motor."""
+    """[V] voltage at the motor, when ``u`` is asked for."""
     emf = kv * v
     return emf + min(max(u - emf, -limit), limit)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Just over half of the step, for size 1."""
+    """Parameters of size 1: just over half of the step."""
     return {"limit": max(0.55 * scale.step / size, 1.2 * scale.ks)}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The torque volts that the acceleration shows at most, and shares of the largest."""
+    """Start values: the largest torque voltage of the acceleration, and shares of it."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     most = float(np.max(np.abs(torque), initial=0.0))
     had = np.abs(torque - seen.missing)

@@ -16,17 +16,17 @@ STARTED = 0.02  # [share of the top speed] at which a run has begun to move
 
 
 def transform_voltage(u: float, band: float) -> float:
-    """[V] at the motor."""
+    """[V] voltage at the motor, when ``u`` is asked for."""
     return u if abs(u) >= band else 0.0
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """A third of a volt beyond what friction holds anyway, for size 1."""
+    """Parameters of size 1: a third of a volt beyond what friction holds anyway."""
     return {"band": scale.ks + 0.33 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The voltages at which the ramps began to move: it acts by a threshold, so a grid is due.
+    """Start values: shares of the voltages at which the ramps began to move (it is a threshold).
 
     What a load draws along moves before any voltage does, until a ramp turns it.
     """

@@ -21,12 +21,12 @@ def command_delay(lag: float) -> float:
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """A loop and a half of the robot program, for size 1."""
+    """Parameters of size 1: a loop and a half of the robot program."""
     return {"lag": 0.03 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """A late command looks like missing volts where the voltage changes; and a few to try."""
+    """Start values: how late steps begin to move, and a few more."""
     steps = []
     for run in seen.log.runs:
         moving = np.abs(run.velocity) > 0.05 * seen.top_speed
@@ -40,7 +40,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """What a CAN bus and a loop of 200 Hz make of it anyway."""
+    """Whether any robot has as much: what a CAN bus and a loop of 200 Hz make of it anyway."""
     return values["lag"] <= EVERYDAY
 
 

@@ -2,7 +2,10 @@
 
     V = ... + drag·v·|v|
 
-Nothing near v = 0, more than its share at full speed: the voltage-velocity line bends upward.
+Nothing near v = 0, more than its share at full speed: the voltage-velocity line bends upward. Thick
+grease is another thing: viscous friction is linear in speed, so it is a part of kV, and the dry
+friction of a belt or bearing is a part of kS. WPILib's docs describe both gains so:
+https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst
 """
 
 from collections.abc import Iterator, Mapping
@@ -12,17 +15,17 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def force(v: float, drag: float) -> float:
-    """[V] against the motion."""
+    """[V] force against the motion."""
     return drag * v * abs(v)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Half a volt at the speed of an ordinary step, for size 1."""
+    """Parameters of size 1: half a volt at the speed of an ordinary step."""
     return {"drag": 0.5 * size / scale.speed**2}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The share of v·|v| in what is missing."""
+    """Start values: the share of v·|v| in what is missing."""
     (drag,) = seen.fit_columns(seen.velocity * abs(seen.velocity))
     yield {"drag": max(float(drag), 0.05 / max(seen.top_speed, 1e-9) ** 2)}
 

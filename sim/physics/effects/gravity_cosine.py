@@ -15,27 +15,27 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def force(x: float, level: float, upright: float) -> float:
-    """[V] toward negative angles."""
+    """[V] force toward negative angles."""
     return level * math.cos(x) + upright * math.sin(x)
 
 
 def stored_energy(x: float, level: float, upright: float) -> float:
-    """[V·rad] of lifting it."""
+    """[V·rad] energy of lifting it."""
     return level * math.sin(x) - upright * math.cos(x)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """A seventh of the step when level, with the zero a little off, for size 1."""
+    """Parameters of size 1: a seventh of the step when level, with the zero a little off."""
     return {"level": 0.14 * scale.step * size, "upright": 0.04 * scale.step * size}
 
 
 def require_angle(scale: Scale) -> str:
-    """Positions in meters have no cosine."""
+    """Why the effect cannot be added: positions in meters have no cosine; else empty."""
     return "" if scale.angular else "its positions are lengths, not angles"
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The shares of cos x and sin x in what is missing."""
+    """Start values: the shares of cos x and sin x in what is missing."""
     if not seen.position.size:
         return
     level, upright = seen.fit_columns(np.cos(seen.position), np.sin(seen.position))
@@ -43,7 +43,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
-    """A straight line over position, as steep as the cosine in the middle of the way."""
+    """Parameters of the spring that is as steep as the cosine in the middle of the travel."""
     middle = float(np.median(seen.position)) if seen.position.size else 0.0
     pull_there = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)
     rate = values["upright"] * math.cos(middle) - values["level"] * math.sin(middle)

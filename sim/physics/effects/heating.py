@@ -31,12 +31,12 @@ def update_memory(memory: float, dt: float, u: float, v: float, kv: float, rate:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """A tenth more resistance after ten seconds under a quarter of the step, for size 1."""
+    """Parameters of size 1: 10 % more resistance after 10 s under a quarter of the step."""
     return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """How much missing volts go with the heat made so far."""
+    """Start values: the regression of the missing volts on the heat made so far."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     steps = np.diff(seen.clock, prepend=seen.clock[:1])
     heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)

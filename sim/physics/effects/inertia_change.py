@@ -28,12 +28,12 @@ ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviati
 
 
 def added_inertia(clock: float, extra: float, onset: float, until: float) -> float:
-    """[V·s²/unit] beyond kA."""
+    """[V·s²/unit] inertia beyond kA."""
     return extra if onset <= clock < until else 0.0
 
 
 def impact(shared: float) -> float:
-    """[1] of the momentum that what joins takes."""
+    """[1] share of the momentum that inertia takes when it joins."""
     return shared
 
 
@@ -45,14 +45,14 @@ def next_change(clock: float, onset: float, until: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Half as much again, from about the first dynamic test of a routine on, for size 1."""
+    """Parameters of size 1: half of kA more, from about the first dynamic test on."""
     ramps = 2.0 * min(10.0, math.sqrt(2.0 * scale.reach * scale.kv / RAMP)) + 2.0
     onset = ramps + 0.3 * scale.reach / scale.speed
     return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The moments at which most changes: in each run to its end, and in the log for good.
+    """Start values: the moments of the largest change, in each run and in the whole log.
 
     Before them, those at which velocity drops from one sample to the next: what joins at rest.
     """

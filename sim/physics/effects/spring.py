@@ -14,27 +14,27 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def force(x: float, rate: float, preload: float) -> float:
-    """[V] toward negative positions."""
+    """[V] force toward negative positions."""
     return rate * x + preload
 
 
 def stored_energy(x: float, rate: float, preload: float) -> float:
-    """[V·unit] in the spring."""
+    """[V·unit] energy in the spring."""
     return 0.5 * rate * x * x + preload * x
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Half a volt from one end to the other, nothing in the middle, for size 1."""
+    """Parameters of size 1: half a volt from one end to the other, nothing in the middle."""
     return {"rate": 0.5 * size / scale.reach, "preload": -0.25 * size}
 
 
 def require_travel_limits(scale: Scale) -> str:
-    """Without end no spring lasts."""
+    """Why the effect cannot be added: without ends of the travel no spring lasts; else empty."""
     return "" if scale.bounded else "it turns without end, and a spring does not"
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """A straight line through what is missing, over position."""
+    """Start values: a straight line through what is missing, over position."""
     if not seen.position.size or seen.is_unbounded:
         return
     rate, preload = seen.fit_columns(seen.position, np.ones_like(seen.position))
@@ -43,7 +43,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
-    """The same pull everywhere: that in the middle."""
+    """Parameters of the constant load that pulls as the spring does in the middle of the travel."""
     middle = float(np.median(seen.position)) if seen.position.size else 0.0
     return {"load": values["rate"] * middle + values["preload"]}
 

@@ -17,12 +17,12 @@ EVERYDAY = 0.06  # [V]
 
 
 def coulomb_friction(v: float, extra: float, slow: float) -> float:
-    """[V] beyond kS."""
+    """[V] dry friction beyond kS."""
     return extra * math.exp(-abs(v) / slow)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """A quarter of a volt to break away, gone at a tenth of the step's speed, for size 1."""
+    """Parameters of size 1: 0.25 V to break away, gone at a tenth of the step's speed."""
     return {"extra": 0.25 * size, "slow": 0.08 * scale.speed}
 
 
@@ -32,7 +32,7 @@ def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> flo
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The best of a few speeds over which it may fade."""
+    """Start values: the best of a few speeds over which it may fade."""
     for part in (0.06, 0.02, 0.2):
         slow = max(part * seen.top_speed, 1e-6)
         (extra,) = seen.fit_columns(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
@@ -40,7 +40,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """Every gearbox starts a little harder than it runs."""
+    """Whether any robot has as much: every gearbox starts a little harder than it runs."""
     return values["extra"] <= EVERYDAY
 
 

@@ -18,7 +18,7 @@ from sim.physics.voltage_residual import VoltageResidual
 def transform_velocity(
     seen: float, now: int, time: Array, position: Array, velocity: Array, window: float
 ) -> float:
-    """[unit/s] that the sensor reports."""
+    """[unit/s] velocity that the sensor reports instead of ``seen``."""
     began = time[now] - window
     if now == 0 or window <= 0.0:
         return seen
@@ -39,12 +39,12 @@ def transform_velocity(
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """A lag of 40 ms, for size 1."""
+    """Parameters of size 1: a lag of 40 ms."""
     return {"window": 0.08 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """How long the velocity runs behind the slope of the position, and three sizes to try."""
+    """Start values: the lag of velocity behind the slope of position, and three more."""
     lags = []
     for run in seen.log.runs:
         if len(run) < 8:  # noqa: PLR2004 - too short to compare

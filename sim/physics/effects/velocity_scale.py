@@ -14,17 +14,17 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def transform_velocity(seen: float, scale: float) -> float:
-    """[unit/s] that the sensor reports."""
+    """[unit/s] velocity that the sensor reports instead of ``seen``."""
     return scale * seen
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """A tenth too fast, for size 1."""
+    """Parameters of size 1: a tenth too fast."""
     return {"scale": 1.0 + 0.1 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The velocity over the slope of the position."""
+    """Start values: the velocity over the slope of the position."""
     way = time = 0.0
     for run in seen.log.runs:
         gone = float(np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.time)))

@@ -15,17 +15,17 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def transform_voltage(u: float, limit: float) -> float:
-    """[V] at the motor."""
+    """[V] voltage at the motor, when ``u`` is asked for."""
     return min(max(u, -limit), limit)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Four fifths of the step, for size 1."""
+    """Parameters of size 1: four fifths of the step."""
     return {"limit": max(scale.step * (1.0 - 0.2 * size), 2.0 * scale.ks)}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The voltage that the motion shows at most, and shares of the largest asked for."""
+    """Start values: the largest voltage that the motion shows, and shares of the command's."""
     had = np.abs(seen.voltage - seen.missing)
     most = float(np.max(np.abs(seen.voltage), initial=0.0))
     if had.size:

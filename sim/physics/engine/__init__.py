@@ -78,7 +78,7 @@ NO_CORRECTION: Array = np.zeros((2, 2))
 
 @dataclass(eq=False)
 class State:
-    """Where a mechanism stands; goes on from one run to the next.
+    """The state of a mechanism, which carries over from one run to the next.
 
     Args:
         body: (5,) position and velocity of the motor, then of the load, and the end of a cut.
@@ -92,7 +92,12 @@ class State:
 
     @classmethod
     def cold_at(cls, position: float, velocity: float = 0.0) -> "State":
-        """A cold mechanism at a place [m or rad] and a velocity [m/s or rad/s]."""
+        """The state of a cold mechanism.
+
+        Args:
+            position: [m or rad].
+            velocity: [m/s or rad/s].
+        """
         return cls(np.array([position, velocity, position, velocity, 0.0]))
 
 
@@ -155,7 +160,7 @@ def simulate_run(
     trust: Array = NO_CORRECTION,
     slide: Array | None = None,
 ) -> Track:
-    """Move a model along a voltage.
+    """Simulate a model under a voltage.
 
     Args:
         model: what moves.
@@ -211,7 +216,7 @@ def filter_runs(
     friction_offset: Array,
     lag_offset: Array,
 ) -> Array:
-    """Move a model along many runs, quickly: what a search does some hundred times a second.
+    """Predict all runs of a batch with a model and its Kalman gain, in one call of the engine.
 
     Steps are as coarse as a search can bear (``SEARCHED``): a tenth of a percent does not decide
     between two effects.

@@ -18,14 +18,22 @@ import numpy as np
 
 from sim.core.errors import BadRequest
 from sim.physics.effect import Effect
-from sim.physics.engine import ieee_math, one_body, power_path, stepping, two_bodies, two_body_modes
+from sim.physics.engine import (
+    ieee_math,
+    one_body,
+    power_path,
+    slipping_wheels,
+    stepping,
+    two_bodies,
+    two_body_modes,
+)
 from sim.physics.engine.two_body_modes import WAYS
 from sim.support.work.cache import cache_folder
 
 if TYPE_CHECKING:
     from sim.physics.engine.kernel import Kernel
 
-MODULES = (power_path, two_body_modes, one_body, two_bodies, stepping)
+MODULES = (power_path, two_body_modes, one_body, two_bodies, slipping_wheels, stepping)
 CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
@@ -40,6 +48,7 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "backlash_gap": ("on, p", "0.0", "{0} + {1}"),
     "joint_compliance": ("on, p", "0.0", "{0} + {1}"),
     "motor_inertia_share": ("on, p", "0.0", "max({0}, {1})"),
+    "grip_limit": ("on, p", "math.inf", "min({0}, {1})"),
     "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
 SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects remember

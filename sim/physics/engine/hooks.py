@@ -25,12 +25,12 @@ def command_delay(on: Numbers, p: Numbers) -> float:
 def transform_voltage(
     on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float
 ) -> float:
-    """[V] that gets through to the motor."""
+    """[V] voltage at the motor, after all path effects."""
     return u
 
 
 def force(on: Numbers, p: Numbers, x: float, v: float) -> float:
-    """[V] that terms take from the motor's."""
+    """[V] sum of the forces of all effects."""
     return 0.0
 
 
@@ -69,6 +69,11 @@ def motor_inertia_share(on: Numbers, p: Numbers) -> float:
     return 0.0
 
 
+def grip_limit(on: Numbers, p: Numbers) -> float:
+    """[V] of push that the floor passes on from the wheels to the robot."""
+    return math.inf
+
+
 def update_memory(
     on: Numbers, p: Numbers, memory: Array, dt: float, u: float, v: float, kv: float
 ) -> None:
@@ -78,5 +83,5 @@ def update_memory(
 def transform_velocity(
     on: Numbers, p: Numbers, now: int, time: Array, position: Array, velocity: Array
 ) -> float:
-    """[unit/s] that the sensor says at sample ``now``."""
+    """[unit/s] velocity that the sensor reports at sample ``now``."""
     return float(velocity[now])

@@ -190,7 +190,7 @@ def _forget_old(where: Path) -> None:
 
 
 def try_kernel_file(kept: Path) -> None:
-    """Load and call what was kept, for no run at all: it works, or the process ends."""
+    """Test a cached kernel by calling it with no runs; a broken one ends the process."""
     code = ObjectCode.from_bytes(kept.read_bytes())
     found = link_code(code) if code is not None else None
     if found is None:

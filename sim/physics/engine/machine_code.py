@@ -33,13 +33,13 @@ class ObjectCode:
     content: bytes
 
     def to_bytes(self) -> bytes:
-        """All of it, for a file."""
+        """Serialize the object code for a file."""
         head = {"symbol": self.symbol, "needs": self.needs, "sha256": _seal(self.content)}
         return json.dumps(head).encode() + b"\n" + self.content
 
     @classmethod
     def from_bytes(cls, written: bytes) -> "ObjectCode | None":
-        """What was written; None where a byte of it is damaged."""
+        """Read what ``to_bytes`` wrote; None if it is damaged."""
         head, _, content = written.partition(b"\n")
         try:
             says = json.loads(head)
@@ -54,7 +54,7 @@ def _seal(content: bytes) -> str:
 
 
 def identify_machine() -> str:
-    """All that decides whether machine code can be used here."""
+    """Versions of llvmlite, system and processor, for which machine code is valid."""
     triple, processor = llvm.get_process_triple(), llvm.get_host_cpu_name()
     features = llvm.get_host_cpu_features().flatten()
     return f"{llvmlite.__version__}\n{triple}\n{processor}\n{features}"
@@ -99,7 +99,7 @@ def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
 
 
 def link_code(code: ObjectCode) -> tuple[int, object] | None:
-    """The address of the function, and what must live as long as it is called.
+    """Link object code: the function's address, and the objects that must outlive its calls.
 
     None where something that it needs is missing: LLVM would end the whole process.
     """

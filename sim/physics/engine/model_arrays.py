@@ -45,7 +45,7 @@ DELAYS = frozenset(
 
 
 def is_pure_delay(part: Part) -> bool:
-    """Whether an effect changes when things happen and are seen, and no force."""
+    """Whether an effect only delays commands or readings, and changes no force."""
     return part.effect in DELAYS
 
 

@@ -99,7 +99,7 @@ def predict_midpoint(
 
 
 def gravity_voltage(c: Numbers, x: float) -> float:
-    """[V] that gravity takes."""
+    """[V] gravity voltage at position ``x``."""
     if c[LEVEL] == 0.0:
         return float(c[LOAD])
     return float(c[LOAD] + c[LEVEL] * math.cos(x + c[ANGLE]))
@@ -115,7 +115,7 @@ def motor_voltage(
     v: float,
     off: bool,
 ) -> float:
-    """[V] at the motor, after the wires and then the paths."""
+    """[V] voltage at the motor, after wiring and path effects."""
     u = limit_voltage(w, 0.0 if off else asked, v)
     return transform_voltage(on, p, memory, u, v, c[KV])
 

@@ -1,7 +1,8 @@
 """The integrator: move a model along a voltage, sample by sample.
 
-One body (``one_body.py``) or a motor and its load (``two_bodies.py``), step by step,
-with what changes on the way, what the sensor sees, and what a measurement corrects.
+One body (``one_body.py``), a motor and its load (``two_bodies.py``) or a robot on wheels that slip
+(``slipping_wheels.py``), step by step, with what changes on the way, what the sensor sees, and what
+a measurement corrects.
 
 Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
 """
@@ -15,6 +16,7 @@ from sim.physics.engine.hooks import (
     Numbers,
     added_inertia,
     command_delay,
+    grip_limit,
     impact,
     motor_inertia_share,
     next_change,
@@ -23,6 +25,7 @@ from sim.physics.engine.hooks import (
 )
 from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bound_travel, step_one_body
 from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_voltage, limit_voltage
+from sim.physics.engine.slipping_wheels import step_slipping_wheels
 from sim.physics.engine.two_bodies import step_two_bodies
 
 POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
@@ -55,7 +58,9 @@ def advance_step(
         bus = bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
         if bus < w[STOP]:  # noticed now, acted on from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
-    if motor_inertia_share(on, p) > 0.0:
+    if grip_limit(on, p) < math.inf:
+        u = step_slipping_wheels(state, c, w, on, p, memory, asked, off, heavy, dt)
+    elif motor_inertia_share(on, p) > 0.0:
         u = step_two_bodies(state, c, w, on, p, memory, ways, asked, off, heavy, dt)
     else:
         u = step_one_body(state, c, w, on, p, memory, asked, off, heavy, dt, plain)
@@ -64,7 +69,7 @@ def advance_step(
 
 
 def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
-    """Write down what is true at sample ``k``, but for what the sensor says."""
+    """Write the true state at sample ``k`` into the output; sensor readings follow later."""
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
@@ -77,7 +82,7 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
-    """Move the whole mechanism by a share of how far a measurement is from what was expected.
+    """Kalman correction: move the state by the gain times the innovation.
 
     ``trust`` (4,) is the share of ``ahead``, then of ``faster``, for the position, then the same
     for the velocity.
@@ -100,7 +105,7 @@ def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: floa
 
 
 def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
-    """In how many steps a time [s] is gone: short ones where it is fast, and places matter."""
+    """Number of steps of a time span [s]: more where it moves fast and positions matter."""
     longest = steps[LONGEST]
     if steps[ALONG] < math.inf:
         most = max(abs(v), abs(volts) / c[KV])
@@ -200,5 +205,5 @@ measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
-    """Room for what ``move`` writes about ``n`` samples."""
+    """Allocate the output array of ``move`` for ``n`` samples."""
     return np.zeros((n, 8))

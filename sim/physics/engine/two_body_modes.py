@@ -124,7 +124,7 @@ def double_table(ways: Array, at: int, to: int) -> None:
 
 
 def apply_row(ways: Array, at: int, d: float, v: float, w: float, b: float, r: float) -> float:
-    """A row of a table, applied to a motion and to the voltages that drive it."""
+    """The product of a row of the transition table with the motion and the voltages."""
     return float(
         ways[at] * d + ways[at + 1] * v + ways[at + 2] * w + ways[at + 3] * b + ways[at + 4] * r
     )

@@ -336,7 +336,8 @@ class Animation {
       middle.map((v) => gains.kV * v),
       velocity.slice(1).map((after, k) => (gains.kA * (after - velocity[k])) / (time[k + 1] - time[k])),
     ];
-    const [above, below] = [middle.map(() => 0), middle.map(() => 0)];
+    for (const term of takes) term.push(term.at(-1)); // up to the last time of the drive
+    const [above, below] = [takes[0].map(() => 0), takes[0].map(() => 0)];
     for (const [name, color] of TERMS) {
       let best = null;
       for (const [edge, part] of [[above, Math.max], [below, Math.min]]) {

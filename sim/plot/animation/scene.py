@@ -26,7 +26,7 @@ class Gain:
     plus: float = 0.0
 
     def at(self, knobs: Mapping[str, float]) -> float:
-        """Its value with the knobs as they stand."""
+        """The gain's value at these knob positions."""
         return self.plus + self.times * knobs[self.knob]
 
 
@@ -53,7 +53,13 @@ class TestPlan:
     def voltage(
         self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
     ) -> Array:
-        """(n,) [V] at each time, with ``move`` from voltages to positions."""
+        """(n,) [V] of the test.
+
+        Args:
+            time: (n,) [s].
+            knobs: name -> value.
+            move: simulates: (n,) [V] -> (n,) position.
+        """
         volts = find_value(self.step, knobs) + find_value(self.ramp, knobs) * time
         volts = np.where(time < self.timeout, volts, 0.0)
         passed = move(volts) > find_value(self.mark, knobs)
@@ -97,7 +103,13 @@ class Motion:
     turns: bool = False
 
     def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) one of its signals, simulated where it has gains; None where it has no such one."""
+        """(n,) one of its signals, simulated where it has gains; None where it has no such one.
+
+        Args:
+            signal: ``position``, ``velocity``, ``voltage`` or ``error``.
+            scene: which it is in.
+            knobs: name -> value.
+        """
         if signal == "error":
             return self._error(scene, knobs)
         if self.gains is None:
@@ -162,7 +174,7 @@ def follow_target(time: Array, target: Array, gains: Mapping[str, float]) -> Arr
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What happens in one animation.
+    """One scene of an animation: its times, motions and target.
 
     Args:
         time: (n,) [s], rising.
@@ -237,7 +249,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Score:
-    """How far one motion's velocity is from the target: the root mean square, always in sight.
+    """A displayed score: the RMS difference of a motion's velocity from the target.
 
     Args:
         motion: its name.
@@ -252,7 +264,7 @@ class Score:
 
 @dataclass(frozen=True)
 class Rule:
-    """What a plan has to keep; the page says at every move of a knob whether it does.
+    """A condition on a test plan, checked whenever a knob moves.
 
     Args:
         label: what is measured, with its unit.
@@ -273,5 +285,5 @@ class Rule:
 
 
 def find_value(value: float | Gain, knobs: Mapping[str, float]) -> float:
-    """A number, or what a knob makes of it."""
+    """The value of a number or of a gain, at the knobs' positions."""
     return value.at(knobs) if isinstance(value, Gain) else float(value)

@@ -25,12 +25,12 @@ class ResidualSummary:
 
     @property
     def has_unlikely_window(self) -> bool:
-        """Whether there is a moment that is not explained."""
+        """Whether the whiteness test found an unlikely window of innovations."""
         return self.worst_window.size > SHAKEN
 
     @property
     def is_periodic(self) -> bool:
-        """Whether something comes back in time."""
+        """Whether the residual is periodic in time."""
         return self.peak.size > RHYTHM
 
     @property
@@ -40,7 +40,7 @@ class ResidualSummary:
 
     @property
     def has_structure(self) -> bool:
-        """Whether any of it is more than noise."""
+        """Whether any of the residual tests found structure."""
         return self.has_unlikely_window or self.is_periodic or self.is_repeated
 
     @classmethod

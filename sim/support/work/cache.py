@@ -19,7 +19,7 @@ def cache_folder() -> Path:
 
 
 def read_cached(path: Path) -> bytes | None:
-    """What was kept; None where nothing was, or not for us."""
+    """Read a cached file; None where there is none, or it cannot be read."""
     try:
         return path.read_bytes()
     except OSError:

@@ -94,7 +94,7 @@ def collect_results(
 
 
 def serve_quietly() -> None:
-    """Begin as a worker: Ctrl+C is not for it, and it ends when the one it works for has."""
+    """Initialize a worker: ignore Ctrl+C, and end when the parent process ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:

@@ -41,7 +41,7 @@ class Case:
     harmful: bool
 
     def gain_error(self, gain: str) -> float:
-        """By which share a gain is off: 0.1 is 10 % too large, -2 has the wrong sign."""
+        """Relative error of a gain: 0.1 is 10 % too large, -2 has the wrong sign."""
         return self.fit.gains[gain] / self.truth[gain] - 1.0
 
     @property
@@ -63,27 +63,39 @@ class _Recipe:
 
 
 _RECIPES = (
-    _Recipe("clean", "nothing: the log is sound", harmful=False),
+    _Recipe("clean", "nothing: the log is good", harmful=False),
     _Recipe(
         "1 encoder spike",
         "one velocity reading of the forward ramp is 1.6 m/s off",
         spoil=harm.add_spikes(1),
     ),
-    _Recipe("3 encoder spikes", "three such readings", spoil=harm.add_spikes(3)),
-    _Recipe("10 encoder spikes", "ten such readings", spoil=harm.add_spikes(10)),
+    _Recipe(
+        "3 encoder spikes",
+        "three velocity readings of the forward ramp are 1.6 m/s off",
+        spoil=harm.add_spikes(3),
+    ),
+    _Recipe(
+        "10 encoder spikes",
+        "ten velocity readings of the forward ramp are 1.6 m/s off",
+        spoil=harm.add_spikes(10),
+    ),
     _Recipe(
         "10 spikes, median of 5",
-        "the same ten, and SysId's median filter on",
+        "the log with ten wrong readings, after SysId's median filter",
         spoil=harm.add_spikes(10),
         median=MEDIAN,
         harmful=False,
     ),
     _Recipe(
         "encoder slips 10 %",
-        "from the middle of both ramps on, the encoder loses a tenth of the motion",
+        "from the middle of both ramps on, the encoder misses 10 % of the motion",
         spoil=harm.add_encoder_slip(0.1),
     ),
-    _Recipe("encoder slips 30 %", "the same with three tenths", spoil=harm.add_encoder_slip(0.3)),
+    _Recipe(
+        "encoder slips 30 %",
+        "from the middle of both ramps on, the encoder misses 30 % of the motion",
+        spoil=harm.add_encoder_slip(0.3),
+    ),
     _Recipe(
         "lurch",
         "something sticks and lets go in the forward ramp: 1.2 m/s too fast for 0.2 s",
@@ -102,13 +114,13 @@ _RECIPES = (
     ),
     _Recipe(
         "commanded volts, 10 V step",
-        "the same with a weak battery (35 mΩ)",
+        "a 120 A limit, weak battery (35 mΩ); the log contains the commanded voltage",
         setup=drivetrains.WEAK_BATTERY,
         spoil=harm.log_commanded_voltage(drivetrains.WEAK_BATTERY),
     ),
     _Recipe(
         "brownout, commanded volts",
-        "the motors are off for 0.3 s of the forward ramp, and the log does not say so",
+        "the motors are off for 0.3 s of the forward ramp, and the log does not show it",
         spoil=harm.add_brownout,
     ),
     _Recipe(
@@ -116,7 +128,11 @@ _RECIPES = (
         "every fifth loop is late by up to 100 ms",
         spoil=harm.drop_samples(0.1),
     ),
-    _Recipe("gaps up to 300 ms", "the same, up to 300 ms", spoil=harm.drop_samples(0.3)),
+    _Recipe(
+        "gaps up to 300 ms",
+        "every fifth loop is late by up to 300 ms",
+        spoil=harm.drop_samples(0.3),
+    ),
     _Recipe(
         "slow velocity filter",
         "NEO motors, velocity averaged over 0.22 s, so 112 ms late",
@@ -124,7 +140,7 @@ _RECIPES = (
     ),
     _Recipe(
         "40 A limit, commanded volts",
-        "a stator limit engages; the log contains the commanded voltage",
+        "a 40 A current limit acts; the log contains the commanded voltage",
         setup=drivetrains.LIMITED,
         spoil=harm.log_commanded_voltage(drivetrains.LIMITED),
     ),

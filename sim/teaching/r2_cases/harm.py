@@ -31,7 +31,7 @@ RATIO = 1.25
 
 
 def leave_unchanged(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Leave it as it is."""
+    """Return the log unchanged."""
     return log
 
 
@@ -62,7 +62,7 @@ def add_encoder_slip(loss: float) -> Harm:
 
 
 def add_position_jump(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Let it jump ahead in the forward ramp."""
+    """Add a jump of the position to the forward ramp."""
     run = log.runs[FORWARD_RAMP]
     since = np.clip((run.time - run.time[0] - LURCHED) / LURCHES, 0.0, 1.0)
     bump = LURCH * np.sin(np.pi * since)
@@ -93,7 +93,7 @@ def log_commanded_voltage(setup: Setup) -> Harm:
 
 
 def add_brownout(log: Log, rng: np.random.Generator) -> Log:
-    """Take the motors off for a moment, with a log that goes on to tell a voltage."""
+    """Switch the motors off for a moment while the log still shows a voltage."""
     return find_fault("brownout").spoil(log, CUT, rng).log
 
 
@@ -123,7 +123,7 @@ def scale_encoder(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - 
 
 
 def flip_encoder(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Turn the encoder round."""
+    """Reverse the sign of the encoder."""
     return _scaled(log, -1.0)
 
 

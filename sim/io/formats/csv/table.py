@@ -130,7 +130,7 @@ def read_header(text: str) -> list[str]:
 
 
 def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
-    """Take a file apart into cells.
+    """Read a CSV file into cells.
 
     Args:
         path: the file.

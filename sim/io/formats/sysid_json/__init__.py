@@ -17,6 +17,7 @@ from sim.core.log import Array, Log
 from sim.core.units import find_unit
 from sim.io.format import ReadOptions, doubt_motor_choice, make_run
 from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
+from sim.io.formats.sysid_json.file_header import FileHeader, read_header
 from sim.io.formats.sysid_json.rows import (
     RowForm,
     check_columns,
@@ -24,7 +25,6 @@ from sim.io.formats.sysid_json.rows import (
     load_json,
     parse_tables,
 )
-from sim.io.formats.sysid_json.said import FileHeader, read_header
 from sim.io.formats.sysid_json.side import Side, read_one_side
 
 SUFFIXES = (".json",)

@@ -12,7 +12,7 @@ import numpy as np
 from sim.core.doubt import Doubt
 from sim.core.errors import BadSample, UnreadableFile
 from sim.core.log import LARGEST, Array
-from sim.io.formats.sysid_json.said import FileHeader
+from sim.io.formats.sysid_json.file_header import FileHeader
 
 RUNS = {
     "slow-forward": "quasistatic-forward",
@@ -181,7 +181,7 @@ def _has_battery_column(tables: Mapping[str, Array]) -> bool:
 
 
 def check_columns(tables: Mapping[str, Array], form: RowForm, *, where: str) -> None:
-    """Refuse what is no measurement, in the columns that are read.
+    """Refuse columns with values that cannot be measurements.
 
     Raises:
         BadSample: a number that is missing, not finite or absurdly large.

@@ -34,7 +34,7 @@ class Finish:
 
 @dataclass(frozen=True)
 class Metadata:
-    """What is said about an entry changes."""
+    """The metadata of an entry change."""
 
     id: int
     metadata: str
@@ -44,7 +44,7 @@ Control: TypeAlias = Start | Finish | Metadata
 
 
 def parse_control_record(payload: bytes) -> Control | None:
-    """What a control record says; None if it makes no sense."""
+    """Parse a control record; None if it is malformed."""
     if len(payload) < _HEAD.size:
         return None
     which, number = _HEAD.unpack_from(payload)

@@ -1,4 +1,4 @@
-"""What speaks against a fit besides its own doubts: physics, and its directions."""
+"""Plausibility of a fit: its gains against physics, and forward against reverse runs."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -19,7 +19,7 @@ MANY = 20_000  # samples: of a longer log the directions take seconds; only a pa
 def read_motor_parts(
     name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
 ) -> "Parts | None":
-    """What drives it, if that was said."""
+    """The motor, gearing and load that the options name; None without them."""
     if name is None:
         return None
     from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
@@ -32,7 +32,7 @@ def read_motor_parts(
 
 
 def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
-    """The fit with what physics has against it in front of its doubts."""
+    """The fit with the doubts of the plausibility checks before its own."""
     import numpy as np  # noqa: PLC0415 - --help must not wait for it
 
     from sim.fit.physics import physical_doubts  # noqa: PLC0415
@@ -44,7 +44,7 @@ def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") ->
 def compare_directions_alone(
     found: "Fit", log: "Log", *, patient: bool
 ) -> "tuple[Fit, tuple[str, ...]]":
-    """The fit with what its directions, each fitted alone, say against it."""
+    """The fit with a doubt where forward and reverse runs, fitted alone, disagree."""
     from sim.fit.physics import compare_directions  # noqa: PLC0415 - --help must not wait for it
 
     if found.method != METHODS[0]:

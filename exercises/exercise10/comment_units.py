@@ -11,7 +11,7 @@ _PER = re.compile(r"\b(for|per|each|every)\b(\s+(an?|the|each|every|one|1)\b)*(?
 _OF = re.compile(r"\b(an?\s+)?(velocity|speed|acceleration|change|error)\s+of(\s+1\b)?")
 
 
-def units_of(comment: str, name: str = "") -> Iterator[Quantity]:
+def find_commented_units(comment: str, name: str = "") -> Iterator[Quantity]:
     """Every unit that a comment, or a name, can be read to tell."""
     text = _OF.sub("", comment.lower())
     text = re.sub(r"\s+", " ", _PER.sub("per", text))
@@ -34,10 +34,10 @@ def _read(text: str) -> Iterator[Quantity]:
             yield found
 
 
-def judged(comment: str, unit: str, *, name: str = "") -> bool | None:
+def judge_comment(comment: str, unit: str, *, name: str = "") -> bool | None:
     """Whether a comment tells a unit: yes, no, or None where it tells another one of its kind."""
     wanted = read_unit(unit)
-    alike = [one for one in units_of(comment, name) if one.powers == wanted.powers]
+    alike = [one for one in find_commented_units(comment, name) if one.powers == wanted.powers]
     if any(math.isclose(one.factor, wanted.factor, rel_tol=1e-6) for one in alike):
         return True
     return None if alike else False

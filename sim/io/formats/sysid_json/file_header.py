@@ -1,4 +1,4 @@
-"""What a file of the tools before 2024 says about itself, and what it leaves to be asked."""
+"""The header of a file of the tools before 2024: units, type and test of its data."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ _TYPES = {
 
 @dataclass(frozen=True)
 class FileHeader:
-    """The words beside the rows.
+    """The settings that the file states besides its rows.
 
     Args:
         mechanism: as the file names it; empty if it does not.

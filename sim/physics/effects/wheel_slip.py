@@ -1,0 +1,81 @@
+"""Wheel slip: the floor passes on only so much push; beyond it the wheels spin ahead of the robot.
+
+    push on the robot ≤ grip            wheels and rotors have ``share`` of kA
+
+A strong step spins the wheels up at once, the robot follows with a constant acceleration, and when
+it has caught up both go on as one. The encoder in the motor sees the wheels. ``grip`` [V] is the
+push that the floor can hold, priced in volts as everything here is: μ·m·g, times the volts that a
+newton takes. From standstill the wheels slip above about kS + grip/(1 - share).
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from sim.core.units import find_unit
+from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.voltage_residual import VoltageResidual
+
+LIGHT = 0.06  # [share of kA] of rotors, gears and wheels: four Krakens of a 60 kg robot have that
+HELD = (0.96, 0.92, 0.88, 0.84, 0.8, 0.75, 0.7, 0.64, 0.57, 0.5, 0.42, 0.35, 0.28, 0.2)
+
+
+def grip_limit(grip: float) -> float:
+    """[V] that the floor passes on."""
+    return grip
+
+
+def motor_inertia_share(share: float) -> float:
+    """[1] of the inertia that spins with the wheels."""
+    return share
+
+
+def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
+    """The floor holds two thirds of the push of a step, for size 1."""
+    push = max(scale.step - scale.ks, 0.1 * scale.step)
+    return {"grip": (1.0 - LIGHT) * push / (1.0 + 0.5 * size), "share": LIGHT}
+
+
+def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Shares of the largest push that the log holds; none where positions are angles."""
+    if find_unit(seen.log.units).angular:
+        return
+    push = np.abs(seen.voltage - seen.gains["kV"] * seen.velocity) - seen.gains["kS"]
+    most = (1.0 - LIGHT) * float(np.max(push, initial=0.0))
+    for held in HELD:
+        yield {"grip": max(held * most, 0.1), "share": LIGHT}
+
+
+EFFECT = Effect(
+    name="wheel-slip",
+    kind="two-body",
+    summary="wheels that spin faster than the robot moves, because the floor holds no more push",
+    formula="push on the robot kept within ± grip",
+    parameters=(
+        Parameter("grip", "push that the floor can hold, in volts", "V", least=1e-3, neutral=1e6),
+        Parameter(
+            "share", "inertia of wheels and rotors", "1", least=0.01, most=0.5, neutral=LIGHT
+        ),
+    ),
+    fingerprint=(
+        "After a strong step the velocity jumps up and hardly rises until the robot has caught up; "
+        "a gentle step shows nothing."
+    ),
+    inspect="Tires, carpet and the robot's weight on the driven wheels.",
+    apart={
+        "current-limit": (
+            "Log the current: at a limit it stays the same, while wheels that slip draw less and "
+            "less."
+        ),
+        "backlash": "Use a smaller step: free play shows at every start, slip only at strong ones.",
+        "inertia-change": (
+            "Use a smaller step: then the wheels hold, and a different inertia still shows."
+        ),
+    },
+    example=ordinary_parameters,
+    start_values=find_start_values,
+    hooks={"grip_limit": grip_limit, "motor_inertia_share": motor_inertia_share},
+    reason_against=lambda scale: (
+        "it does not drive on wheels" if scale.angular or scale.type != "simple" else ""
+    ),
+)

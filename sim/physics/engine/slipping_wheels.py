@@ -1,0 +1,115 @@
+"""One step of wheels that may slip on the floor.
+
+    wheels:  share·kA·w' = u - kV·w - kS·sgn(w) - F       robot:  (1 - share)·kA·v' = F - pull
+
+F [V] is what the floor passes on, at most ``grip``. As long as less is needed, wheels and robot
+move as one body; where more is, the wheels spin (or lock) by themselves, F is ±grip, and they are
+one body again when both have the same speed. Dry friction is the gears' and acts on the wheels,
+gravity and what else effects pull acts on the robot. A sensor in the motor sees the wheels.
+
+Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
+"""
+
+import math
+
+from sim.core.log import Array
+from sim.physics.engine.hooks import Numbers, force, grip_limit, motor_inertia_share
+from sim.physics.engine.one_body import (
+    KV,
+    V,
+    W,
+    X,
+    Y,
+    gravity_voltage,
+    motor_voltage,
+    move_exactly,
+    sliding_friction,
+    step_one_body,
+)
+
+HALVINGS = 40  # of a step, to find when the robot has caught up with its wheels
+SAME = 1e-12  # [share of the faster speed] by which wheels and robot differ while they are one
+
+
+def step_slipping_wheels(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """One step of wheels and robot; returns the voltage [V] at the motor in its middle."""
+    ahead = state[V] - state[W]
+    if abs(ahead) <= SAME * max(abs(state[V]), abs(state[W])):
+        ahead = excess_push(state, c, w, on, p, memory, asked, off)
+    if ahead == 0.0:
+        return step_gripping(state, c, w, on, p, memory, asked, off, ka, dt)
+    side = math.copysign(1.0, ahead)
+    u, spun = step_spinning(state, c, w, on, p, memory, asked, off, ka, dt, side)
+    if spun < dt:
+        u = step_gripping(state, c, w, on, p, memory, asked, off, ka, dt - spun)
+    return u
+
+
+def excess_push(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool,
+) -> float:  # fmt: skip
+    """[V] that moving as one body asks of the floor beyond its grip, with its sign; 0 if none."""
+    x, v = state[Y], state[V]
+    pull = gravity_voltage(c, x) + force(on, p, x, v)
+    drive = motor_voltage(c, w, on, p, memory, asked, v, off) - pull
+    way = math.copysign(1.0, v if v != 0.0 else drive)
+    slide = sliding_friction(c, on, p, v, way)
+    if v == 0.0 and abs(drive) <= slide:
+        return 0.0
+    rest = 1.0 - motor_inertia_share(on, p)
+    needed = rest * (drive - way * slide - c[KV] * v) + pull
+    beyond = abs(needed) - grip_limit(on, p)
+    return math.copysign(beyond, needed) if beyond > 0.0 else 0.0
+
+
+def step_gripping(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float,
+) -> float:  # fmt: skip
+    """One step as one body; how far the wheels have turned ahead of the robot stays."""
+    spun = state[X] - state[Y]
+    state[X] = state[Y]
+    state[W] = state[V]
+    u = step_one_body(state, c, w, on, p, memory, asked, off, ka, dt, False)
+    state[X] += spun
+    return u
+
+
+def step_spinning(
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
+    asked: float, off: bool, ka: float, dt: float, side: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Wheels that are faster (``side`` 1) or slower (-1) than the robot, until both agree.
+
+    Returns:
+        The voltage [V] at the motor, and how long [s] they slipped: ``dt``, or less where the
+        robot caught up within it.
+    """
+    part = motor_inertia_share(on, p)
+    x, v, y, z = state[X], state[V], state[Y], state[W]
+    held = side * grip_limit(on, p)
+    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    _, middle = move_exactly(c, on, p, x, v, v, u - held, c[KV], part * ka, 0.5 * dt, 1.0)
+    u = motor_voltage(c, w, on, p, memory, asked, middle, off)
+    rate = (held - gravity_voltage(c, y) - force(on, p, y, z)) / ((1.0 - part) * ka)
+    least, most = 0.0, dt
+    after, faster = move_exactly(c, on, p, x, v, middle, u - held, c[KV], part * ka, dt, 1.0)
+    if side * (faster - z - rate * dt) < 0.0:
+        for _ in range(HALVINGS):
+            half = 0.5 * (least + most)
+            after, faster = move_exactly(
+                c, on, p, x, v, middle, u - held, c[KV], part * ka, half, 1.0
+            )
+            if side * (faster - z - rate * half) < 0.0:
+                most = half
+            else:
+                least = half
+        after, faster = move_exactly(c, on, p, x, v, middle, u - held, c[KV], part * ka, most, 1.0)
+        faster = z + rate * most
+    state[X], state[V] = after, faster
+    state[Y], state[W] = y + most * (z + 0.5 * rate * most), z + rate * most
+    return u, most

@@ -1,0 +1,99 @@
+"""The logs that a comparison is given, and what they say before anything is fitted."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from sim.core.log import Log, Run
+from sim.core.units import Unit, find_unit
+from sim.estimation.initial_guess import guess_gains
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.estimation.run_records import RunRecord, join_records, run_records, session_length
+from sim.reconcile.damage_policy import DamageDecision
+
+ORDER = ("log", "validation", "held_out")  # in which they were recorded
+
+
+@dataclass(frozen=True, eq=False)
+class Recordings:
+    """The logs of one mechanism.
+
+    Args:
+        log: runs to fit.
+        validation: runs by which effects are chosen, if given.
+        held_out: runs on which the gap is shown, if given.
+        type: the base model: ``simple``, ``elevator`` or ``arm``.
+        damage: what is left out of each, by the names above.
+    """
+
+    log: Log
+    validation: Log | None
+    held_out: Log | None
+    type: str
+    damage: DamageDecision = field(default_factory=DamageDecision)
+
+    @property
+    def logs_by_name(self) -> Mapping[str, Log]:
+        """Name -> log, of those that were given, in the order in which they were recorded."""
+        logs = zip(ORDER, (self.log, self.validation, self.held_out), strict=True)
+        return {name: log for name, log in logs if log is not None}
+
+    @cached_property
+    def unit(self) -> Unit:
+        """The unit in which results are told: that of the first log."""
+        return find_unit(self.log.units)
+
+    @cached_property
+    def initial_gains(self) -> Mapping[str, float]:
+        """First estimates of the base model's gains, as ``guess_gains`` makes them."""
+        return guess_gains(self.log, type=self.type)
+
+    @cached_property
+    def fitted_runs(self) -> Log:
+        """The log and its validation as one log."""
+        return self.log if self.validation is None else join_records(self.log, self.validation)
+
+    def make_problem(self) -> PredictionErrorProblem:
+        """The problem of all runs that may be fitted, without what is damaged."""
+        fitted = [name for name in self.logs_by_name if name != "held_out"]
+        return PredictionErrorProblem.from_records(
+            [one for n, name in enumerate(fitted) for one in self._records(name, session=n)]
+        )
+
+    def make_shown_problem(self, name: str) -> PredictionErrorProblem:
+        """The problem of one log alone, on which a gap can be shown."""
+        return PredictionErrorProblem.from_records(self._records(name))
+
+    def count_repeated_runs(self, name: str) -> int:
+        """How many runs of a log stand in those before it as well, sample by sample."""
+        if name not in self.logs_by_name:
+            return 0
+        known = [run for log in self._before(name) for run in log.runs]
+        return sum(
+            any(_is_same_run(run, other) for other in known) for run in self.logs_by_name[name].runs
+        )
+
+    def _before(self, name: str) -> list[Log]:
+        """The logs that were recorded before one."""
+        return [
+            log for one, log in self.logs_by_name.items() if ORDER.index(one) < ORDER.index(name)
+        ]
+
+    def _records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
+        """The runs of one log; its clock goes on where the log before it ended."""
+        return run_records(
+            self.logs_by_name[name],
+            session=session,
+            since=session_length(*self._before(name)),
+            aside=self.damage.excluded_from(name),
+        )
+
+
+def _is_same_run(one: Run, other: Run) -> bool:
+    return bool(
+        one.test == other.test
+        and np.array_equal(one.velocity, other.velocity)
+        and np.array_equal(one.voltage, other.voltage)
+    )

@@ -1,0 +1,55 @@
+"""A Chromium without a window, and how legible a page is in it."""
+
+import contextlib
+import shutil
+
+import pytest
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = [
+    "--no-sandbox",  # a container runs as root, where the sandbox cannot start
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+LEAST_CONTRAST = 4.5  # of text against its ground: WCAG 2.2, level AA
+FAINTEST = """(selector) => {
+    const channels = color => color.match(/[\\d.]+/g).map(Number);
+    const light = ([r, g, b]) => [r, g, b].map(c => c / 255)
+        .map(c => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+    const ground = node => {
+        for (; node; node = node.parentElement) {
+            const color = channels(getComputedStyle(node).backgroundColor);
+            if (color.length < 4 || color[3] === 1) return color;
+        }
+        return [255, 255, 255];
+    };
+    return Math.min(...[...document.querySelectorAll(selector)].map(node => {
+        const [a, b] = [light(channels(getComputedStyle(node).color)), light(ground(node))];
+        return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    }));
+}"""
+
+
+@contextlib.contextmanager
+def launched():
+    """The browser; without one the test is skipped."""
+    playwright = pytest.importorskip(
+        "playwright.sync_api", reason="Playwright is not installed: pip install playwright"
+    )
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        pytest.skip(f"no browser found: install one of {', '.join(BROWSERS)}")
+    with playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=found, args=FLAGS, headless=True)
+        yield chromium
+        chromium.close()
+
+
+def least_contrast(page, selector):
+    """The smallest contrast of the texts that a CSS selector finds."""
+    return page.evaluate(FAINTEST, selector)
