@@ -71,7 +71,7 @@ def simulate(
     """
     _check_period(period)
     model, slips = mechanism.model, slip_part(mechanism)
-    wires = power_path_arrays(mechanism, duty_cycle=duty_cycle)
+    wires, parts = power_path_arrays(mechanism, duty_cycle=duty_cycle), _steps_per_loop(mechanism)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -79,10 +79,8 @@ def simulate(
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as the log says
-        begun = _at_rest(state, _begin(mechanism, test, last))
-        parts = _steps_per_loop(mechanism)
+        begun, moves = _at_rest(state, _begin(mechanism, test, last)), model
         time, voltage = _divide_loops(time, voltage, parts)
-        moves = model
         track, state = _move(moves, time, voltage, begun=begun, wires=wires)
         if wheels_slip(mechanism, track):
             moves, gripped = (model + slips, gripped) if slips else (model, True)
