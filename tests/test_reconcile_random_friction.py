@@ -50,6 +50,7 @@ def followed(model, time, volts, *, rubs):
         position_offset=still,
         backlash_phase=still,
         friction_offset=np.array(rubs),
+        lag_offset=still,
     )
 
 

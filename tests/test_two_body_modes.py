@@ -62,6 +62,7 @@ def searched(model, volts):
         position_offset=still,
         backlash_phase=still,
         friction_offset=still,
+        lag_offset=still,
     )
 
 

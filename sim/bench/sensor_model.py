@@ -27,6 +27,7 @@ def read_sensor(
     velocity: Array,
     rng: np.random.Generator,
     time: Array | None = None,
+    read_at: Array | None = None,
 ) -> SensorReading:
     """What a sensor reports of a motion.
 
@@ -36,10 +37,15 @@ def read_sensor(
         velocity: (n,) [m/s or rad/s].
         rng: the source of noise.
         time: (n,) [s]; needed by a sensor that is late, filters or sends frames.
+        read_at: (m,) [s] when the robot program reads such a sensor; by default at every ``time``.
+
+    Returns:
+        (m,) readings.
     """
-    noise = rng.standard_normal(velocity.size)
-    if time is not None and (sensor.latency or sensor.filter or sensor.frame):
-        at = time - sensor.latency
+    read_at = time if read_at is None else read_at
+    noise = rng.standard_normal(velocity.size if read_at is None else read_at.size)
+    if time is not None and read_at is not None and sensor_lags(sensor):
+        at = read_at - sensor.latency
         if sensor.frame:
             phase = sensor.frame * rng.random()
             frame = np.floor((at - phase) / sensor.frame)
@@ -61,6 +67,11 @@ def read_sensor(
     return SensorReading(
         np.round(position / sensor.resolution) * sensor.resolution, velocity + spread * noise
     )
+
+
+def sensor_lags(sensor: Sensor) -> bool:
+    """Whether a reading is of another moment than that at which it is read."""
+    return bool(sensor.latency or sensor.filter or sensor.frame)
 
 
 def interpolate_cubic(at: Array, time: Array, value: Array, slope: Array) -> Array:

@@ -31,6 +31,9 @@ __all__ = ["move_gains_only", "read_sensor", "simulate"]
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
 FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
 FEWEST = 10  # [samples] a shorter test has nothing to say
+BETWEEN = (
+    8  # steps of a loop for a sensor that reads between loops: a line from loop to loop is late
+)
 MARGIN = 0.04  # [share of the travel] before a stop at which someone ends the test
 
 
@@ -68,7 +71,7 @@ def simulate(
     """
     _check_period(period)
     model, slips = mechanism.model, slip_part(mechanism)
-    wires = power_path_arrays(mechanism, duty_cycle=duty_cycle)
+    wires, parts = power_path_arrays(mechanism, duty_cycle=duty_cycle), _steps_per_loop(mechanism)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -76,20 +79,19 @@ def simulate(
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
         state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as the log says
-        begun = _at_rest(state, _begin(mechanism, test, last))
-        moves = model
+        begun, moves = _at_rest(state, _begin(mechanism, test, last)), model
+        time, voltage = _divide_loops(time, voltage, parts)
         track, state = _move(moves, time, voltage, begun=begun, wires=wires)
         if wheels_slip(mechanism, track):
             moves, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(moves, time, voltage, begun=begun, wires=wires)
-        end = _end(track, mechanism, test=test)
+        end = (_end(track.every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # what was ended warms no motor
             track, state = _move(moves, time, voltage, begun=begun, wires=wires)
-        run = _record_run(
-            mechanism, test, time, track.truncate(end), rng=rng, electrical=electrical
-        )
-        runs.append(replace(run, time=start + time))
+        loops, seen = time[::parts], track.truncate(end)
+        run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
+        runs.append(replace(run, time=start + loops))
         cool_down(state, model, PAUSE)
         start, last = start + float(time[-1]) + PAUSE, float(track.position[end - 1])
     log = Log(tuple(runs), units=mechanism.units, mechanism=mechanism.name, type=mechanism.type)
@@ -122,14 +124,31 @@ def _is_cut(state: State) -> bool:
 
 def _record_run(
     mechanism: Mechanism, test: str, time: Array, track: Track,
-    *, rng: np.random.Generator, electrical: bool,
+    *, loops: Array, rng: np.random.Generator, electrical: bool,
 ) -> Run:  # fmt: skip
-    """The run as the robot program logs it."""
+    """The run as the robot program logs it, at the times ``loops``."""
     seen = read_sensor(
-        mechanism.sensor, position=track.position, velocity=track.seen, time=time, rng=rng
-    )
-    extra = {"current": track.current, "bus_voltage": track.bus} if electrical else {}
-    return Run(test, time, track.applied, *seen, **extra)
+        mechanism.sensor, position=track.position, velocity=track.seen, time=time, read_at=loops,
+        rng=rng,
+    )  # fmt: skip
+    logged = track.every((time.size - 1) // (loops.size - 1))
+    extra = {"current": logged.current, "bus_voltage": logged.bus} if electrical else {}
+    return Run(test, loops, logged.applied, *seen, **extra)
+
+
+def _steps_per_loop(mechanism: Mechanism) -> int:
+    """How many steps of a loop are simulated for what the sensor reads."""
+    return BETWEEN if mechanism.sensor.latency or mechanism.sensor.frame else 1
+
+
+def _divide_loops(time: Array, voltage: Array, parts: int) -> tuple[Array, Array]:
+    """Times of equal parts of each loop, and the voltages that are held through them."""
+    if parts == 1:
+        return time, voltage
+    share = np.arange(parts) / parts
+    inner = (time[:-1, None] + share * np.diff(time)[:, None]).ravel()
+    held = np.repeat(voltage[:-1], parts)
+    return np.append(inner, time[-1]), np.append(held, voltage[-1])
 
 
 def _check_period(period: float) -> None:

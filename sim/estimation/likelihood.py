@@ -4,11 +4,11 @@ The prediction-error method (Ljung, *System Identification*, chapter 7): a stead
 filter predicts each sample from those before it, and the parameters are those that make its
 innovations most likely.
 
-    -2 log L = N·log det Σ + Σ (x/σ)² + Σ (δ/τ)²
+    -2 log L = N·log det Σ + Σ (x/σ)² + Σ (δ/τ)² + Σ (d/λ)²
 
 Σ is the (2, 2) covariance of the innovations and N the number of samples. A run may start at an
-offset x from its first reading, and its friction may differ by δ from that of the others
-(``random_friction.py``); both have a normal prior.
+offset x from its first reading, its friction may differ by δ from that of the others
+(``random_friction.py``), and so may the lag of its readings, by d. All have a normal prior.
 """
 
 import math
@@ -38,6 +38,7 @@ TOP = 0.98  # quantile that stands for the largest, so that one bad sample does 
 STEP = 1e-3  # [of a value's size] step of a derivative
 COARSE_STEP = 0.02  # [of it] for parameters whose effect comes in steps, as the samples do
 STEPWISE = ("band",)  # parameters of that kind
+LAG_STEP = 0.02  # [of its standard deviation] step of the derivative by a run's own lag
 LARGEST = 1e100  # [1] innovation whose square is still a number
 SHORTEST = 0.02  # [sample periods] a shorter kA/kV leaves no trace, and takes ever finer steps
 PARALLEL = 10_000  # [samples] from which simulations run side by side
@@ -83,6 +84,7 @@ class PredictionErrorProblem:
         noise: of their samples, estimated without a model.
         max_process_noise: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
+        lag_sd: [s] standard deviation of a run's own lag about that of all; 0 where all are alike.
         backlash_allowance: [unit] by which free play that no model here describes may shift a
             start.
         priors: parameter of an effect -> standard deviation of its normal prior about zero.
@@ -92,6 +94,7 @@ class PredictionErrorProblem:
     noise: SensorNoise
     max_process_noise: float = math.inf
     varying_friction: bool = True
+    lag_sd: float = 0.0
     backlash_allowance: float = 0.0
     priors: Mapping[str, float] = field(default_factory=dict)
 
@@ -257,7 +260,7 @@ class PredictionErrorProblem:
         return filter_runs(
             model, batch, kalman_gain=gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
-            friction_offset=nuisance.friction_offset,
+            friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset,
         )  # fmt: skip
 
     def _log_scale(self, kalman_filter: KalmanFilter) -> float:
@@ -316,6 +319,8 @@ class PredictionErrorProblem:
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            if self.lag_sd:
+                cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
             cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
             cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
@@ -356,10 +361,10 @@ class PredictionErrorProblem:
         return np.asarray((near @ point.whitening.T).ravel())
 
     def jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
-        """(2 n, searched + runs or 2 runs) derivatives of the whitened innovations.
+        """(2 n, searched + nuisance) derivatives of the whitened innovations.
 
-        With respect to each parameter, then to the start of each run, then, where friction varies
-        between runs, to each run's own friction.
+        With respect to each parameter, then to the start of each run, then, where they vary between
+        runs, to each run's own friction and to its own lag.
 
         Args:
             point: where.
@@ -368,6 +373,19 @@ class PredictionErrorProblem:
         Raises:
             ValueError: the cost of the estimate is infinite.
         """
+        found = self._fine_jacobians.get(point) if fine else None
+        if found is None:
+            found = self._compute_jacobian(point, fine=fine)
+            if fine and len(self.measured) <= PARALLEL:  # of a long log, it takes much memory
+                self._fine_jacobians[point] = found
+        return found
+
+    @cached_property
+    def _fine_jacobians(self) -> WeakKeyDictionary[Estimate, Array]:
+        """Those that were needed: a fit asks for one at its end, for lags and for its errors."""
+        return WeakKeyDictionary()
+
+    def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
         structure = point.structure
         sides = [
             self._difference_points(point, name, fine=fine) for name in structure.searched_names
@@ -395,6 +413,8 @@ class PredictionErrorProblem:
         columns.append(self._one_column_per_run(self.whiten(point, starts)))
         if self.varying_friction:
             columns.append(self.friction_jacobian(point))
+        if self.lag_sd:
+            columns.append(self.lag_jacobian(point))
         return np.column_stack(columns)
 
     def friction_jacobian(self, point: Estimate) -> Array:
@@ -405,6 +425,23 @@ class PredictionErrorProblem:
             [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
         )
         return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
+
+    def lag_jacobian(self, point: Estimate) -> Array:
+        """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
+        by = LAG_STEP * self.lag_sd
+        later = point.nuisance.add_lag(np.full(len(self.records), by))
+        model = point.structure.model(point.values)
+        moved = self.predict_errors(model, later, point.kalman_filter)
+        return self._one_column_per_run(self.whiten(point, (moved - point.innovations) / by))
+
+    def nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
+        """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
+        priors = [(self.start_sd, point.nuisance.position_offset)]
+        if self.varying_friction:
+            priors.append((friction_sd(point.values), point.nuisance.friction_offset))
+        if self.lag_sd:
+            priors.append((self.lag_sd, point.nuisance.lag_offset))
+        return priors
 
     def _difference_points(self, point: Estimate, name: str, *, fine: bool) -> tuple[float, float]:
         """Two values of a parameter whose simulations give the derivative by it."""

@@ -24,10 +24,16 @@ THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
 GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
 GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] how a stop yields
+REST_STEPS = 1.5  # steps of a position by which one at rest may differ
+RISES = (
+    0.06  # [s] between the first voltage of a step and the first motion that a late sensor shows
+)
+FILTERED = 0.3  # [s] by which an averaged velocity may be late
 MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
 AROUND = 5  # samples before a motion and after it that say when it began and ended
 MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
 TREMBLES = 0.3  # [of that speed] a velocity with more noise at rest cannot tell it from a motion
+FINE = 3.0  # steps of a sensor between two samples at speed, which then cannot be the same
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
 SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 
@@ -93,12 +99,15 @@ def measure_runs(
     """
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
-    seen = tuple(_measure_run(run, top=top, friction=friction) for run in runs)
+    step = _smallest_step([run.position for run in runs])
+    seen = tuple(_measure_run(run, top=top, step=step, friction=friction) for run in runs)
     noise = estimate_noise(seen) if seen and rest_by_position else None
     speed = MOVING * top
     if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= TREMBLES * speed:
         return seen
-    return tuple(_measure_run(run, top=top, friction=friction, noise=noise) for run in runs)
+    return tuple(
+        _measure_run(run, top=top, step=step, friction=friction, noise=noise) for run in runs
+    )
 
 
 def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
@@ -176,13 +185,24 @@ def third_differences(time: Array, values: Array) -> Array:
 
 
 def _measure_run(
-    run: Run, *, top: float, friction: float | None, noise: SensorNoise | None = None
+    run: Run, *, top: float, step: float, friction: float | None, noise: SensorNoise | None = None
 ) -> RunMeasurements:
-    """The measurements of a run; ``noise`` is that of a velocity which trembles at rest."""
+    """The measurements of a run.
+
+    Args:
+        run: one of a log's.
+        top: [unit/s] the log's top speed.
+        step: [unit] between two different positions of the log.
+        friction: as of ``measure_runs``.
+        noise: of a velocity which trembles at rest.
+    """
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
+    doubtful = _find_repeated_frames(run, fast=fast, step=step)
     for column in (0, 1):
         measured[~_find_fresh_readings(measured[:, column], fast=fast), column] = np.nan
+    if not np.isnan(measured).any():
+        measured[doubtful] = np.nan
     moving = np.abs(run.velocity) > MOVING * top
     least = MOVING * top
     if noise is not None:
@@ -191,13 +211,13 @@ def _measure_run(
         moving = (np.abs(run.velocity) > least) | progress
     first = 0
     if friction is not None and moving.any() and not moving[0]:
-        go = _find_departure(run, moving)
+        go = _find_departure(run, moving, step=step)
         if _creeps_before_leaving(run, go):
             first = _find_far_sample(run)
         else:
             near = np.abs(run.voltage[: go + 1] - run.voltage[go]) <= friction
             first = go + 1 - int(np.argmin(near[::-1])) if not near.all() else 0
-            first = min(first, max(go - 1, 0))
+            first = min(first, max(go - 1, 0), _find_step_begin(run, go))
     cut = slice(first, None)
     start = float(run.velocity[first])
     start = start if abs(start) > least else 0.0
@@ -248,10 +268,44 @@ def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[n
     return np.asarray(new | (whole & (ends - index > 0.5 * frame)))
 
 
-def _find_departure(run: Run, moving: NDArray[np.bool_]) -> int:
-    """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little."""
+def _find_repeated_frames(run: Run, *, fast: NDArray[np.bool_], step: float) -> NDArray[np.bool_]:
+    """(n,) readings of a frame that was read twice at speed: one of the two is a period older.
+
+    Where a loop and a device's frames are in step, a little jitter makes the loop read a frame
+    twice and miss the next one. Which of the two has the age of all others, nobody can tell.
+    """
+    ways, pairs = np.abs(np.diff(run.position)), fast[1:] & fast[:-1]
+    same = (ways == 0.0) & (np.diff(run.velocity) == 0.0) & pairs
+    coarse = not pairs.any() or float(np.median(ways[pairs])) < FINE * step  # it repeats itself
+    if coarse or float(np.mean(same[pairs])) > HELD:
+        same[:] = False
+    return np.asarray(np.append(same, False) | np.insert(same, 0, False))
+
+
+def _find_departure(run: Run, moving: NDArray[np.bool_], *, step: float) -> int:
+    """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little.
+
+    An averaged velocity shows a departure late; then the position says when it was.
+    """
     rests = np.flatnonzero(~moving[: _find_far_sample(run) + 1])
-    return int(rests[-1]) + 1 if rests.size else 0
+    go = int(rests[-1]) + 1 if rests.size else 0
+    way = np.abs(run.position[:go] - run.position[0])
+    still = np.flatnonzero(way <= REST_STEPS * step)
+    left = int(still[-1]) + 1 if still.size else go
+    return left if left < go and run.time[go] - run.time[left] < FILTERED else go
+
+
+def _find_step_begin(run: Run, go: int) -> int:
+    """The first sample of a step that moves a mechanism at ``go``, a little later than commanded.
+
+    A current limit lets a step rise over some samples, and what the first of them did to the motion
+    shows later, where readings are late.
+    """
+    early = np.arange(go + 1)[run.time[: go + 1] >= run.time[go] - RISES]
+    pushes = run.voltage[early] * np.sign(run.voltage[go]) >= 0.5 * abs(run.voltage[go])
+    return (
+        int(early[early.size - int(np.argmin(pushes[::-1]))]) if not pushes.all() else int(early[0])
+    )
 
 
 def _find_far_sample(run: Run) -> int:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.random_friction import friction_sd
 
 FIRST_DAMPING, LEAST_DAMPING, TRIES = 1e-3, 1e-9, 5
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
@@ -44,6 +43,13 @@ class JointJacobian:
         taken = self.project(white)
         return float(white @ white - taken @ taken)
 
+    def improvement(self, white: Array, columns: Array, sd: float) -> float:
+        """[of -2 log L] gain of further columns (2 n, m), whose priors have this deviation."""
+        taken = self.basis.T @ columns
+        square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
+        slope = columns.T @ white - taken.T @ self.project(white)
+        return float(slope @ np.linalg.solve(square, slope))
+
     def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """What is left of a change's product with innovations, and with itself."""
         taken = self.basis.T @ change
@@ -69,14 +75,11 @@ def append_prior_rows(
     """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
     table, rest = problem.jacobian(point, fine=fine), problem.whiten(point, point.innovations)
     runs = len(problem.records)
-    sds, offsets = [problem.start_sd], [point.nuisance.position_offset]
-    if problem.varying_friction:
-        sds.append(friction_sd(point.values))
-        offsets.append(point.nuisance.friction_offset)
-    count = runs * len(sds)
+    nuisance = problem.nuisance_priors(point)
+    count = runs * len(nuisance)
     prior = np.zeros((count, table.shape[1]))
-    prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd in sds], runs))
-    own = [offset / sd for offset, sd in zip(offsets, sds, strict=True)]
+    prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
+    own = [offset / sd for sd, offset in nuisance]
     known = problem.priors_of(point.structure)
     rows = np.zeros((len(known), table.shape[1]))
     for row, (name, sd) in enumerate(known.items()):
@@ -142,14 +145,16 @@ def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> E
     searched = structure.searched_names
     for name, step in zip(searched, by.tolist(), strict=False):
         values[name] = structure.step_value(name, values[name], step)
-    starts, *frictions = by[len(searched) :].reshape(-1, len(problem.records))
-    nuisance = point.nuisance.shift_positions(starts)
-    for rubs in frictions:
-        nuisance = nuisance.add_friction(rubs)
+    own = iter(by[len(searched) :].reshape(-1, len(problem.records)))
+    nuisance = point.nuisance.shift_positions(next(own))
+    if problem.varying_friction:
+        nuisance = nuisance.add_friction(next(own))
         # what all runs have is kS: only the price tells, hardly
         common = float(np.mean(nuisance.friction_offset))
         values["kS"] = max(values["kS"] + common, 0.0)
         nuisance = nuisance.add_friction(np.full_like(nuisance.friction_offset, -common))
+    if problem.lag_sd:
+        nuisance = nuisance.add_lag(next(own))
     return problem.evaluate(structure, values, nuisance, point.process_noise)
 
 

@@ -40,7 +40,7 @@ SWEEPS = 2  # over all gains
 
 @dataclass(frozen=True, eq=False)
 class RunInformation:
-    """What one run says about the parameters, its start marginalized, in units of their sizes.
+    """What one run says about the parameters, its nuisance marginalized, in units of their sizes.
 
     Args:
         information: (k, k) Fisher information G.
@@ -63,7 +63,7 @@ def run_variation_covariance(
     Args:
         problem: the measurements, without frictions of each run's own.
         point: the best estimate.
-        table: (2 n + ..., searched + runs) Jacobian of the whitened innovations.
+        table: (2 n + ..., searched + nuisance) Jacobian of the whitened innovations.
         rest: (2 n + ...,) whitened innovations.
     """
     sizes = _sizes(problem, point)
@@ -143,7 +143,9 @@ def _run_information(
 ) -> list[RunInformation]:
     """The information of each run that is compared."""
     count, runs = sizes.size, []
-    start = 1.0 / problem.start_sd**2
+    nuisance = problem.nuisance_priors(point)
+    known = np.array([1.0 / sd**2 for sd, _ in nuisance])
+    places = count + len(problem.records) * np.arange(len(nuisance))
     for number, (first, last) in enumerate(
         zip(problem.run_edges, problem.run_edges[1:], strict=False)
     ):
@@ -151,11 +153,12 @@ def _run_information(
         columns = table[rows, :count] * sizes
         if not columns.any():
             continue
-        moved, own = table[rows, count + number], point.nuisance.position_offset[number] * start
-        size = float(moved @ moved) + start
-        free = columns - np.outer(moved, columns.T @ moved) / size
+        moved = table[rows][:, places + number]
+        own = np.array([offset[number] for _, offset in nuisance]) * known
+        shares = np.linalg.solve(moved.T @ moved + np.diag(known), moved.T @ columns)
+        free = columns - moved @ shares
         information = free.T @ columns
-        score = free.T @ rest[rows] - columns.T @ moved * own / size
+        score = free.T @ rest[rows] - shares.T @ own
         time = problem.records[number].measurements.time
         intervals = np.repeat(((time - time[0]) // LASTS).astype(int), 2)
         scores = np.zeros((int(intervals[-1]) + 1, count))

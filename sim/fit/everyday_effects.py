@@ -12,6 +12,7 @@ section 7.4).
 
 from collections.abc import Mapping
 from dataclasses import replace
+from weakref import WeakKeyDictionary
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows, invert_information, levenberg_marquardt
@@ -28,6 +29,9 @@ SLOPE = 0.02  # [V] of a floor, a cable, a spring
 FIRST = 0.3  # [of a standard deviation] where a search begins for what cannot be negative
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
 NAMES = ("asymmetric-friction", "stribeck", "drag", "constant-load")
+_ABSENT: WeakKeyDictionary[
+    Estimate, tuple[PredictionErrorProblem, PredictionErrorProblem, Estimate]
+] = WeakKeyDictionary()
 
 
 def everyday_priors(
@@ -47,6 +51,19 @@ def everyday_priors(
         "drag.drag": DRAG / top**2,
         "constant-load.load": SLOPE,
     }
+
+
+def without_size(
+    problem: PredictionErrorProblem, point: Estimate
+) -> tuple[PredictionErrorProblem, Estimate]:
+    """The same estimate in a model whose small effects are absent; one object for one estimate.
+
+    Whether they explain anything and what they add to the errors are then told from one Jacobian.
+    """
+    found = _ABSENT.get(point)
+    if found is None or found[0] is not problem:
+        found = _ABSENT[point] = (problem, *with_everyday_effects(problem, point))
+    return found[1:]
 
 
 def with_everyday_effects(
@@ -82,7 +99,7 @@ def fit_everyday_effects(
     Returns:
         Both as they were if the small effects do not explain enough.
     """
-    if not promised_improvement(*with_everyday_effects(problem, point)) > WORTH:
+    if not promised_improvement(*without_size(problem, point)) > WORTH:
         return problem, point
     size = problem.noise.velocity**2
     extended, begin = with_everyday_effects(problem, point, first=FIRST)
@@ -100,7 +117,7 @@ def promised_improvement(problem: PredictionErrorProblem, point: Estimate) -> fl
         problem: the measurements.
         point: an estimate whose small effects are absent.
     """
-    table, rest = append_prior_rows(problem, point)
+    table, rest = append_prior_rows(problem, point, fine=True)
     slope = table.T @ rest
     return float(slope @ invert_information(table) @ slope)
 

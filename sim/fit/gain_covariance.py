@@ -14,7 +14,7 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows, invert_information
 from sim.estimation.run_variation import run_variation_covariance
-from sim.fit.everyday_effects import with_everyday_effects
+from sim.fit.everyday_effects import without_size
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.search import OPEN_LOOP
 
@@ -35,7 +35,7 @@ def gain_covariances(
     """
     extended, wide = problem, point
     if not problem.priors:
-        extended, wide = with_everyday_effects(problem, point)
+        extended, wide = without_size(problem, point)
     table, rest = append_prior_rows(extended, wide, fine=True)
     count = len(wide.structure.searched_names)
     known = extended.priors_of(wide.structure)

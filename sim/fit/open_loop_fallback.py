@@ -87,14 +87,16 @@ def replay_open_loop(
 ) -> OpenLoopReplay:
     """Simulate every run from its first sample, without correction.
 
-    The start offsets of an estimate with process noise may lie anywhere, and do not count here.
+    The start offsets of an estimate with process noise may lie anywhere, and do not count here; the
+    lags of the runs do.
 
     Args:
         problem: measurements.
         point: the values.
         velocity_only: as of ``OpenLoopReplay``.
     """
-    track = problem.simulate(point.structure.model(point.values), problem.initial_nuisance)
+    nuisance = problem.initial_nuisance.add_lag(point.nuisance.lag_offset)
+    track = problem.simulate(point.structure.model(point.values), nuisance)
     both = np.column_stack([problem.measured[:, 1], track.seen])
     fresh = ~np.isnan(both[:, 0])
     changes = []
@@ -136,11 +138,12 @@ def fit_velocity_only(
         measured[:, 0] = np.nan
         run = replace(record.measurements, measured=measured)
         records.append(replace(record, measurements=run))
-    blind = replace(problem, records=tuple(records))
+    blind = replace(problem, records=tuple(records), lag_sd=0.0)
     structure = replace(point.structure, fixed=LAGS)
+    nuisance = blind.initial_nuisance.add_lag(point.nuisance.lag_offset)
     found = levenberg_marquardt(
         blind,
-        blind.evaluate(structure, point.values, blind.initial_nuisance, 0.0),
+        blind.evaluate(structure, point.values, nuisance, 0.0),
         steps=STEPS,
         enough=0.01,
     )

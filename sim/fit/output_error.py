@@ -41,6 +41,7 @@ from sim.fit.open_loop_fallback import (
     replay_open_loop,
 )
 from sim.fit.result import Fit
+from sim.fit.run_lags import fit_run_lags
 from sim.fit.search import (
     TRACKING,
     drop_outliers,
@@ -53,9 +54,11 @@ from sim.fit.search import (
 from sim.fit.sysid_doubts import uncertain_gains
 
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
+CHANCE = 4.0  # [of -2 log L] more for a window below a sample, of which noise looks like one
 HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
-SHORT_LAGS = {"delay.lag": (0.05, 0.2)}
+SHORT_WINDOWS = (0.1, 1.0, 0.5)
+SHORT_LAGS = {"velocity-filter.window": SHORT_WINDOWS, "delay.lag": (0.05, 0.2)}
 """[sample periods] from which a search begins, and from which again when gains are nearly right.
 
 An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
@@ -137,7 +140,12 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)
-    problem, likeliest, followed = _add_everyday_effects(*_choose_lags(problem, plain))
+    every = problem
+    problem, likeliest, followed = _choose_lags(problem, plain)
+    problem, likeliest, followed = _add_run_lags(
+        problem, likeliest, followed, every=every, period=_sample_period(log.runs)
+    )
+    problem, likeliest, followed = _add_everyday_effects(problem, likeliest, followed)
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
     gains, errors = _gains_with_errors(point, parameter_covariance(searched, point), type=type)
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
@@ -195,15 +203,34 @@ def _choose_lags(
             found, followed = other, replay_open_loop(problem, other)
     if followed.has_misfit:  # a millisecond is not what is wrong
         return problem, found, followed
-
-    def settle(
-        problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
-    ) -> Estimate:
-        first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
-        return fit_open_loop(problem, refine(problem, first))
-
-    best = _add_lags(problem, found, SHORT_LAGS, settle=settle)
+    best = _add_short_lags(problem, found)
     return problem, best, followed if best is found else replay_open_loop(problem, best)
+
+
+def _add_run_lags(
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    followed: OpenLoopReplay,
+    *,
+    every: PredictionErrorProblem,
+    period: float,
+) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
+    """The same with a lag of each run's own, where the runs' likelihood asks for it."""
+    if _lacks_more(problem, point, followed):
+        return problem, point, followed
+    extended, found = fit_run_lags(problem, point, every=every, period=period)
+    if found is point:
+        return problem, point, followed
+    found = _add_short_lags(extended, found)
+    after = replay_open_loop(extended, found)
+    if _lacks_more(extended, found, after):
+        return problem, point, followed
+    return extended, found, after
+
+
+def _lacks_more(problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay) -> bool:
+    """Whether so much is missing from a model that its small parameters stand in for it."""
+    return followed.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
 
 
 def _add_everyday_effects(
@@ -214,8 +241,8 @@ def _add_everyday_effects(
     if found is point:
         return problem, point, followed
     after = replay_open_loop(extended, found)
-    if after.has_misfit and found.process_noise > TRACKING * problem.noise.velocity**2:
-        return problem, point, followed  # something else is missing, and they stand in for it
+    if _lacks_more(extended, found, after):
+        return problem, point, followed
     return extended, found, after
 
 
@@ -242,6 +269,18 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
     return min(best, key=lambda one: one.cost)
 
 
+def _add_short_lags(problem: PredictionErrorProblem, found: Estimate) -> Estimate:
+    """An estimate whose gains are nearly right, with the short lags that are worth it."""
+
+    def settle(
+        problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
+    ) -> Estimate:
+        first = problem.evaluate(structure, values, found.nuisance, found.process_noise)
+        return fit_open_loop(problem, refine(problem, first))
+
+    return _add_lags(problem, found, SHORT_LAGS, settle=settle)
+
+
 def _add_lags(
     problem: PredictionErrorProblem,
     point: Estimate,
@@ -259,19 +298,23 @@ def _add_lags(
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
-        firsts = [(name, sizes[0] * problem.period) for name, sizes in left.items()]
-        # a lag of any size shows in what a short one promises
+        # a lag of any size shows in what one of the first two promises
+        firsts = [(name, size * problem.period) for name, all_ in left.items() for size in all_[:2]]
         kept = make_joint_jacobian(problem, point, fine=True)
         if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
             break
         tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
-        worth = predicted_improvement(problem, point, tried, kept=kept)
-        if not worth.max() > WORTH:
+        least = np.array([
+            WORTH + CHANCE * (sizes is SHORT_WINDOWS) for sizes in left.values() for _ in sizes
+        ])  # fmt: skip
+        worth = predicted_improvement(problem, point, tried, kept=kept) - least
+        if not worth.max() > 0.0:
             break
-        name, value = tried[int(np.argmax(worth))]
+        best = int(np.argmax(worth))
+        name, value = tried[best]
         structure = point.structure + name.partition(".")[0]
         other = settle(problem, structure, {**point.values, name: value})
-        if not other.cost < point.cost - WORTH:
+        if not other.cost < point.cost - least[best]:
             break
         point = other
         del left[name]

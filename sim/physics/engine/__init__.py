@@ -138,6 +138,10 @@ class Track:
         """(n, 2) position and velocity as the sensors report them."""
         return np.column_stack((self.position, self.seen))
 
+    def every(self, step: int) -> "Track":
+        """Every ``step``-th sample, from the first."""
+        return Track(*(getattr(self, one.name)[::step] for one in fields(self)))
+
     def truncate(self, end: int) -> "Track":
         """The first ``end`` samples."""
         return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
@@ -188,7 +192,7 @@ def simulate_run(
     kernel.move(
         np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage),
         np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
-        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1),
+        np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
         model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
         np.array([state.clock]), longest, simple, _as_contiguous(measured),
         np.tile(np.ravel(_as_contiguous(trust)), (len(measured), 1)), out,
@@ -210,6 +214,7 @@ def filter_runs(
     position_offset: Array,
     backlash_phase: Array,
     friction_offset: Array,
+    lag_offset: Array,
 ) -> Array:
     """Predict all runs of a batch with a model and its Kalman gain, in one call of the engine.
 
@@ -226,6 +231,7 @@ def filter_runs(
         backlash_phase: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a
             weight decides.
         friction_offset: (runs,) [V] dry friction of each beyond kS.
+        lag_offset: (runs,) [s] by which each is late beyond the model's delay.
 
     Returns:
         (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
@@ -244,10 +250,10 @@ def filter_runs(
     gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
-        batch.high + aside, _as_contiguous(friction_offset), batch.sessions,
-        model_constants(model), NO_WIRES, on, parameters, np.zeros(len(EFFECTS)), np.zeros(WAYS),
-        batch.clocks, longest, simple, batch.measured if corrects else UNSEEN,
-    _as_contiguous(gains), out )  # fmt: skip
+        batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
+        batch.sessions, model_constants(model), NO_WIRES, on, parameters,
+        np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
+    batch.measured if corrects else UNSEEN, _as_contiguous(gains), out )  # fmt: skip
     return out
 
 

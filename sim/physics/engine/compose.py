@@ -60,6 +60,7 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "low": "(count,)",
     "high": "(count,)",
     "rubs": "(count,)",
+    "run_lags": "(count,)",
     "sessions": "(count,)",
     "began": "(count,)",
     "ways": f"({WAYS},)",

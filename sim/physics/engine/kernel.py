@@ -31,7 +31,7 @@ NUMBER = np.dtype(np.float64)
 INTEGER, PLACE = ctypes.c_int64, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in compose.py says it
-    None, *[INTEGER] * 3, *[PLACE] * 17, INTEGER, *[PLACE] * 3
+    None, *[INTEGER] * 3, *[PLACE] * 18, INTEGER, *[PLACE] * 3
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -56,8 +56,8 @@ class Kernel:
 
     def move(
         self, edges: Array, time: Array, asked: Array, slides: Array, bodies: Array,
-        low: Array, high: Array, rubs: Array, sessions: Array, c: Array, w: Array, on: Array,
-        p: Array, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
+        low: Array, high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Array, w: Array,
+        on: Array, p: Array, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
         measured: Array, trust: Array, out: Array,
     ) -> None:  # fmt: skip
         """Simulate runs; the arguments are those of ``stepping.step_runs``.
@@ -71,16 +71,17 @@ class Kernel:
             raise TypeError("arrays of the same runs are of one length")
         if trust.shape != (len(measured), 4):
             raise TypeError("each measurement has four gains")
-        each = low.size, high.size, rubs.size, sessions.size
+        each = low.size, high.size, rubs.size, run_lags.size, sessions.size
         if {len(bodies), *each, edges.size - 1} != {count}:
             raise TypeError("there is one of everything for each run")
         if count and not (edges[0] == 0 and edges[-1] == n and np.all(np.diff(edges) >= 0)):
             raise TypeError("runs lie one behind the other")
         self._call(
             count, n, len(measured), _place(edges), _place(time), _place(asked), _place(slides),
-            _place(bodies), _place(low), _place(high), _place(rubs), _place(sessions), _place(c),
-            _place(w), _place(on), _place(p), _place(memory), _place(ways), _place(began),
-            _place(steps), plain, _place(measured), _place(trust), _place(out),
+            _place(bodies), _place(low), _place(high), _place(rubs), _place(run_lags),
+            _place(sessions), _place(c), _place(w), _place(on), _place(p), _place(memory),
+            _place(ways), _place(began), _place(steps), plain, _place(measured),
+            _place(trust), _place(out),
         )  # fmt: skip
 
 
@@ -196,7 +197,8 @@ def try_kernel_file(kept: Path) -> None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
     runs = dict.fromkeys(
-        ("time", "asked", "slides", "low", "high", "rubs", "sessions", "began"), none[:, 0]
+        ("time", "asked", "slides", "low", "high", "rubs", "run_lags", "sessions", "began"),
+        none[:, 0],
     )
     model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "steps"), some)
     Kernel(*found).move(

@@ -131,20 +131,20 @@ def voltage_slope(time: Array, slides: Array, command: int) -> float:
 
 def step_run(
     time: Array, asked: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
-    p: Numbers, memory: Array, ways: Array, began: float, steps: Array, plain: bool,
+    p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
     measured: Array, trust: Array, out: Array,
 ) -> None:  # fmt: skip
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
 
     A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
-    by what the effects delay it; before the first has come, what rests is held where it rests, by a
-    stop or a brake. ``measured`` (n, 2) are positions and velocities that correct the motion as it
-    goes, nan where there is none, by the gains ``trust`` (n, 4); without rows it goes its way. A
-    step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that even that does not
-    shorten, and [unit/s] by which the speed changes. ``ways`` is room for the tables of
-    ``two_body_modes.py``: of one model only, and empty at first.
+    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
+    where it rests, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that
+    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4); without
+    rows it goes its way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that
+    even that does not shorten, and [unit/s] by which the speed changes. ``ways`` is room for the
+    tables of ``two_body_modes.py``: of one model only, and empty at first.
     """
-    lag = command_delay(on, p)
+    lag = command_delay(on, p) + late
     n = time.size
     command = -1  # the last one that has arrived
     rests = state[V] == 0.0 and state[W] == 0.0
@@ -187,15 +187,15 @@ def step_run(
 
 def step_runs(
     edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
-    high: Array, rubs: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers,
-    memory: Array, ways: Array, began: Array, steps: Array, plain: bool, measured: Array,
-trust: Array, out: Array ) -> None:  # fmt: skip
+    high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers,
+    p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
+measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
     """Move through runs that lie one behind the other, ``run`` by ``run``.
 
     A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
     when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
-    ``rubs`` [V] beyond kS. What effects remember goes on through runs of the same number in
-    ``sessions``.
+    ``rubs`` [V] beyond kS, and it is late by ``run_lags`` [s] beyond the effects' delay. What
+    effects remember goes on through runs of the same number in ``sessions``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])
@@ -206,8 +206,8 @@ trust: Array, out: Array ) -> None:  # fmt: skip
         gains = trust[first:last] if measured.shape[0] > 0 else trust
         step_run(
             time[first:last], asked[first:last], slides[first:last], bodies[k],
-            bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k], steps,
-            plain, lead, gains, out[first:last],
+            bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k],
+            run_lags[k], steps, plain, lead, gains, out[first:last],
         )  # fmt: skip
 
 
