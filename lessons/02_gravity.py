@@ -227,7 +227,7 @@ animate_mechanism(
     ),
     panels=(
         Panel("position", "height [m]", low=0.0, high=1.2),
-        Panel("velocity", "velocity [m/s]", low=-0.6, high=0.6),
+        Panel("velocity", "velocity [m/s]", low=-0.2, high=0.2),
     ),
     knobs=(Knob("volts", "voltage [V]", low=1.2, high=3.0, step=0.01, value=1.5),),
     span=(0.0, 1.2),
@@ -367,7 +367,7 @@ def let_go_at(degrees: int) -> Scene:
     return Scene(np.arange(0.0, 1.01, 0.02), (held,))
 
 
-ANGLES = {f"{degrees}°": let_go_at(degrees) for degrees in (-30, 0, 30, 60, 85)}
+ANGLES = {f"{degrees}°".replace("-", "−"): let_go_at(degrees) for degrees in (-30, 0, 30, 60, 85)}
 animate_mechanism(
     "arm",
     {(name,): scene for name, scene in ANGLES.items()},

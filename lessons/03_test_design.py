@@ -109,8 +109,8 @@ log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# These are the four runs. (The picture shows only the first second of each step.) Now look at the
-# rise after the step more closely:
+# The picture shows only the first second of each step. Now look at the rise after the step more
+# closely:
 
 # %%
 since = np.round(np.arange(0.0, 0.5, 0.005), 3)
@@ -301,7 +301,7 @@ Table(
 #
 # The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
 # noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means that both
-# gains are unknown.
+# gains are unknown, even where it looks level.
 #
 # **Predict** before you choose runs in the menu:
 
@@ -718,7 +718,7 @@ animate_mechanism(
             Motion("step", gains=truth, plan=TestPlan(step=Gain("step"), **test_ends)),
         ),
     ),
-    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=3.0),),
+    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=4.0),),
     knobs=(
         Knob("ramp", "ramp [V/s]", low=0.2, high=2.0, step=0.05, value=0.5),
         Knob("step", "step [V]", low=0.5, high=7.0, step=0.1, value=3.5),
