@@ -202,7 +202,7 @@ def resolve_links(html: str, *, page: Page, config: MkDocsConfig, files: Files) 
         repository = config.extra["repository"]
         return f"{repository}/blob/main/{name}" if repository else None
 
-    def replace(link: re.Match[str]) -> str:
+    def rewrite_link(link: re.Match[str]) -> str:
         if "download" in link["after"]:
             return link.group()
         found = find(link["target"])
@@ -213,7 +213,7 @@ def resolve_links(html: str, *, page: Page, config: MkDocsConfig, files: Files) 
     def replace_source(source: re.Match[str]) -> str:
         return f' src="{find(source["target"])}"'
 
-    return SOURCE.sub(replace_source, ANCHOR.sub(replace, html))
+    return SOURCE.sub(replace_source, ANCHOR.sub(rewrite_link, html))
 
 
 def say_how_to_run(page: Page, config: MkDocsConfig) -> str:

@@ -4,17 +4,21 @@ A wrong number is told which known slip would explain it, or only how far outsid
 never the distance, and never the key.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any, Protocol
 
-from grader.check import WrongAnswer, shorten
+from grader.check import Check, WrongAnswer, check, shorten
 from grader.quantity import NotAUnitError, read_number, read_unit
 from grader.wrong_number import MANY, Scene, WrongNumber, explain_wrong_number
 
 LARGEST = 1e300  # beyond it a number is infinite, or soon will be
 HALF = 0.5  # [share] of the points inside the wider band
-LITTLE = 2.0  # [wider bands] up to here a number is outside by a little, beyond it by a lot
+LITTLE = 2.0  # [wider bands] a number that is off by more is far outside
 START_AGAIN = "Check the numbers you started from, and their units"
+CALCULATION = re.compile(r"[-+*/·^]+\s*[\d(]")  # how the rest of a number begins that is a sum
+NO_UNIT = "It has no unit, and it is not in percent: write the number alone."
 UNIT_ASSUMED = " (no unit given, so I assumed "
 FAST = 0.05  # [s] a time constant kA/kV below this fits into two or three samples of 20 ms
 
@@ -117,6 +121,10 @@ def read_answer_number(raw: object, asked: AskedNumber) -> float:
     if found is None:
         raise WrongAnswer(f'"{shorten(raw)}", which is not one number', hint=ask)
     value, unit = found
+    if CALCULATION.match(unit):
+        raise WrongAnswer(
+            f'"{shorten(raw)}", which is a calculation', hint="Write its result, one number."
+        )
     return _require_finite(value * _find_scale(unit, asked) if unit else value, asked)
 
 
@@ -138,14 +146,15 @@ def _find_scale(unit: str, asked: AskedNumber) -> float:
     except NotAUnitError as part:
         raise WrongAnswer(
             f"the unit {unit!r}, in which {str(part)!r} is not known",
-            hint=f"Write {asked.unit}, or leave the unit out." if asked.unit else "It has no unit.",
+            hint=f"Write {asked.unit}, or leave the unit out." if asked.unit else NO_UNIT,
         ) from None
     if given.powers != wanted.powers:
+        hint = f"Write it in {asked.unit}." if asked.unit else NO_UNIT
+        if unit.count("/") > 1:
+            hint += " Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not."
         raise WrongAnswer(
             f"the unit {unit!r}, which is not a unit of {asked.name}",
-            hint=(
-                f"Write it in {asked.unit}. Mind the parentheses: V/(m/s) is V·s/m, V/m/s is not."
-            ),
+            hint=hint,
             misconception="M-UNITS",
         )
     return given.factor / wanted.factor
@@ -177,12 +186,12 @@ def judge_number(
     full, partial = asked.band.widths(asked.expected)
     away = abs(value - asked.expected)
     near = asked.describe_tolerance(full, asked.band.full)
-    earned, verdict = 0.0, f"far outside the accepted {near}. {START_AGAIN}"
+    far = "far " if away > LITTLE * partial else ""
+    earned, verdict = 0.0, f"{far}outside the accepted {near}. {START_AGAIN}"
     if away <= partial:
         wider = asked.describe_tolerance(partial, asked.band.partial)
-        earned, verdict = HALF * points, f"close: within {wider}, not yet within {near}"
-    elif away <= LITTLE * partial:
-        verdict = f"just outside the accepted {near}"
+        earned = HALF * points
+        verdict = f"close: within {wider}, not yet within {near}. Did you round too early?"
     slips = diagnose_number(name, given, key)
     codes = {slip.misconception for slip in slips}
     said = _describe_wrong_number(name, value, slips)
@@ -193,6 +202,41 @@ def judge_number(
         misconception=codes.pop() if len(codes) == 1 else "",
         earned=earned,
     )
+
+
+class NumberAnswers(Protocol):
+    """Answers with numbers, and what they are compared with."""
+
+    @property
+    def given(self) -> Mapping[str, object]:
+        """Name -> the answer as it stands in the file."""
+
+    @property
+    def key(self) -> AnswerKey:
+        """The numbers asked for."""
+
+
+def number_check(
+    name: str,
+    description: str,
+    *,
+    points: float,
+    after: Check[Any] | tuple[Check[Any], ...] = (),
+) -> Check[Any]:
+    """Make a check of one number.
+
+    Args:
+        name: of the number; in lower case it is the check's.
+        description: the line that the learner reads.
+        points: for full marks.
+        after: the check, or checks, that have to pass first.
+    """
+
+    def judge(answers: NumberAnswers) -> str | None:
+        return judge_number(name, answers.given, answers.key, points=points)
+
+    judge.__name__, judge.__doc__ = name.lower(), description
+    return check(points=points, after=after)(judge)
 
 
 def diagnose_number(
@@ -216,12 +260,14 @@ def _find_wrong_numbers(
     if value is None or asked.is_right(value):
         return ()
     numbers = {other: one.expected for other, one in key.asked.items()}
-    found = explain_wrong_number(name, value, right=asked.is_right, key=numbers, scene=key.scene)
+    found = explain_wrong_number(
+        name, value, right=asked.is_right, key=numbers, scene=key.scene, unit=asked.unit
+    )
     for other, one in key.asked.items():
         theirs = _read_value(other, given, key)
         if other != name and theirs is not None and one.is_right(value) and asked.is_right(theirs):
             says = f"it would be right for {other}, and your {other} for {name}: did you swap them?"
-            found += (WrongNumber("swapped", says, "M-ARGORDER"),)
+            found += (WrongNumber("swapped", says),)
     return found
 
 

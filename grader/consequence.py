@@ -54,7 +54,7 @@ def follow_profiles(followed: "Sequence[FollowedProfile]") -> Consequence:
         followed: at least one.
     """
     told = " ".join(one.description for one in followed)
-    words = f"Your numbers as feedforward, without feedback. {told}"
+    words = f"This is what your numbers do as feedforward, without feedback. {told}"
 
     def draw() -> Picture:
         from sim.plot.consequence import make_profile_traces, plot_consequence  # noqa: PLC0415 - only who draws waits for it

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from grader.check import WrongAnswer
 from grader.robotcode.facts import LoggedSignal, RoutineFacts
 from grader.robotcode.readings import PULSE_COUNT
+from grader.sysid_routine_checks import quote_code
 
 SIDES = (("left", "right"), ("front", "back"), ("front", "rear"), ("top", "bottom"))
 MOVING = ("position", "velocity")
@@ -63,7 +64,7 @@ def _find_wrong_quantity(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
             yield (
                 f"{one.motor} {one.signal}",
                 (
-                    f"{_locate(one)}: the {one.signal} of {one.motor} is the {one.quantity} of "
+                    f"{quote_code(one)}: the {one.signal} of {one.motor} is the {one.quantity} of "
                     f"{one.device}"
                 ),
                 f"Log the {one.signal} there: each value has its own method.",
@@ -77,7 +78,7 @@ def _find_wrong_side(signals: Sequence[LoggedSignal]) -> Iterator[Fault]:
             if named and asked and named != asked:
                 yield (
                     f"{one.motor} {one.signal}",
-                    f"{_locate(one)}: {one.motor} gets the {one.signal} of {one.device}",
+                    f"{quote_code(one)}: {one.motor} gets the {one.signal} of {one.device}",
                     (
                         "Did you copy a line and forget to change it? Under the name "
                         f"{one.motor}, log the values of the {named} motor."
@@ -108,7 +109,7 @@ def _find_shared_device(facts: RoutineFacts) -> Iterator[Fault]:
                 yield (
                     f"{one.motor} {signal}",
                     (
-                        f"{_locate(one)}: "
+                        f"{quote_code(one)}: "
                         f"{one.motor} gets the {signal} of {one.device}, and so does "
                         f"{before.motor}"
                     ),
@@ -133,8 +134,8 @@ def _find_mixed_devices(facts: RoutineFacts) -> Iterator[Fault]:
                 yield (
                     f"{name} {later}",
                     (
-                        f"{_locate(other)}: the {later} of {name} comes from {other.device}, its "
-                        f"{earlier} from {one.device}"
+                        f"{quote_code(other)}: the {later} of {name} comes from {other.device}, "
+                        f"its {earlier} from {one.device}"
                     ),
                     "All three signals of a motor must come from the same side.",
                 )
@@ -204,7 +205,7 @@ def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | 
     """
     flipped = [call for call in facts.drive if call.negative]
     for call in flipped:
-        at = f"{call.text} in line {call.line}"
+        at = quote_code(call)
         turned = call.motor in facts.inverted
         if turned:
             hint = (
@@ -239,7 +240,7 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
     for one in signals:
         if one.unsigned and one.signal in {*MOVING, "voltage"}:
             raise WrongAnswer(
-                f"{_locate(one)}: the {one.signal} of {one.motor} loses its sign",
+                f"{quote_code(one)}: the {one.signal} of {one.motor} loses its sign",
                 hint="Half of the tests run backward. Log the number with its sign.",
             )
     for name in dict.fromkeys(one.motor for one in signals):
@@ -253,7 +254,7 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
         if up and down:
             odd, rest = (down, up) if len(down) <= len(up) else (up, down)
             raise WrongAnswer(
-                f"{_locate(odd[0])}: "
+                f"{quote_code(odd[0])}: "
                 f"the {odd[0].signal} of {name} has a sign of its own, unlike its "
                 f"{rest[0].signal}",
                 hint="A positive voltage must give a positive velocity and a growing position. "
@@ -275,13 +276,13 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
     for one in signals:
         if DIVIDES_BY_ZERO.search(one.text):
             raise WrongAnswer(
-                f"{_locate(one)}: a number divided by 0",
+                f"{quote_code(one)}: a number divided by 0",
                 hint="The result is infinite. Divide by the gear ratio, or not at all.",
                 misconception="M-UNITS",
             )
         if geared and one.native.startswith("rotation") and not geared & {one.device, "*"}:
             raise WrongAnswer(
-                f"{_locate(one)}: "
+                f"{quote_code(one)}: "
                 f"{one.device} gets no configuration, so it reports rotations of the "
                 f"motor; {min(geared)} reports those of the mechanism",
                 hint="Apply the configuration with the gear ratio to every motor.",
@@ -290,7 +291,7 @@ def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) ->
         hint = _describe_unit_slip(one)
         if hint:
             raise WrongAnswer(
-                f"{_locate(one)}: {one.device} reports {UNITS_OF[one.native]}, and the log says "
+                f"{quote_code(one)}: {one.device} reports {UNITS_OF[one.native]}, and the log says "
                 f"{_cite(one)}",
                 hint=hint,
                 misconception="M-UNITS",
@@ -357,7 +358,8 @@ def _check_rate(signals: Sequence[LoggedSignal]) -> None:
     if math.isclose(ratio, 1.0, rel_tol=1e-3):
         return
     seen = (
-        f"{_locate(velocity)}: the velocity of {velocity.motor} is {ratio:.4g} times the slope of "
+        f"{quote_code(velocity)}: the velocity of {velocity.motor} is {ratio:.4g} times the slope "
+        "of "
     )
     if math.isclose(ratio, -1.0, rel_tol=1e-3):
         hint = "One of the two has the wrong sign. Log both with the same sign."
@@ -377,7 +379,7 @@ def _check_alike(signals: Sequence[LoggedSignal]) -> None:
         ratio = abs((other.scale or 1.0) / (one.scale or 1.0))
         if not math.isclose(ratio, 1.0, rel_tol=1e-3):
             raise WrongAnswer(
-                f"{_locate(other)}: "
+                f"{quote_code(other)}: "
                 f"the {other.signal} of {other.motor} counts {ratio:.4g} times what "
                 f"that of {one.motor} counts",
                 hint="Both sides have the same wheels and gears. Convert both in the same way.",
@@ -412,7 +414,7 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
             scale = abs(one.scale or 0.0) * per_second
             if not math.isclose(scale, value, rel_tol=1e-3):
                 raise WrongAnswer(
-                    f"{_locate(one)}: "
+                    f"{quote_code(one)}: "
                     f"{one.device}'s number is multiplied with {scale:.4g} in all, and "
                     f"{name} is {value:.4g}",
                     hint=f"Multiply by {name} exactly once.",
@@ -486,7 +488,3 @@ def _cite(one: LoggedSignal) -> str:
     if one.family == "linear":
         return "meters" if one.signal == "position" else "meters per second"
     return "rotations" if one.signal == "position" else "rotations per second"
-
-
-def _locate(one: LoggedSignal) -> str:
-    return f"{one.text} in line {one.line}"

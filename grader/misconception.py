@@ -30,6 +30,13 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         lesson="01_motor_model",
         section="Units: per rotation, per radian, per meter",
     ),
+    "M-GEARING": Misconception(
+        "A motor and its mechanism do not move equally fast. Divide the motor's speed by the gear "
+        "ratio. One turn of a wheel or drum then goes π times its diameter, which is twice its "
+        "radius.",
+        lesson="01_motor_model",
+        section="Is this kV possible?",
+    ),
     "M-ARGORDER": Misconception(
         "Only their order separates values in a list of arguments. Look up which comes first.",
         lesson="08_from_analyzer_to_robot",

@@ -27,7 +27,7 @@ class Mistake:
 
     name: str
     file: str
-    make: Callable[[str], str]
+    edit_text: Callable[[str], str]
     check: str
     says: str
     misconception: str = ""
@@ -36,27 +36,27 @@ class Mistake:
 def replace_text(*changes: tuple[str, str]) -> Callable[[str], str]:
     """Make a wrong text by replacing parts of the right one, each everywhere it stands."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for old, new in changes:
             if old not in text:
                 raise ValueError(f"the solution no longer contains {old!r}")
             text = text.replace(old, new)
         return text
 
-    return make
+    return edit_text
 
 
 def change_numbers(change: Callable[[Numbers], Numbers]) -> Callable[[str], str]:
     """Make a wrong text by changing some of the numbers in the right answers.toml."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         right = {found["name"]: float(found["value"]) for found in LINE.finditer(text)}
         wrong = {**right, **change(right)}
         if wrong == right:
             raise ValueError("the solution has none of the numbers to change")
         return LINE.sub(lambda found: f"{found['name']} = {wrong[found['name']]:.6g}", text)
 
-    return make
+    return edit_text
 
 
 def change_number(name: str, change: Callable[[Numbers], float]) -> Callable[[str], str]:
@@ -77,10 +77,10 @@ def exchange_numbers(one: str, other: str) -> Callable[[str], str]:
 def set_answer(name: str, value: str) -> Callable[[str], str]:
     """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         line = re.compile(rf"^{re.escape(name)} = .*$", re.MULTILINE)
         if not line.search(text):
             raise ValueError(f"the solution has no {name}")
         return line.sub(lambda _: f"{name} = {value}", text, count=1)
 
-    return make
+    return edit_text

@@ -192,4 +192,9 @@ def _explain_restore(folder: Path, name: str) -> str:
     if folder.parent.name != "exercises":
         return ""
     path = f"{folder.parent.name}/{folder.name}/{name}"
-    return f"To get the file back as it was: git checkout -- {path}"
+    if any((above / ".git").exists() for above in folder.resolve().parents):
+        return f"To get the file back as it was: git checkout -- {path}"
+    return (
+        "To get the file back as it was: make a new copy of the course with grade start "
+        f"NEW-FOLDER --no-lab, and take {path} from there."
+    )

@@ -29,6 +29,10 @@ SAME_LENGTH = {"feet": "foot", "turn": "rotation", "revolution": "rotation"}
 # What makes a share of the battery of a voltage.
 BATTERY = re.compile(r"/ ?1[0-3](\.\d*)?\b|\.(div|divide)\(|attery", re.IGNORECASE)
 
+DECIMAL_COMMA = re.compile(r"\(\s*\d+\s*,\s*\d+\s*\)")  # Volts.of(0,5)
+BATTERY_VOLTAGE = re.compile(r"(supply|battery|bus)_?voltage", re.IGNORECASE)
+PRODUCT = re.compile(r"\*|times\(|multiply|dutycycle|duty_cycle|applied", re.IGNORECASE)
+
 Advice = Callable[[float], tuple[str, str]]
 
 
@@ -91,6 +95,8 @@ class ConfigSetting:
             )
         if got.known is Certainty.UNKNOWN:
             hint = "Write it as a number, or as a named constant in this folder."
+            if DECIMAL_COMMA.search(got.text):
+                hint = "In code a decimal number has a point, not a comma: 0.5."
             raise WrongAnswer(explain_doubt(f"the {self.name}", got.text), hint=hint)
         value = self.default if got.value is None else got.value
         right = math.isclose(value, self.value, rel_tol=1e-9)
@@ -117,10 +123,15 @@ class ConfigSetting:
         plain = got.dimension == "number" and facts.language == "python"
         if got.dimension == self.dimension or plain:
             return
+        hint = f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}."
+        others = [one for one in (facts.ramp, facts.step, facts.timeout) if one is not got]
+        swapped = self.dimension in {one.dimension for one in others}
+        if swapped:
+            hint += " Config takes the ramp first, then the step, then the timeout."
         raise WrongAnswer(
             f"{quote_code(got)}, which is not in {self.unit}",
-            hint=f"The {self.name} is in {self.unit}. Here it is {self._asked(facts)}.",
-            misconception="M-UNITS",
+            hint=hint,
+            misconception="M-ARGORDER" if swapped else "M-UNITS",
         )
 
 
@@ -161,6 +172,23 @@ def check_motor_driven(motor: str, calls: Sequence[DriveCall]) -> None:
         else:
             hint = f"Your code changes the voltage. {hint}"
         raise WrongAnswer(quote_code(call), hint=hint, misconception=misconception)
+
+
+def find_test_commands(facts: RoutineFacts) -> tuple[DriveCall, ...]:
+    """The commands of the drive callback, without those that only hold another axis still.
+
+    While a swerve drive goes straight, a closed loop holds its steering. It never sees the voltage
+    of the test, and its motor is a module's, not one of the subsystem's own.
+    """
+    others = {call.motor for call in facts.drive if call.output is not Output.CLOSED_LOOP}
+    holding = {
+        call.motor
+        for call in facts.drive
+        if call.output is Output.CLOSED_LOOP
+        and call.uses_parameter is False
+        and call.motor not in {*facts.motors, *others}
+    }
+    return tuple(call for call in facts.drive if not others or call.motor not in holding)
 
 
 def check_only_test_drives(facts: RoutineFacts) -> None:
@@ -214,8 +242,7 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
     if voltage and voltage.source is Source.COMMANDED:
         raise WrongAnswer(
             f"{quote_code(voltage)}: the commanded voltage",
-            hint="Log the voltage that the motor got: getMotorVoltage(), getAppliedOutput() times "
-            "the bus voltage, or in Python getVoltage().",
+            hint=APPLIED,
             misconception="M-CMDVOLT",
             earned=earned - points * _SHARE["voltage"],
         )
@@ -229,6 +256,12 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
         hint = "A fit needs all three of every motor: voltage, position and velocity."
         raise WrongAnswer(f"no {' and no '.join(lacking)}{of}", hint=hint, earned=earned)
     if voltage and voltage.source is Source.UNKNOWN:
+        if BATTERY_VOLTAGE.search(voltage.text) and not PRODUCT.search(voltage.text):
+            raise WrongAnswer(
+                f"{quote_code(voltage)}: the voltage of the battery",
+                hint=f"The motor gets only a part of it. {APPLIED}",
+                earned=earned - points * _SHARE["voltage"],
+            )
         raise WrongAnswer(
             explain_doubt(f"where the voltage{of} comes from", quote_code(voltage)),
             hint="Ask the motor itself for it, in the log callback.",
@@ -241,6 +274,10 @@ def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points:
         )
 
 
+APPLIED = (
+    "Log the voltage that the motor got: getMotorVoltage(), getAppliedOutput() times the bus "
+    "voltage, or in Python getVoltage()."
+)
 _SHARE = {"voltage": 1 / 2, "position": 1 / 6, "velocity": 1 / 6}
 
 
@@ -316,7 +353,7 @@ def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: flo
         raise WrongAnswer(
             f"line {one.line}: {one.message}",
             hint=f"With this line {stops}, and the robot does not start. "
-            f"{'Correct the name' if one.meant else 'Fix the name, its import or its type'}.{more}",
+            f"Correct {'the name' if one.meant else 'it'}.{more}",
             earned=earned,
         )
 
@@ -350,8 +387,8 @@ READ = {  # what is said of code that nobody compiled
 
 
 def quote_code(what: ConfigQuantity | DriveCall | LoggedSignal) -> str:
-    """The code in question and its line."""
-    return f"{what.text} in line {what.line}"
+    """The code in question and its line, if it stands in the file in hand."""
+    return f"{what.text} in {f'line {what.line}' if what.line else 'another file'}"
 
 
 def explain_doubt(what: str, text: str) -> str:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 MANY = 3  # more suspects than this tell the learner nothing
 NOTICED = 1.2  # a gear ratio nearer to 1 would explain any number that is a little off
+LARGE = 1000.0  # from here on a factor is written without decimals
 ALIKE = 0.02  # [share] how near a number has to be to what a wrong recipe gives on the same log
 
 
@@ -47,6 +48,7 @@ class Scene:
         ramp: [V/s] of the quasistatic test.
         period: [s] between two samples; 0 if there are none.
         lookalikes: gain -> what wrong recipes give for it, in the unit asked for.
+        rarer: the same, of recipes that are suspected only where nothing else explains a number.
     """
 
     angular: bool = False
@@ -55,6 +57,7 @@ class Scene:
     ramp: float = 0.0
     period: float = 0.0
     lookalikes: Mapping[str, tuple[Lookalike, ...]] = field(default_factory=dict)
+    rarer: Mapping[str, tuple[Lookalike, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,7 @@ def explain_wrong_number(
     right: Callable[[float], bool],
     key: Mapping[str, float],
     scene: Scene,
+    unit: str,
 ) -> tuple[WrongNumber, ...]:
     """The slips that would explain a wrong number.
 
@@ -79,16 +83,23 @@ def explain_wrong_number(
         right: whether a value of this gain would earn full marks.
         key: gain -> its value in the unit asked for.
         scene: the mechanism and its tests.
+        unit: the unit asked for.
     """
-    found = list(_explain_by_factors(name, value, right=right, scene=scene))
+    found = list(_explain_by_factors(name, value, right=right, scene=scene, unit=unit))
     if name == "kS" and {"kV", "kA"} <= key.keys():
         excess = key["kA"] / key["kV"] * scene.ramp
         if excess > 0 and right(value - excess):
             found.append(_INTERCEPT)
     for likely in scene.lookalikes.get(name, ()):
-        if abs(value - likely.value) <= ALIKE * abs(likely.value) and likely.slip not in found:
+        if _looks_like(value, likely) and likely.slip not in found:
             found.append(likely.slip)
-    return tuple(found)
+    return tuple(found) or tuple(
+        likely.slip for likely in scene.rarer.get(name, ()) if _looks_like(value, likely)
+    )
+
+
+def _looks_like(value: float, likely: Lookalike) -> bool:
+    return abs(value - likely.value) <= ALIKE * abs(likely.value)
 
 
 _INTERCEPT = WrongNumber(
@@ -100,15 +111,17 @@ _INTERCEPT = WrongNumber(
 
 
 def _explain_by_factors(
-    name: str, value: float, *, right: Callable[[float], bool], scene: Scene
+    name: str, value: float, *, right: Callable[[float], bool], scene: Scene, unit: str
 ) -> Iterator[WrongNumber]:
     if right(-value):
-        yield WrongNumber(
-            "sign",
-            "the size is right, the sign is not. Positive volts have to give a positive "
-            "velocity: does one of the two columns have the wrong sign?",
-        )
-    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"})]
+        says = "the size is right, the sign is not"
+        if scene.ramp and unit.startswith("V"):
+            says += (
+                ". Positive volts have to give a positive velocity: does the column of the "
+                "voltage or of the velocity have the wrong sign?"
+            )
+        yield WrongNumber("sign", says)
+    factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=unit)]
     if name == "kA" and scene.period:
         says = (
             f"samples are {scene.period:g} s apart. Did you divide the change of velocity by that?"
@@ -117,26 +130,31 @@ def _explain_by_factors(
     for factor in factors:
         for times, way in ((factor.number, "small"), (1.0 / factor.number, "large")):
             if right(value * times):
-                says = f"about {factor.number:.3g} times too {way}: {factor.slip.says}"
+                shown = f"{factor.number:.3g}" if factor.number < LARGE else f"{factor.number:.0f}"
+                says = f"about {shown} times too {way}: {factor.slip.says}"
                 yield WrongNumber(factor.slip.code, says, factor.slip.misconception)
 
 
-def _list_factors(scene: Scene, *, velocity: bool) -> Iterator[_Factor]:
-    """The factors a gain may be off by; kS and kG have no velocity in their unit."""
-    duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
-    yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))
+def _list_factors(scene: Scene, *, velocity: bool, unit: str) -> Iterator[_Factor]:
+    """The factors a number may be off by; kS and kG have no velocity in their unit."""
+    if unit.startswith("V"):
+        duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
+        yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))
     if not velocity:
-        yield _Factor(
-            1000.0, WrongNumber("milli", "1 V is 1000 mV. Are these millivolts?", "M-UNITS")
-        )
+        small = {
+            "V": "1 V is 1000 mV. Are these millivolts?",
+            "m": "1 m is 1000 mm. Is this in mm?",
+        }
+        if unit in small:
+            yield _Factor(1000.0, WrongNumber("milli", small[unit], "M-UNITS"))
         return
     yield from _list_unit_factors(scene)
     gears = max(scene.ratio, 1.0 / scene.ratio)
     if gears > NOTICED:
         says = f"{gears:.3g} is the gear ratio. Is this the motor's velocity, not the mechanism's?"
-        yield _Factor(gears, WrongNumber("gear", says, "M-UNITS"))
+        yield _Factor(gears, WrongNumber("gear", says, "M-GEARING"))
     says = "a diameter is 2 times a radius. Did you mix them up?"
-    yield _Factor(2.0, WrongNumber("radius", says, "M-UNITS"))
+    yield _Factor(2.0, WrongNumber("radius", says, "M-GEARING"))
     if scene.motors > 1:
         says = (
             f"there are {scene.motors} motors. Did you multiply or divide something by their "

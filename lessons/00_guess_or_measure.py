@@ -508,8 +508,10 @@ Table(
 # >
 # > **Source says:** only where they depend on mass. WPILib describes kS as what friction takes, kV
 # > as what a constant velocity takes, and kA as what acceleration takes. Mass resists acceleration.
-# > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > kS is "static friction in your gears, bearings, etc". Weight makes it larger only where it
+# > presses on them, or on the carpet.
+# > ([WPILib docs: Introduction to DC Motor Feedforward, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** choose 40 kg. Where does the robot miss more: on the ramps, or while it
 # > holds a speed?

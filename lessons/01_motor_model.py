@@ -258,7 +258,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
 # > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
 # > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
 # > has the number. Lesson 3 shows what it does to a kS that is read off a line.
@@ -422,8 +422,8 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 # >
 # > **Source says:** a good first check. More exactly, kV follows from a constant of the motor.
 # > WPILib's `DCMotor` first subtracts the small voltage drop that the free current causes, so its
-# > kV is a little lower. ([WPILib Java docs:
-# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > kV is a little lower. ([WPILib's source:
+# > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** the last column says how much lower, for eight motors at 1:1.
 # </details>
@@ -576,8 +576,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # > **Lesson says:** "kV = 2.68", "GEAR_RATIO = 8.46" and a wheel of "4 in", with TalonFX motors.
 # >
 # > **Source says:** the free speeds of the motors that a TalonFX can be (the table above, which is
-# > WPILib's own). ([WPILib Java docs:
-# > DCMotor](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/system/plant/DCMotor.html))
+# > WPILib's own). ([WPILib's source:
+# > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** which of these motors could have been in that robot?
 # </details>
@@ -666,7 +666,7 @@ Table(
 # > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
 # > barely get it moving", and gives no bound. See for yourself how much friction this rule allows.
 # > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how large may our drivetrain's kS get at 2 m/s before this rule says *stop*?
 # </details>

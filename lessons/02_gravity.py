@@ -134,7 +134,7 @@ Table(
 # > **Source says:** kV is the voltage "to hold (or "cruise") at a given constant velocity", against
 # > the motor's own back-EMF and friction that grows with speed. There is no mass in it. kA is, and
 # > kG is. ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** change `TIMES` above to 3. Which rows change?
 # </details>
@@ -161,9 +161,13 @@ print(
 #
 # <details><summary>Want to know why?</summary>
 #
-# Let the carriage of a cascade have the mass m and its lower stage the mass m₁. The motor carries
-# the weight (m + m₁/2)·g and accelerates the mass m + m₁/4. So kG/kA is 11.8 m/s² if both have the
-# same mass.
+# Let the carriage of a cascade have the mass m and its lower stage the mass m₁. The carriage moves
+# at v, the stage at v/2. To lift both, the motor needs the power m·g·v + m₁·g·v/2: that is the
+# weight (m + m₁/2)·g, moved at v. Both have the kinetic energy m·v²/2 + m₁·(v/2)²/2: that is the
+# mass m + m₁/4, moved at v. So kG/kA is 11.8 m/s² if both have the same mass.
+#
+# A counterweight m₂ moves at v and goes down: weight (m − m₂)·g, inertia m + m₂. (Textbooks call it
+# Atwood's machine: Goldstein, *Classical Mechanics*, 3rd edition (2002), section 1.6.)
 # </details>
 
 # %%

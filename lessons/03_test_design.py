@@ -156,7 +156,7 @@ plot_curves(
 # >
 # > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
 # > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** the line with squares above is constant acceleration. If *your* data look like that,
 # > ask why: a current limit and slipping wheels both hold the acceleration at one value.
@@ -284,7 +284,7 @@ Table(
 # > **Source says:** the ramp makes the voltage of the acceleration *negligible*. SysId itself does
 # > not read an intercept: it fits all runs at once, with a kA term for the ramps, too. ([WPILib
 # > docs: Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -430,7 +430,7 @@ except sim.Refusal as refusal:
 # > **Source says:** in the quasistatic test "the voltage corresponding to acceleration is
 # > negligible". The dynamic test is there "so that the behavior while accelerating can be
 # > determined". Neither test replaces the other. ([WPILib docs: Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines, and the ellipse is a
 # > band.
@@ -491,9 +491,13 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # >
 # > **Source says:** a backward test right after a forward test "will more or less reset the
 # > mechanism to its original position"
-# > ([Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html)).
+# > ([Creating a Routine, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst)).
 # > SysId's maintainer has called backward tests not required for the fit of an elevator or arm
-# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)).
+# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)). But SysId's window wants
+# > all four: it looks for each of them, and lists those that are missing
+# > ([DataSelector.cpp, at one
+# > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** the last row of section 4's table is forward only. For a *symmetric* drivetrain it
 # > is fine. Now set `lean` to 0 above: do the rows agree?
@@ -565,7 +569,7 @@ Table(
 # > robot's mass does not move. The library's default ramp is 1 V/s. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [Creating a
-# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** in the table, row 0.5: how far does this drivetrain get in 10 s? And how many volts
 # > does it see in 10 feet?
@@ -586,12 +590,14 @@ Table(
 #    (Phoenix 6, the library for the TalonFX, sets a limit of 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and you need time to let go of the button.
 #
-# (For the limit see
-# [CTRE's docs: CurrentLimitsConfigs](https://api.ctr-electronics.com/phoenix6/stable/csharp/api/CTRE.Phoenix6.Configs.CurrentLimitsConfigs.html).)
+# (For the limit see `CurrentLimitsConfigs` in
+# [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/).)
 #
 # And the step must not be too small. SysId computes the acceleration from the differences of
-# speeds, so the acceleration is noisy. The acceleration at the start should be at least ten times
-# as large as this noise.
+# speeds, so the acceleration is noisy. ([SysId's source:
+# FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# The acceleration at the start should be at least ten times as large as this noise. For our robot
+# 2 V is enough and 0.6 V is not: there SysId finds a kA that is far too large.
 
 # %%
 rows = []

@@ -149,7 +149,7 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # >
 # > **Source says:** two: `SysIdRoutine(Config config, Mechanism mechanism)`. The name is an
 # > optional *fourth* argument of `Mechanism`; left out, it is the subsystem's own name.
-# > ([WPILib Java docs: SysIdRoutine](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.html))
+# > ([WPILib's source: SysIdRoutine.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibNewCommands/src/main/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.java))
 # >
 # > **Try it:** count the arguments in the code below.
 # </details>
@@ -211,7 +211,7 @@ for mass in (60.0, 30.0):
 # >
 # > **Source says:** with `null` the state goes into the **WPILOG file** on the robot, as a text
 # > entry named `sysid-test-state-` and the mechanism's name. Nothing goes to the Driver Station.
-# > ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html))
+# > ([WPILib docs: Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
 # </details>
@@ -227,6 +227,11 @@ for mass in (60.0, 30.0):
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
 # first loop of the test: write `lambda log: None`. In this course you write the callback.
+#
+# (Read in `commands2/sysid/sysidroutine.py` of
+# [robotpy-commands-v2 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/). CTRE's
+# Python example uses both: [Plumbing & Running SysId, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst).)
 # </details>
 
 # %% [markdown]
@@ -250,7 +255,7 @@ for mass in (60.0, 30.0):
 # >
 # > **Source says:** on a TalonFX (Phoenix 6) the two are the same thing: `setVoltage()` *is* a
 # > `VoltageOut` request, and CTRE's own SysId example uses `setControl` with one request object.
-# > ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
 # > The rule worth keeping is rule 2. **Try it** in section 4.
 # </details>
@@ -281,7 +286,7 @@ for mass in (60.0, 30.0):
 # > **Source says:** the Java logger takes any unit of angle, and always *stores rotations*. The
 # > gains come out per rotation. What you convert is the **gain**, at the end, or the number you
 # > hand to your feedforward.
-# > ([WPILib Java docs: SysIdRoutineLog](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.html))
+# > ([WPILib's source: SysIdRoutineLog.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibj/src/main/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.java))
 # >
 # > **Try it:** the next cell fits one shooter log and prints kV per rotation and per radian.
 # </details>
@@ -363,7 +368,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # }
 # ```
 #
-# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward.)
+# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward. A stick
+# that you push forward gives a *minus*: negate it in your drive code.
+# [WPILib docs: Coordinate System, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/171e0ea60c03fb59789a30b8fdfca9a299747af9/source/docs/software/basic-programming/coordinate-system.rst))
 # </details>
 #
 # <details><summary>For WPILib 2027: Commands v3</summary>
@@ -452,7 +460,7 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # Mechanism(self.voltageDrive, …, self))`, but not in which method. In the body of a class there is
 # no `self`, and Python stops with a `NameError`. Write it into `__init__`, as `self.routine = …`
 # above.
-# ([WPILib docs: Creating a Routine](https://docs.wpilib.org/en/latest/docs/software/advanced-controls/system-identification/creating-routine.html))
+# ([WPILib docs: Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # </details>
 #
 # In the code you have opened, find three lines: the one that sets the voltage, the one that logs
@@ -493,7 +501,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # compile. Test mode is called *utility mode* there. The guard is `RobotModeTriggers.utility()`, or
 # `new Trigger(RobotState::isUtilityEnabled)`. The directions are `FORWARD` and `REVERSE`. You set a
 # motor's duty cycle with `setThrottle` instead of `set`; `setVoltage` keeps its name.
-# ([RobotModeTriggers, at one commit of the branch](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java))
+# ([RobotModeTriggers](https://github.com/wpilibsuite/allwpilib/blob/1676a42fe0522b3fc22593482b19fe5ed536051c/commandsv2/src/main/java/org/wpilib/command2/button/RobotModeTriggers.java)
+# and, in C++,
+# [MotorController](https://github.com/wpilibsuite/allwpilib/blob/3738b6f682ce731dd8f7a6306fd708b9ed3ed22f/wpilibc/src/main/native/include/wpi/hardware/motor/MotorController.hpp),
+# each at one commit of the branch)
 # </details>
 #
 # **Myth check.** "A SysId test bypasses all limits." *Only partly.* During a test, your other
@@ -510,7 +521,7 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # > subsystem for itself. Limits **inside the motor controller** still work if you set them up;
 # > WPILib's docs name "soft and hard limits" as a reason to use your own code for the tests, and
 # > say that setting them up is your job.
-# > ([Creating a Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/creating-routine.html),
+# > ([Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
 # > [Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > Both sides matter: a limit protects you, *and* when it engages, the data show the limit instead

@@ -13,8 +13,8 @@
 # %% [markdown]
 # # Lesson 5: Pre-flight and the first run
 #
-# *About 35 minutes. You need lessons 3 and 4. You can read it without a robot. Take sections 5 and
-# 6 with you to the robot.*
+# *About 35 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
+# 6, and take them to the robot.*
 #
 # **At the end you can**
 #
@@ -87,7 +87,7 @@ print(ROBOT.summary)
 Table(
     ("gain", "true value", "unit"),
     (("kS", TRUTH["kS"], "V"), ("kV", TRUTH["kV"], "V·s/m"), ("kA", TRUTH["kA"], "V·s²/m")),
-    caption="Our robot. Its true gains are known, because we built it.",
+    caption="Our robot. We know its true gains, because it is simulated.",
 )
 
 # %% [markdown]
@@ -98,9 +98,9 @@ Table(
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# (The formula ignores a small delay. The simulation includes it.)
+# (The formula ignores a small delay.)
 #
-# Then you let go of the button. You need time to react, and the motors still drive. Then the motors
+# You need time to react before you let go of the button, and the motors still drive. Then they
 # brake, if their neutral mode is *Brake* (the neutral mode says what a motor does at 0 V). The
 # wheels can only brake as hard as they grip the carpet. So braking takes at least another `v² /
 # (2·μ·g)` meters, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a
@@ -167,7 +167,7 @@ Table(
 # > be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [CTRE docs: Plumbing & Running
-# > SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html))
+# > SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
 # > **Try it:** the next cell shows how fast the robot is after 10 feet.
 # </details>
@@ -191,7 +191,7 @@ Table(
 # speed, and you need speed to measure kV.
 #
 # **And on blocks?** If the robot stands on blocks, its wheels hang in the air. The motors only turn
-# the wheels. Suppose that the load on the motors is then a tenth of the robot:
+# the wheels. Suppose that the load on the motors is then a tenth of the robot's mass:
 
 # %%
 routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
@@ -222,16 +222,7 @@ guess_stop = Prediction(
     "about 3 m past it",
     "at the wall",
 )
-guess_check = Prediction(
-    "You skip one of the five checks. Which one damages the log although everything looks "
-    "normal on the floor?",
-    "room",
-    "battery",
-    "encoder",
-    "log",
-    "guard",
-)
-display(guess_stop, guess_check)
+guess_stop
 
 # %% [markdown]
 # Move the sliders. *Moment* chooses the time that you see: 0 is the start of the test, 1 is the
@@ -290,7 +281,20 @@ print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.
 # | 2 battery | the robot drove all day: 11.6 V at rest, and an old battery (resistance 35 mΩ) |
 # | 3 encoder | the encoder is inverted: when the robot drives forward, the position falls |
 # | 4 log | nobody knows where the robot saves the log |
-# | 5 guard | somebody presses the button in the pit: the wall is 1.5 m away, *Disable* takes 1 s |
+# | 5 guard | nothing locks the tests: in the pit, 1 m from a wall, somebody presses a button |
+#
+# **Predict:**
+
+# %%
+guess_check = Prediction(
+    "You skip one of these checks. The robot drives as always, but the log is wrong. Which check?",
+    "room",
+    "battery",
+    "encoder",
+    "log",
+    "guard",
+)
+guess_check
 
 # %%
 TIRED = replace(ROBOT, battery=Battery(rest=11.6, resistance=0.035))
@@ -303,7 +307,7 @@ def morning(skipped: str, test: str, moment: float) -> Picture:
     if skipped == "1 room":
         floor = Floor(wall=WALL)
     if skipped == "5 guard":
-        floor = Floor(wall=1.5, watched=1.0)
+        floor = Floor(wall=1.0, watched=1.0)  # Disable takes a second
     robot = TIRED if skipped == "2 battery" else ROBOT
     return plot_runway(drive_test(robot, routine, test=test, floor=floor), moment=moment)
 
@@ -372,13 +376,14 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # ### Explain
 #
 # - **1 room.** The robot hits the wall, and the log is damaged, too: at the wall there is voltage
-#   without speed. (One bad ramp is enough.)
+#   without speed. One bad ramp ruins all gains.
 # - **2 battery.** The Driver Station shows the brownout. `sysid inspect` finds it, because the
 #   applied voltage drops to 0 again and again.
 # - **3 encoder.** On the floor, *everything looks normal*. Nobody notices the mistake until every
 #   gain is negative.
 # - **4 log.** The tests were perfect, and you have no log.
-# - **5 guard.** The log is good. But the robot hits the wall, and it may hurt somebody.
+# - **5 guard.** A later log is good. But in the step the robot hits the wall, and it may hurt
+#   somebody.
 
 # %% [markdown]
 # ## 4 Five checks, and the reasons for them
@@ -395,7 +400,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #
 # ### Battery
 #
-# A charged battery shows 12 V or more at rest. Below 12 V is not yet a brownout: a roboRIO 1
+# A charged battery shows 12.7 V or more at rest. Even 12 V is not yet a brownout: a roboRIO 1
 # disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. What does an
 # empty battery do to kA? The next cell runs the tests with two batteries and two steps. It computes
 # kA once from the voltage that was **applied** to the motors, and once from the voltage that the
@@ -407,7 +412,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # >
 # > **Source says:** motors are disabled below 6.3 V on a roboRIO 1; on a roboRIO 2 the threshold
 # > can be set, and is 6.75 V if you do not. Below 12 V is not yet a brownout.
-# > ([WPILib docs: Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > ([WPILib docs: Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
 # > **applied** voltage and the **commanded** voltage.
@@ -451,18 +457,22 @@ Table(
 
 # %% [markdown]
 # Without a brownout, both columns are right, even with the tired battery: this robot calls
-# `setVoltage`, and its motor controllers compensate for the lower battery voltage. (`set`, see
-# lesson 4, does not compensate.) With a brownout, both columns are wrong, and the commanded one is
-# far worse. So charge the battery, begin with a small step, and log the applied voltage.
+# `setVoltage`, and its motor controllers compensate for the lower battery voltage. `set` does not
+# (lesson 4). With a brownout, both columns are wrong, and the commanded one is far worse. So charge
+# the battery, begin with a small step, and log the applied voltage.
 #
 # Require **12.5 V or more at rest**. On a battery tester, require 20 mΩ or less.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is about half
-# flat: WPILib's docs call 11.7 to 12.5 V on an idle robot "depleted", and advise against a battery
-# of more than 20 mΩ.
-# ([WPILib docs: Robot Battery Basics](https://docs.wpilib.org/en/stable/docs/hardware/hardware-basics/robot-battery.html))
+# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half flat
+# or worse: [a table of voltages, at one
+# commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
+# says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
+# battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
+# swapped and charged". They also advise against a battery of more than 20 mΩ in matches.
+# ([WPILib docs: Robot Battery Basics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
 # ### Encoder
@@ -475,7 +485,7 @@ Table(
 #
 # ### Log
 #
-# Fetch **yesterday's** log before you need today's log. Section 5 shows where the logs are.
+# Before the first test, fetch an **older** log, as practice. Section 5 shows where the logs are.
 #
 # ### Guard
 #
@@ -624,7 +634,7 @@ Table(
 #
 # You may run the four tests in any order.
 #
-# **Do step 10 before anybody packs up.** To repeat a test takes five minutes now, and an evening
+# **Do step 10 before anybody packs up.** Repeating a test takes five minutes now, and an evening
 # tomorrow.
 #
 # Here are steps 9 to 11 with a simulated log:
@@ -677,8 +687,7 @@ Table(
 # %% [markdown]
 # ### Motors from CTRE or REV?
 #
-# The steps above work for all motors. If you want to use the logger of your motor's maker, open its
-# box.
+# The steps above work for all motors. Each maker also has its own logger: open your maker's box.
 #
 # <details><summary>If your motors are CTRE's (Phoenix 6)</summary>
 #
@@ -695,7 +704,7 @@ Table(
 #    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is the applied voltage.
 #
 # CTRE asks you not to convert with other tools, because they may lose signals.
-# ([CTRE docs: Plumbing & Running SysId](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.html),
+# ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
 # Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the
@@ -836,22 +845,22 @@ Table(
 #
 # ## 9 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "When does a soft limit (a limit in software) not act during a SysId test?",
+    "Which soft limits (limits in software) stop working during a SysId test?",
     {
-        "always": "A limit inside the motor controller still works.",
-        "never": "The test replaces your own commands, and the limits in them.",
-        "where it is in your own commands": (
+        "all": "A limit inside the motor controller still works.",
+        "none": "The test replaces your own commands, and the limits in them.",
+        "those in your own commands": (
             "The test has the subsystem for itself. A limit in the motor controller still "
             "acts, and then your data show it."
         ),
     },
-    right="where it is in your own commands",
+    right="those in your own commands",
 )
 quick
 

@@ -126,7 +126,7 @@ plot_voltage_velocity(sound)
 # > **Source says:** SysId 2026 has no plot of voltage over velocity. It draws velocity over time,
 # > acceleration over velocity, and the time steps. And it has *two* R², which mean different things
 # > (section 5). ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** look where our line meets velocity 0. That is near kS, but not exactly at kS (lesson
 # > 7 explains why).
@@ -155,7 +155,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # acceleration over velocity, it is a straight line that falls.
 #
 # **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test. A
-# constant acceleration is a warning: in section 3, choose *current limit*.
+# constant acceleration is a warning: you see one in section 3, under *current limit*.
 #
 # <details><summary>For mentors: the rise is exponential, with source</summary>
 #
@@ -163,7 +163,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # >
 # > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
 # > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** in section 3, choose *current limit*. A **constant** acceleration is what that looks
 # > like. It is a warning, not a good sign.
@@ -172,27 +172,27 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # %% [markdown]
 # ## 3 Reading: thirteen ways to damage a log
 #
-# A *fault* is something that makes a log wrong. The lesson that this course grew from names four
-# *contaminations*. Five more are common in the field, and four more are easy to see. Exercise 7 and
-# `sysid inspect` use the same names.
+# A *fault* is something that makes a log wrong. The first four are the classic *contaminations*.
+# Five more are common on real robots, and four are easy to see. Exercise 7 and `sysid inspect` use
+# the same names.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
 # | **the first four** | | |
 # | encoder slip | the encoder slips on its shaft for a while | fix it, run again |
 # | brownout | the battery voltage drops, the controller turns the motors off | charge, run again |
-# | hard stop | the mechanism hits its end while the voltage stays on | cut it off, or run again |
+# | hard stop | the mechanism hits its end, the voltage stays on | cut that part off, or run again |
 # | loop overrun | the robot program is too slow, samples are missing | find the cause, run again |
-# | **five from the field** | | |
+# | **five from real robots** | | |
 # | command logged | the motor got less than the logged voltage | log the applied voltage |
 # | velocity filter | the sensor averages, so its velocity is late | set a shorter filter |
 # | current limit | the motor controller reduces the voltage of the step | use a smaller step |
 # | wheel slip | the wheels spin faster than the robot moves | smaller step, on carpet |
 # | stale samples | the log samples faster than the sensor updates | log at the sensor's rate |
 # | **four more** | | |
-# | unit error | velocity has another unit than position | fix the code |
+# | unit error | the velocity does not fit the position (rpm, not rot/s) | fix the code |
 # | mislabelled test | a test has the name of another test | fix the code |
-# | voltage dropout | single voltages are missing in the log | fix the logging |
+# | voltage dropout | the log holds 0 V for single samples | fix the logging |
 # | stuck sensor | position and velocity freeze for a while | check the cable, run again |
 #
 # **Predict:**
@@ -243,7 +243,7 @@ gallery = {
     "stale samples": spoiled("stale-samples"),
     "unit error": spoiled("unit-error"),
     "mislabelled test": spoiled("mislabelled-test"),
-    "voltage dropout": spoiled("voltage-dropout"),
+    "voltage dropout": spoiled("voltage-dropout", test=RAMP, at=2.0),
     "stuck sensor": spoiled("stuck-sensor", test=RAMP, at=3.0),
 }
 
@@ -281,7 +281,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus on your screen? Change the two names here, and run the cell:
+# No menus? Change the two names here, and run the cell:
 
 # %%
 look("current limit", "over time")
@@ -315,8 +315,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # Ask one question about every plot: **could the motor do that?** A robot cannot change its speed
 # within one sample.
 #
-# - **Encoder slip.** The velocity drops by a part of its value from one sample to the next, and
-#   later jumps back. Voltage over velocity shows a second line.
+# - **Encoder slip.** From one sample to the next, the velocity drops to a fraction of its value;
+#   later it jumps back. Voltage over velocity shows a second line.
 # - **Brownout.** The controller turned the motors off. The velocity falls along a *curve*, and
 #   later rises again along a curve. If the log holds the **commanded** voltage, the log still shows
 #   a voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0 and comes
@@ -326,7 +326,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #   the voltage stays on.
 # - **Loop overrun.** In *time steps*, some points are far above 20 ms. The other plots hardly show
 #   the fault.
-# - **Command logged.** The voltage of the step looks perfect, but the velocity starts to rise in a
+# - **Command logged.** The voltage of the step looks perfect, but at first the velocity rises in a
 #   straight line.
 # - **Current limit.** The velocity rises in a straight line, too. But the *voltage* shows the
 #   limit, because this log holds the applied voltage. So the log is correct, and the errors of its
@@ -350,7 +350,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > **Source says:** in a brownout the robot controller disables its outputs until the battery
 # > recovers. So the *applied* voltage drops and recovers. The commanded voltage does not drop,
 # > because the routine does not know about the brownout. ([WPILib docs:
-# > Brownouts](https://docs.wpilib.org/en/stable/docs/software/roborio-info/roborio-brownouts.html))
+# > Brownouts, at one
+# > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** look at both brownouts above in the plot *over time*.
 # </details>
@@ -429,16 +430,17 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # out.)
 
 # %% [markdown]
-# ## 4 Doing it: trim what is not physics
+# ## 4 Doing it: trim what the model does not describe
 #
 # To *trim* a log is to cut off samples. The equation V = kS·sgn(v) + kV·v + kA·a is true while
 # **only the motor** moves the mechanism.
 #
-# - At a stop, the stop pushes, too. The equation does not describe that: **cut this part off.**
+# - At a hard stop, the stop pushes the mechanism, too. The equation does not describe that: **cut
+#   this part off.**
 # - At rest, friction holds the mechanism at any voltage up to kS. The equation does not describe
-#   that either: **drop it**, by a *threshold* (a lowest speed that you keep).
-# - A single wild reading is a sensor error. A **median filter** replaces each value by the middle
-#   one of three neighboring values.
+#   that either: **drop it**, with a *threshold* (the lowest speed that you keep).
+# - A single wild reading is a sensor error. A **median filter** sorts each value and its neighbors
+#   by size, and keeps the middle one.
 # - A noisy part looks ugly, but the equation is true there: **keep it.**
 #
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
@@ -455,7 +457,7 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 # > tests only, *Window Size* is the median filter, *Test Duration* works on dynamic tests only.
 # > None of them sets the end of a ramp. The threshold removes samples at a stop, **if** the encoder
 # > is quiet at standstill. ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
@@ -539,8 +541,8 @@ Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tr
 # %% [markdown]
 # - The threshold drops the noisy standstill, and the samples at the stop. The end cuts off the hard
 #   stop with its bounce. The median removes the wild readings. No setting repairs everything.
-# - **More is not better.** A median of 15 samples flattens the rise, so kA is only half its true
-#   value. A threshold of 1 m/s drops the part of the ramp that shows kS.
+# - **More filtering is not better.** A median of 15 samples flattens the rise, so kA is only half
+#   its true value. A threshold of 1 m/s drops the part of the ramp that shows kS.
 #
 # ### Do not trim for beauty
 #
@@ -563,14 +565,14 @@ Table(
 # %% [markdown]
 # ## 5 R² is not a lie detector
 #
-# Now you see no plots, only a score. For SysId's **simulated velocity R²**, a simulation with the
-# found gains gets the voltage of the log; the score compares its velocity with the measured one.
-# Below are logs A to V of one drivetrain. One is clean. One was damaged and then repaired. In all
-# others something is wrong.
+# Now you see no plots, only a score, SysId's **simulated velocity R²**. SysId simulates the robot
+# with the fitted gains and the voltage of the log. The score compares simulated and measured
+# velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and then
+# repaired. In all others something is wrong.
 #
 # The official docs say: "A value north of .9 indicates a good fit" ("north of" means "above").
 # ([WPILib docs: Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 #
 # **Predict:**
 
@@ -638,7 +640,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus on your screen? Here they are, sorted by the error of kA:
+# No menus? Here they are, sorted by the error of kA:
 
 # %%
 grid(sort="error of kA", truth="reveal")
@@ -667,7 +669,7 @@ Table(
         for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
     ),
     caption="Errors of the gains. 60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V unless "
-    "the name says more",
+    "the name says otherwise",
 )
 
 # %%
@@ -693,9 +695,9 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 # - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
 #   information about kV, and only a few about kA.
 # - **The acceleration R² compares accelerations row by row (lesson 7), and it is the more sensitive
-#   of the two.** Sort by it: spikes, lurch and the worst slips are at the bottom. But this score
-#   does *not notice* a wrong voltage, a wrong ratio or a wrong sign. And a low value proves
-#   nothing: many good logs have a low value, too.
+#   of the two.** Sort by it: spikes (wild readings), the lurch (a sudden jump) and the worst slips
+#   are at the bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or a
+#   wrong sign. And a low value proves nothing: many good logs have a low value, too.
 #
 # <details><summary>Want to know more?</summary>
 #
@@ -742,12 +744,12 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"Found by their signs alone: {by_signs}.  Found by no check: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# No check reports the clean log, which is right. But the other two logs in this list are damaged,
-# and no check finds that. Only somebody who knows the robot can: for example, look for a velocity
-# filter in the settings of your motor controller.
+# No check reports the clean log, which is right. But the other two logs in that last line are
+# damaged. Only somebody who knows the robot can find that: for example, look for a velocity filter
+# in the settings of your motor controller.
 #
-# A sixth check: **fit forward and reverse apart.** Friction may differ between the directions. One
-# kS cannot describe both, and R² does not show it:
+# A sixth check: **fit forward and reverse separately.** Friction may differ between the directions.
+# One kS cannot describe both, and R² does not show it:
 
 # %%
 leaning = by_name["friction differs"].log
@@ -761,7 +763,7 @@ for way in ("forward", "reverse"):
 # Before you load a log, check one setting: SysId's menu *Analysis Type* starts on **Elevator**.
 # Choose the type of your mechanism (lesson 2).
 #
-# ### Let the program look, after you did
+# ### Let the program look, after you looked
 #
 # The program `inspect` says which fault it finds, where, how sure it is (1 is certain), and what to
 # do:
@@ -794,7 +796,7 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 #
 # ## 8 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -804,7 +806,7 @@ quick = QuickCheck(
     {
         "voltage over velocity": "Neither axis shows the time.",
         "time steps over time": "Every late sample is a point above the line.",
-        "the R² badge": "It may stay green although the log is wrong.",
+        "the simulated velocity R²": "It may be high although the log is wrong.",
     },
     right="time steps over time",
 )
@@ -821,9 +823,8 @@ quick
 # If it holds the commanded voltage, look at the rise of the velocity: it starts as a straight line.
 # </details>
 #
-# **2.** In the quasistatic forward test the velocity jumps halfway through; the mechanism lurched
-# (it suddenly jumped forward). The rest is clean. What was the cause, and what happens to the
-# gains?
+# **2.** In the quasistatic forward test the velocity jumps halfway through; the mechanism lurched.
+# The rest is clean. What was the cause, and what happens to the gains?
 #
 # <details><summary>Answer</summary>
 #

@@ -139,7 +139,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No slider on your screen? Change the number here:
+# No slider? Change the number here:
 
 # %%
 ramp_picture(1.0)
@@ -168,8 +168,8 @@ Table(
 #
 # In a ramp the robot accelerates all the time. When the voltage rises by `ramp` volts each second,
 # the speed rises by `ramp/kV` each second. So during the whole ramp, the acceleration needs `kA·a =
-# (kA/kV)·ramp` volts. The equation of the straight line has no term for them, so they are added to
-# kS.
+# (kA/kV)·ramp` volts. The equation of the straight line has no term for these volts, so they are
+# added to kS.
 #
 # <details><summary>Want to know why? The last column</summary>
 #
@@ -178,8 +178,8 @@ Table(
 # section 4 shows how noise bends a line.
 # </details>
 #
-# So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId fits
-# all four tests together, too.
+# So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId also
+# fits all four tests together.
 #
 # <details><summary>For mentors: does SysId read an intercept?</summary>
 #
@@ -191,7 +191,7 @@ Table(
 # > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
 # > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
 # > ([WPILib docs: Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html),
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
@@ -336,7 +336,7 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 
 # %% [markdown]
 # Noise on the **left** side of the equation averages out. Noise in a **column** does not average
-# out: it makes the slope of that column too small. More data does not help.
+# out: it makes the number found for that column too small. More data does not help.
 #
 # Our noisiest signal is the acceleration, because it is computed from differences of noisy
 # velocities. In the five lines above, the acceleration was a column. So move it to the left side:
@@ -446,6 +446,8 @@ plot_curves(
 #
 # SysId's source says that least squares "performs best with the noisiest variable as the dependent
 # variable". The dependent variable is the one on the left.
+# ([FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp);
+# why noise in a column shrinks its number: Fuller, *Measurement Error Models* (1987), section 1.1)
 # </details>
 
 # %% [markdown]
@@ -458,9 +460,9 @@ plot_curves(
 #    threshold: at standstill, friction holds the robot at any voltage up to kS, so these rows do
 #    not show how large kS is.
 # 2. **Median filter** of the velocity, if you switch it on (*Window Size*, up to 15 samples). It
-#    replaces each value by the middle one of its neighbors.
-# 3. **Acceleration**: the velocity of the next row minus that of the row before, divided by two
-#    **mean** time steps of the test.
+#    sorts each value and its neighbors by size, and keeps the middle one.
+# 3. **Acceleration**: SysId subtracts the velocity of the row before from that of the row after,
+#    and divides by two **mean** time steps of the test.
 # 4. **Trim the dynamic tests** (*Test Duration*): SysId keeps only the rows from the largest
 #    acceleration to 90 % of the top speed, unless you change the setting.
 #
@@ -536,8 +538,8 @@ used = recipe.samples_used
 print(f"rows used, forward: ramp {used['quasistatic-forward']}, step {used['dynamic-forward']}")
 
 # %% [markdown]
-# Look at the last line. SysId uses only a few rows of the whole dynamic test, because this robot
-# reaches its speed so fast. kA depends mostly on these few rows.
+# The last line shows: SysId uses only a few rows of the dynamic test, because this robot reaches
+# its speed so fast. kA depends mostly on these few rows.
 #
 # <details><summary>For mentors: does a long test hide kA?</summary>
 #
@@ -669,7 +671,7 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 #   is the simulated velocity from the measured one? Here errors add up over time. SysId's score is
 #   the **simulated velocity R²**.
 #
-# The dotted black line in the picture is the simulation with the gains of SysId's method:
+# The dotted line in the picture is the simulation with the gains of SysId's method:
 
 
 # %%
@@ -690,8 +692,8 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect, and 0 is no better than guessing the mean every time. (We take the two forward
-# tests; SysId takes all four.)
+# So 1 is perfect, and 0 is no better than guessing the mean every time. (For the simulation we take
+# the two forward tests; SysId takes all four.)
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -738,7 +740,7 @@ print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} with squares, as in the te
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
 # > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
 # > velocity R²*) should be above 0.9. ([Viewing
-# > Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
 # > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to. ([SysId's
 # > source:
@@ -820,8 +822,8 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # small, or even negative.
 #
 # So if kS is negative, do not look at friction first. Ask: **why is kA too large?** Possible causes
-# are noise, a log of the commanded voltage, a slipping wheel, or a lurch. (With gravity, first
-# check the analysis type: lesson 2.)
+# are noise, a log of the commanded voltage, a slipping wheel, or a sudden jump. (With gravity,
+# first check the analysis type: lesson 2.)
 
 # %% [markdown]
 # ## 9 A filter is not free
@@ -867,8 +869,8 @@ plot_curves(
 # <details><summary>Want to know more? What WPILib's docs say</summary>
 #
 # They warn about this for mechanisms that are light for their motors: the filter may "eat" the
-# acceleration data, and kA tends toward zero. ([Viewing
-# Diagnostics](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/viewing-diagnostics.html))
+# acceleration data, and kA tends toward zero. ([Viewing Diagnostics, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # </details>
 
 # %% [markdown]
@@ -926,6 +928,7 @@ def kp_picture(q: float, r: float, delay: int) -> Picture:
         ylabel="kP [V·s/m]",
         levels={"kP = 0.62": 0.62},
         marked=(q, suggested(q)),
+        mark="your q",
     )
 
 
@@ -953,7 +956,7 @@ at_load = allowed_velocity_error(ks=0.14, kv=lesson_kv)
 rows = []
 for name, q, delay in (
     ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
-    ("a quarter of the top speed, set by SysId's window", at_load, 0.0),
+    ("a quarter of the top speed, which SysId's window sets first", at_load, 0.0),
     ("the q that gives kP = 0.62", 3.43, 0.0),
     ("1.5 m/s, with a delay of 112 ms: SysId's number for a NEO's encoder", 1.5, 0.112),
 ):
@@ -1023,7 +1026,7 @@ for doubt in best.doubts:
     print(f"Warning: {doubt.message}")
 
 # %% [markdown]
-# You can do the same in a terminal:
+# In a terminal:
 #
 # ```
 # sysid fit exercises/exercise9/data/me/log.wpilog --method sysid
@@ -1042,7 +1045,7 @@ for doubt in best.doubts:
 #
 # ## 13 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -1115,8 +1118,8 @@ quick
 # ```
 #
 # If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
-# feedback says so. Hints cost nothing: `grade exercise9 --hint`. For your function in `fit.py`,
-# start `grade watch exercise9` in a terminal: it grades each time you save.
+# feedback says so. Hints cost nothing: `grade exercise9 --hint`. You also write your fit into
+# `fit.py`; `grade watch exercise9` in a terminal grades it each time you save.
 #
 # <details><summary>More, if you like</summary>
 #

@@ -107,7 +107,7 @@ Table(
 # > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
 # > that grows with speed. So a measured kV lies *above* what the motor's free speed suggests
 # > (within a percent or two: data sheets are rounded). ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
 # > it.
@@ -123,8 +123,8 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
 Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
 
 # %% [markdown]
-# For a Falcon 500 or a Kraken X60, 2.68 is too low. If kV is more than a few percent below the
-# theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
+# For a Falcon 500 or a Kraken X60, 2.68 is too low; only the X44 fits. If kV is more than a few
+# percent below the theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
 #
 # `sysid fit` can write the constants, with their errors as comments:
 #
@@ -138,7 +138,7 @@ Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows
 print(write_robot_code(found, language="java", season=2026, name="shooter"))
 
 # %% [markdown]
-# **Predict** what differs between 2026 and 2027:
+# **Predict:**
 
 # %%
 guess_season = Prediction(
@@ -277,10 +277,11 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 # <details><summary>Want to know more? The old call, and the first loop</summary>
 #
 # In Java, `calculate(velocity, acceleration)` is deprecated (it will be removed); some pages of
-# WPILib's docs still show it. WPILib gives kS the sign of the *current* velocity. At the start this
-# velocity is zero, so there is no kS in the first loop. (The simulation below adds kS at once.)
-# ([WPILib Java docs:
-# SimpleMotorFeedforward](https://github.wpilib.org/allwpilib/docs/release/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.html))
+# WPILib's docs still show it. WPILib gives kS the sign of the *current* velocity (if kA is not 0).
+# At the start this velocity is zero, so there is no kS in the first loop. (The simulation below
+# adds kS at once.)
+# ([WPILib's source:
+# SimpleMotorFeedforward.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.java))
 # </details>
 #
 # ### Gains inside the motor controller
@@ -292,7 +293,7 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 # |---|---|---|
 # | Phoenix 6, `Slot0Configs` | *mechanism* rotation/s | `SensorToMechanismRatio`, `GravityType` |
 # | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
-# | YAGSL, drive motors | m/s of the wheel | `replaceSwerveModuleFeedforward` |
+# | YAGSL 2026 (a swerve library) | m/s of a wheel | `replaceSwerveModuleFeedforward` |
 #
 # `sysid fit` writes each of them and converts the units. If your log is in meters, add the radius:
 #
@@ -304,7 +305,8 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 print(write_controller_code(found, target="phoenix6", name="shooter"))
 foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
 share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
-print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
+print("FOC is a mode of CTRE's motors. With it, the same wheel has", end=" ")
+print(f"kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
 
 # %% [markdown]
 # If `SensorToMechanismRatio` is set, the gains are in volts per rotation of the *mechanism*. Put
@@ -315,10 +317,15 @@ print(f"With FOC the same wheel has kV {share['kV']:+.1f} % and kA {share['kA']:
 #
 # Use **FOC as in the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With
 # the license, `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were
-# measured with FOC are wrong without it.
-# ([CTRE API: VelocityVoltage](https://api.ctr-electronics.com/phoenix6/release/java/src-html/com/ctre/phoenix6/controls/VelocityVoltage.html),
-# [CTRE API: Slot0Configs](https://api.ctr-electronics.com/phoenix6/stable/java/com/ctre/phoenix6/configs/Slot0Configs.html),
-# [REVLib API: FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# measured with FOC are wrong without it. (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6,
+# release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
+# FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
+# </details>
+#
+# <details><summary>If your swerve drive uses a newer YAGSL</summary>
+#
+# YAGSL's newer pages say that `replaceSwerveModuleFeedforward` is gone. There, kS, kV and kA are
+# the numbers `s`, `v` and `a` in the file `pidfproperties.json`.
 # </details>
 
 # %% [markdown]
@@ -418,7 +425,7 @@ show_interactive(
 follower("per radian, gets rotations", 0.0)
 
 # %% [markdown]
-# The next table shows all sets of gains, without and with feedback:
+# All sets of gains, without and with feedback:
 
 # %%
 SOME = 0.2  # [V per rot/s]
@@ -446,9 +453,9 @@ Table(
 #   little while it holds its speed.
 # - **Without kA:** the wheel is right while the target is constant, and late while it changes. For
 #   many mechanisms that is enough.
-# - **kP hides the mistake.** Look at the right column. With feedback, wrong units give a smaller
-#   error: the robot "works", but badly. So if feedback does not help enough, check the units before
-#   you change kP.
+# - **kP hides the mistake.** Look at the table's right column. With feedback, wrong units give a
+#   smaller error: the robot "works", but badly. So if feedback does not help enough, check the
+#   units before you change kP.
 #
 # The easiest check is to compute one voltage by hand: `kS + kV · (a speed you know)` must be
 # between 0 and 12 V, and it must make sense.
@@ -509,6 +516,7 @@ def droop(kp: float) -> Picture:
         xlabel="kP [V per rot/s]",
         ylabel="rpm below the target",
         marked=(kp, left_over(kp)),
+        mark="your kP",
     )
 
 
@@ -565,8 +573,8 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 
 # %% [markdown]
 # If the measurement is late, the feedback corrects an error that is already gone. Then a large kP
-# makes the error larger, until the speed oscillates (swings up and down). So choose the preset of
-# your motor controller, and start from the suggested kP.
+# makes the error larger, until the speed oscillates (swings up and down). So choose SysId's *Gain
+# Preset* for your motor controller, and start from the suggested kP.
 #
 # <details><summary>Want to know more? How late motor controllers are</summary>
 #
@@ -629,8 +637,8 @@ print(mine.report)
 # ```
 # </details>
 #
-# A rubber tube pulls at this elevator, and its friction is larger at very low speed. The model
-# contains neither. We have three sets of gains:
+# A rubber tube pulls at this elevator, and the elevator's friction is larger at very low speed. The
+# model contains neither. We have three sets of gains:
 #
 # - **guessed:** kV from the motor's free speed, kA and kG from the mass in CAD (17 kg; the true
 #   mass is 20 kg), no kS;
@@ -743,7 +751,8 @@ Table(
 # </details>
 #
 # **Motion Magic** does all of it inside the motor controller, a thousand times a second, with the
-# gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum.
+# gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum that winds up the
+# rope.
 
 # %%
 DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
@@ -799,7 +808,7 @@ Table(
 # [WPILib docs:
 # ProfiledPIDController](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/profiled-pidcontroller.html),
 # [CTRE docs: Motion
-# Magic](https://v6.docs.ctr-electronics.com/en/stable/docs/api-reference/device-specific/talonfx/motion-magic.html)
+# Magic](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/e52e9b2f106db9b3322ce72ed4f57f3aa49003eb/source/docs/api-reference/device-specific/talonfx/motion-magic.rst)
 # </details>
 
 # %% [markdown]
@@ -874,7 +883,7 @@ Table(
 # >
 # > **Source says:** kA and kG grow with the mass. kV is the motor's back-EMF, seen through gears
 # > and drum; mass is not in it.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/introduction-to-feedforward.html))
+# > ([WPILib docs: Introduction to DC Motor Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell loads our simulated elevator.
 # </details>
@@ -889,7 +898,7 @@ Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(ro
 # %% [markdown]
 # ## 8 Place three gain sets
 #
-# You find three sets of gains without names. One is from a **drivetrain**, one from an **elevator**
+# Here are three sets of gains without names. One is from a **drivetrain**, one from an **elevator**
 # and one from a **shooter**. kV and kA are per meter or per radian. Match each set with its
 # mechanism.
 
@@ -941,7 +950,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # |---|---|---|
 # | drivetrain | **always** | with a wrong voltage the robot leaves its path |
 # | shooter wheel | **always** | its speed at one moment decides the shot |
-# | arm, pivot | **recommended** | gravity changes with the angle; a single guess cannot fit |
+# | arm, pivot | **recommended** | gravity changes with the angle; no single voltage fits |
 # | elevator | **recommended** | gravity pulls all the time, and the load changes kG and kA |
 # | intake rollers | optional | only if their *speed* is controlled |
 # | climber | optional | only if it must follow a profile; otherwise a high kP is enough |
@@ -958,8 +967,8 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   give the reason.
 # </details>
 #
-# If you find nothing, do not test that mechanism. Without room or time you can compute kG, kV and
-# kA; you must measure kS.
+# If nothing would be worse, do not test. Without room or time you can compute kG, kV and kA; you
+# must measure kS.
 #
 # <details><summary>For mentors: does every team characterize everything?</summary>
 #
@@ -1003,8 +1012,12 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   > I = mass · r · kA_angular / kA_linear
 #
 #   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
-#   **tank** that is half the trackwidth, r = trackwidth/2; the same page says so. The modules of a
-#   **square swerve** stand in the corners and push across the diagonal: r = trackwidth/√2.
+#   **tank** that is half the trackwidth, r = trackwidth/2. The modules of a **square swerve** stand
+#   in the corners and push across the diagonal: r = trackwidth/√2. Both planners' pages give
+#   trackwidth/2 for every robot.
+#   ([PathPlanner](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
+#   [Choreo](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md),
+#   each at one commit)
 #
 # - **Choreo** computes time-optimal paths from what you tell it about your robot. Here too, a path
 #   is only as good as the drive code that follows it. ([WPILib docs:
@@ -1020,7 +1033,7 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # </details>
 #
 # The moment of inertia (how hard it is to turn the robot) follows from two kA values, I = mass · r
-# · kA_angular / kA_linear. The next cell checks which r is right for a square swerve:
+# · kA_angular / kA_linear. The next cell checks which lever r is right for a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
@@ -1116,7 +1129,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # ## 12 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -1138,9 +1151,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. A model
-# without feedback may well be 2.5 % too slow. Keep the gains; check the units, and that the motor
-# gets the full voltage (`set(volts / 12)` on an 11.7 V battery causes exactly this error); then add
+# No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. Without
+# feedback, an error of 2.5 % is normal. Keep the gains; check the units, and that the motor gets
+# the full voltage (`set(volts / 12)` on an 11.7 V battery causes exactly this error); then add
 # feedback. kP alone does not remove the whole error.
 # </details>
 #

@@ -225,10 +225,10 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The solid robot shows the log, the dashed one shows the model. Press *Play*: the two curves have
-# different *shapes*. Move the sliders: no kS, kV or kA makes the curves agree.
+# The solid robot shows the log, the dashed one shows the model. The two curves have different
+# *shapes*. Move the sliders: no kS, kV or kA makes the curves agree.
 #
-# (SysId's kA is right here by luck: its kS is twice the true one.)
+# (SysId's kA is right by luck: its kS is twice the true one, and its kV is too small.)
 #
 # ### How large is that?
 #
@@ -352,14 +352,14 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu on your screen? Change the name here:
+# No menu? Change the name here:
 
 # %%
 under_the_microscope("robot B")
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
-# (squared) voltage residual this line explains. The next table shows all sixteen:
+# (squared) voltage residual this line explains. The next table shows all sixteen percentages:
 
 # %%
 rows = []
@@ -401,9 +401,9 @@ Table(
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
-# The time since the jump explains most. Look at the shape, too: first volts are missing, then there
-# are too many. A late sensor looks like that; a weak battery does not. At very low speed, a few
-# volts are missing, too.
+# The plot over the time since the jump explains most. Look at its shape, too: first volts are
+# missing, then there are too many. A late sensor looks like that; a weak battery does not. At very
+# low speed, about 0.1 V is missing, too.
 #
 # **Predict** the first effect to add:
 
@@ -419,8 +419,9 @@ guess_first = Prediction(
 guess_first
 
 # %% [markdown]
-# Now add one of seven effects at a time, and fit all gains again each time. Compare two numbers:
-# the gap of the `log`, which was fitted, and the gap of the `validation`, which the fit never used.
+# The next cell adds one of seven effects at a time, and fits all gains again each time. Compare two
+# numbers: the gap of the `log`, which was fitted, and the gap of the `validation`, which the fit
+# never used.
 
 # %%
 TRIED = (
@@ -614,6 +615,8 @@ plot_curves(
 # Follow the curve of the gentle log to the right: above about 2 V it is **flat**. The gentle test
 # never reached the limit, so every higher limit is equally good. The data do not contain the
 # answer, and no program can find it. We say: the parameter is *not identifiable* from these data.
+# (About experiments that do contain it: Ljung, *System Identification*, 2nd edition (1999), chapter
+# 13.)
 #
 # The curve of the 6 V step has a clear minimum at the true limit, 3 V. You do not need a better
 # method; you need **another test.** (On your robot you know the limit, because you set it. Choose
@@ -695,7 +698,7 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # ## 8 Your own robot
 #
 # Run the four tests **twice, with two step voltages**. This separates most effects that look alike.
-# Drive another motion for a third log. Log the **applied** voltage (lesson 4). Then type in a
+# Record a third log with another ramp. Log the **applied** voltage (lesson 4). Then type in a
 # terminal:
 #
 # ```
@@ -728,13 +731,14 @@ else:
 #
 # - [ ] The log is good: `sysid inspect` found no damage, or you cut off the damaged part.
 # - [ ] The effect makes the gap smaller for data that it was **not** fitted to.
-# - [ ] No parameter is at the end of its range, and each error is smaller than its parameter.
+# - [ ] No parameter is at the end of its range, and each standard error is smaller than its
+#   parameter.
 # - [ ] You know which effects look alike, and you ran the test that separates them.
 # - [ ] You looked at that part of the robot.
 #
 # ## 10 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck

@@ -21,7 +21,7 @@
 # - fit each module alone and all of them together, and find a worn wheel;
 # - find the radius of a wheel from a slow spin;
 # - find the **moment of inertia** from two tests, with the right lever;
-# - find the **slip current** from a push at a wall;
+# - find the **slip current** and the **grip** from a push at a wall;
 # - put these numbers into PathPlanner and Choreo.
 
 # %% [markdown]
@@ -32,8 +32,9 @@
 # time. PathPlanner and Choreo plan such paths for you. But they know only what you tell them: mass,
 # moment of inertia, wheel radius, current limit.
 #
-# If you tell a planner that your robot is easier to turn than it is, it plans turns that the wheels
-# cannot do. The robot is late in every curve. So today you measure what the planners ask for.
+# If you tell a planner that your robot is easier to turn than it really is, the planner plans turns
+# that the wheels cannot do. Then the robot turns too late. So today you measure what the planners
+# ask for.
 #
 # <details><summary>For mentors: what the planners ask for, with source</summary>
 #
@@ -41,10 +42,11 @@
 # > directly determines how well trajectories track."
 # >
 # > **Source says:** neither planner asks for kV. PathPlanner asks for mass, moment of inertia,
-# > wheel radius, gearing, true top speed, wheel friction and current limit; Choreo for mass, moment
-# > of inertia, wheel radius, gearing, and the speed and torque of a motor. kV and kA stay in your
-# > drive code, which has to follow the plan.
-# > ([PathPlanner docs: Robot Config](https://pathplanner.dev/robot-config.html))
+# > wheel radius, gearing, true top speed, wheel friction and current limit. Choreo asks for mass,
+# > moment of inertia, wheel radius, wheel friction, gearing, and the speed and torque of a motor.
+# > kV and kA stay in your drive code, which has to follow the plan.
+# > ([PathPlanner docs: Robot Config, at one commit](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md);
+# > [Choreo docs: Robot Configuration, at one commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md))
 # >
 # > **Try it:** open your planner's settings. Which of them did you measure, and which did you
 # > guess?
@@ -67,6 +69,7 @@ from sim.physics.motors import find_motor
 from sim.plot import Table, plot_curves
 from sim.plot.animation import Choice, Motion, Panel, Scene, animate_mechanism
 from sim.teaching.prediction import Prediction
+from sim.teaching.swerve_gaps import check_formulas
 
 robot = SwerveDrive(
     motor=find_motor("krakenX60"),
@@ -92,17 +95,25 @@ print(f"A square robot: {robot.trackwidth} m wide, {robot.mass:.0f} kg.")
 # | steer | the wheels, in place | volts of the steer motors | gains of the steering |
 # | rotation | the robot, on the spot | **a rate in rad/s** | heading control; inertia |
 #
-# ([Phoenix 6 docs:
-# SysIdSwerveRotation](https://api.ctr-electronics.com/phoenix6/latest/java/com/ctre/phoenix6/swerve/SwerveRequest.SysIdSwerveRotation.html))
+# ([CommandSwerveDrivetrain.java, at one commit](https://github.com/CrossTheRoadElec/Phoenix6-Examples/blob/53fa17baa4abc0105a03b9ea602a6af730353939/java/SwerveWithPathPlanner/src/main/java/frc/robot/subsystems/CommandSwerveDrivetrain.java))
 #
 # Look at the third line. SysId knows only volts, so the program writes "volts". But the number is a
-# rate: how fast the robot should turn. Section 5 shows what follows from that.
+# rate: how fast the robot should turn. The program does not control this rate. It computes a
+# voltage from it, once, and gives that to the drive motors. Section 5 shows what follows.
+#
+# <details><summary>Want to know more? From the rate to the voltage</summary>
+#
+# The request computes rate · distance of the module from the middle / top speed · 12 V. The top
+# speed is `kSpeedAt12Volts` in your constants. So the test is open loop, as a SysId test must be,
+# and the drive motors get a ramp or a step of *volts*.
+# (`SysIdSwerveRotation` in `phoenix6/swerve/requests.py` of [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
+# </details>
 #
 # The motors are the same in translation and rotation. Only the **load** differs:
 #
 # - straight, the wheels push the **mass**;
-# - on the spot, they push against the **moment of inertia**. It says how hard it is to make the
-#   robot turn. Mass far from the middle counts more.
+# - on the spot, they push against the **moment of inertia**. It says how hard it is to turn the
+#   robot. Mass far from the middle counts more.
 
 # %%
 short = sim.Routine(step=1.5, timeout=2.0, kinds=("dynamic",))
@@ -177,9 +188,10 @@ Table(
 # radius of a *new* wheel, so this module reports more meters than there were. More meters per
 # second at the same voltage: a smaller kV.
 #
-# The three other modules agree to the last digit. That is no accident: the floor couples the
-# wheels. A module that rubs slows down *all* of them, and its own fit looks like the others. To
-# find a module that rubs, lift the robot and turn each wheel by hand.
+# The three other modules agree almost to the last digit. That is no accident: all motors get the
+# same voltage, and the floor forces all wheels to the same speed. A module that rubs slows down
+# *all* of them, and its own fit looks like the others. To find a module that rubs, lift the robot
+# and turn each wheel by hand, or compare the currents.
 #
 # So **compare the modules first, then pool**. The mean of three good wheels and a worn one is right
 # for none of them. `sysid fit` compares them for you and prints the kV and kA of each.
@@ -210,21 +222,23 @@ print(f"The gyro turned {np.degrees(spin.turned):.0f}°, which is {spin.turned:.
 Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
-# The back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius into the code.
-# AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs: TalonFX
-# Swerve Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template))
+# The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
+# into the code. Spin on carpet: on a hard floor the wheel does not sink in, and you measure another
+# radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs:
+# TalonFX Swerve Template, at one
+# commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 
 # %% [markdown]
 # ## 5 Turning on the spot: the moment of inertia
 #
-# Now the wheels stand across the diagonals, and the robot turns on the spot. Two tests, the same
-# motors:
+# Now each wheel points across the line from the middle to it, and the robot turns on the spot. Two
+# tests, the same motors:
 #
 # - straight, kA is a constant of the motors times the **mass**;
 # - turning, kA is the same constant times **moment of inertia / lever**.
 #
-# The **lever** is how far the push of a wheel passes from the middle. Divide one kA by the other,
-# and the constant is gone:
+# A wheel pushes along a line. The **lever** is the distance of this line from the middle of the
+# robot. Divide one kA by the other, and the constant is gone:
 #
 # > I = mass · lever · kA_turning / kA_straight
 #
@@ -238,13 +252,20 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 #   drive motor instead.
 # - The gyro (Pigeon 2) logs **degrees**. Motors log rotations. The formula needs **radians**.
 #
+# (CTRE says so, too: "scaled by pi/180", and `MotorVoltage` for the moment of inertia.
+# `SysIdSwerveRotation` in [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
+#
 # ### Which lever?
 #
-# PathPlanner's and Choreo's pages give the formula with *half the trackwidth*. That is right for a
-# tank: its wheels push straight forward, T/2 away from the middle. The modules of a square swerve
-# push across the diagonal.
+# [PathPlanner's
+# page](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md)
+# and [Choreo's
+# page](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md)
+# (each at one commit) give the formula with *half the trackwidth*. That is right for a tank drive:
+# its wheels push straight forward, T/2 away from the middle. The modules of a square swerve push
+# across the diagonal, so each force F turns the robot with F · T/√2.
 #
-# Our robot really has 5.0 kg·m². **Predict:**
+# Our robot has 5.0 kg·m². **Predict:**
 
 # %%
 guess_lever = Prediction(
@@ -272,12 +293,12 @@ Table(
 )
 
 # %% [markdown]
-# With the wrong lever the answer is too small by a factor of √2, whatever the robot.
+# With the wrong lever the answer is too small by a factor of √2, for every square swerve.
 #
 # ### The log shows the lever
 #
-# You can check the lever without a tape measure. A wheel runs at lever · ω, with ω the rate of the
-# robot in rad/s. So the ratio of the two kV is the lever:
+# You can check the lever without a tape measure. A wheel runs at lever · ω, where ω is the robot's
+# rate in rad/s. So the ratio of the two kV is the lever:
 
 # %%
 quotient = turning.gains["kV"] / straight.gains["kV"]
@@ -290,9 +311,9 @@ for doubt in found["half the trackwidth, T/2"].doubts:
 #
 # ### Why 5.2 and not 5.0?
 #
-# Wheels, gears and rotors also have to spin up. They are part of both kA, but not to the same
-# degree. Usually they count like 3 to 10 % of the mass. Then the result is a few percent too large.
-# Do not trust the third digit.
+# Wheels, gears and rotors also have to spin up. They are part of both kA, but not equally. Usually
+# they count like 3 to 10 % of the mass. Then the result is a few percent too large. Do not trust
+# the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
 #
@@ -354,7 +375,7 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# The same in numbers, a fiftieth of a second after the step:
+# The same in numbers, 20 ms after the step:
 
 # %%
 Table(
@@ -364,8 +385,8 @@ Table(
 
 # %% [markdown]
 # A fit of such a log finds a far too large kA: after the first jump the wheels get faster only
-# slowly, until the robot catches up. Choose a step below the slip, here about 1.8 V. A heavier
-# robot, or weaker motors, allow a larger step.
+# slowly, until the robot catches up. Choose a step that does not make the wheels slip, here about
+# 1.8 V. A heavier robot, or weaker motors, allow a larger step.
 #
 # ### Measure it
 #
@@ -382,17 +403,65 @@ slip_current = float(push.current[first - 1])
 print(f"Just before the wheels turn, one motor takes {slip_current:.0f} A.")
 plot_curves(
     push.time,
-    {"current of a motor [10 A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
+    {"current of a motor ÷ 10 [A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
     xlabel="time [s]",
     ylabel="current and speed",
     marked=(float(push.time[first - 1]), slip_current / 10),
+    mark="just before the wheels slip",
 )
 
 # %% [markdown]
-# This is the **slip current**. Set the stator current limit of the drive motors to it. (CTRE calls
-# it `kSlipCurrent`; its program starts with 120 A.) Then a driver can push the stick as hard as
-# they like, and the wheels keep their grip. Note that the current *falls* when the wheels slip:
-# rubber that slides holds less. Take the largest value before that.
+# This is the **slip current**. Set the stator current limit of the drive motors a little below it.
+# (The *stator* current is the current in the motor. CTRE's name is `kSlipCurrent`; its program
+# starts with 120 A.) Then a driver can push the stick as hard as they like, and the wheels keep
+# their grip on a straight start. The current *falls* when the wheels slip: rubber that slides holds
+# less. Take the largest value before that. ([CTRE docs: current limits, at one
+# commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/f062dd86318acfb997ffd5945601f65d1f2848c1/source/docs/hardware-reference/talonfx/improving-performance-with-current-limits.rst))
+#
+# ### The grip, for "Wheel COF"
+#
+# Both planners ask for the **coefficient of friction** between wheel and carpet. We write µ. A
+# robot with µ = 1.1 can push with 1.1 times its own weight, and not more. The slip current tells
+# you µ, in three steps:
+#
+# 1. A part of the current only turns the gears. It is kS divided by the resistance of a motor (12 V
+#    / stall current). Subtract it.
+# 2. The rest is torque: stall torque · current / stall current, for each motor.
+# 3. Torque · gear ratio / wheel radius is the push of one wheel. There are four:
+#
+# > µ = 4 · torque · gear ratio / (wheel radius · mass · 9.81 m/s²)
+#
+# **Predict:**
+
+# %%
+guess_grip = Prediction(
+    "You forget step 1. What does the planner do with your µ?",
+    "µ is too small: it plans slow curves, and the wheels could do more",
+    "nothing changes: µ does not depend on friction in the gears",
+    "µ is too large: it plans curves in which the wheels slip",
+)
+guess_grip
+
+# %%
+idle = straight.gains["kS"] / robot.motor.resistance  # [A] that only turn the gears
+
+
+def grip_of(current: float) -> float:
+    """µ, if all of a motor's current pushes."""
+    push_of_wheel = robot.motor.torque_constant * current * robot.ratio / robot.wheel_radius
+    return 4 * push_of_wheel / (robot.mass * 9.81)
+
+
+print(guess_grip.reveal("µ is too large: it plans curves in which the wheels slip"))
+print(f"Of {slip_current:.0f} A, {idle:.1f} A only turn the gears.")
+Table(
+    ("current", "µ"),
+    (
+        ("all of it", grip_of(slip_current)),
+        ("without what turns the gears", grip_of(slip_current - idle)),
+        ("the truth", robot.grip),
+    ),
+)
 
 # %% [markdown]
 # ## 7 Into the settings
@@ -404,15 +473,31 @@ plot_curves(
 # | wheel radius [m] | section 4 | Wheel Radius | Wheel Radius |
 # | gear ratio | count teeth | Drive Gearing | Gearing |
 # | top speed [m/s] | (12 V − kS) / kV | True Max Drive Speed | |
+# | grip µ | section 6 | Wheel COF | Wheel COF |
 # | slip current [A] | section 6 | Drive Current Limit | |
 # | torque of a motor at the slip current [N·m] | data sheet | | Motor Max Torque |
 # | distances between the wheels [m] | tape measure | Module Offsets | Wheelbase, Trackwidth |
 #
 # A motor's torque is proportional to its current. So the torque at the slip current is stall torque
-# · slip current / stall current. For the top speed, PathPlanner's page says: drive as fast as you
-# can and read the speed. Without room, use the formula. Choreo advises about 80 % of the free speed
-# for its *Motor Speed Limit*. ([Choreo docs: Robot
-# Configuration](https://choreo.autos/document-settings/robot-configuration/))
+# · slip current / stall current. It is the *most* that makes sense. If your current limit is lower,
+# use the torque at that limit. For the top speed, PathPlanner's page says: drive as fast as you can
+# on a charged battery and read the speed. Without room, use the formula. It is an upper limit,
+# because the slow tests do not show what is lost at high speed. The page's own guess is 85 % of the
+# free speed. Choreo advises about 80 % for its *Motor Speed Limit*, to leave something for
+# corrections.
+#
+# <details><summary>For mentors: which current, which torque, with sources</summary>
+#
+# PathPlanner's page calls *Drive Current Limit* a supply limit. But its library takes it as the
+# current *in the motor*: it computes torque from it. So give the stator limit that you set.
+# ([Robot Config, at one commit](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
+# [ModuleConfig.java, at one commit](https://github.com/mjansen4857/pathplanner/blob/c8ac86828f398c73cc945206dcd519279b3e50df/pathplannerlib/src/main/java/com/pathplanner/lib/config/ModuleConfig.java))
+# Choreo's page proposes the torque at 1.5 times the breaker's rating, 60 A for a 40 A breaker, to
+# leave something for corrections; above the slip current no torque is of use. Its window has *Wheel
+# COF*, too.
+# ([Robot Configuration, at one commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
+# [ModuleConfigPanel.tsx, at one commit](https://github.com/SleipnirGroup/Choreo/blob/083dd735db2cc0fe83d62bd8a6edbeb6ad9e7138/src/components/config/robotconfig/ModuleConfigPanel.tsx))
+# </details>
 
 # %%
 kraken = robot.motor
@@ -422,6 +507,7 @@ Table(
     (
         ("moment of inertia [kg·m²]", found["half the diagonal, T/√2"].value),
         ("top speed [m/s]", top_speed),
+        ("grip µ", grip_of(slip_current - idle)),
         ("current limit [A]", slip_current),
         ("max torque of a motor [N·m]", kraken.torque_constant * slip_current),
     ),
@@ -429,8 +515,95 @@ Table(
 
 # %% [markdown]
 # kS, kV and kA do not go into a planner. They go into your drive code (lesson 8). In CTRE's program
-# they are the gains of the drive motor, per rotation of the *motor*; in YAGSL and WPILib they are
-# per meter.
+# they are the gains of the drive motor, per rotation of the *motor*; in AdvantageKit's template per
+# rotation of the *wheel*; in YAGSL and WPILib per meter.
+#
+# ### Now you write it
+#
+# Another team asks you for help. Their robot has four NEO Vortex motors, and they have run all
+# tests. Write the three formulas of this lesson: replace the dots in the next cell. Run it, then
+# run the cell below it: it checks each formula, and uses ours for one that is not right yet.
+
+
+# %%
+def my_radius(turned, lever, wheel_turns):
+    """Formula 1 (section 4): a wheel's radius [m]. turned [rad], lever [m], wheel_turns [1]."""
+    return ...
+
+
+def my_inertia(mass, lever, ka_turning, ka_straight):
+    """Formula 2 (section 5): the moment of inertia [kg·m²]."""
+    return ...
+
+
+def my_grip(torque, ratio, radius, mass):
+    """Formula 3 (section 6): µ of four wheels. torque of one motor [N·m]."""
+    return ...
+
+
+# %%
+mine = check_formulas(radius=my_radius, inertia=my_inertia, grip=my_grip)
+print(mine.report)
+
+# %% [markdown]
+# <details><summary>Solution</summary>
+#
+# ```python
+# def my_radius(turned, lever, wheel_turns):
+#     return turned * lever / (2 * np.pi * wheel_turns)
+#
+# def my_inertia(mass, lever, ka_turning, ka_straight):
+#     return mass * lever * ka_turning / ka_straight
+#
+# def my_grip(torque, ratio, radius, mass):
+#     return 4 * torque * ratio / (radius * mass * 9.81)
+# ```
+# </details>
+#
+# Here are their tests. Two of the numbers in their code are wrong. Which?
+
+# %%
+theirs = SwerveDrive(
+    motor=find_motor("neoVortex"),
+    ratio=6.12,
+    wheel_radius=0.0495,  # worn, all four
+    trackwidth=0.52,
+    mass=48.0,
+    inertia=2.9,
+    wheel_inertia=0.0012,
+    friction=0.18,
+    grip=1.0,
+)
+rng = np.random.default_rng(8)
+their_lever = theirs.trackwidth / np.sqrt(2.0)
+their_spin = record_spin(theirs, turns=8.0, rng=rng)
+their_turns = np.mean(list(their_spin.motor_turns.values())) / theirs.ratio
+their_straight = fit(simulate(theirs.translation, gentle, rng=rng))
+their_turning = fit(simulate(theirs.rotation, gentle, rng=rng)).in_units("radians")
+their_push = record_wall_push(theirs, rng=rng)
+their_slip = float(their_push.current[int(np.argmax(their_push.velocity > 0.0)) - 1])
+pushing = their_slip - their_straight.gains["kS"] / theirs.motor.resistance
+
+radius = mine.radius(their_spin.turned, their_lever, their_turns)
+kas = their_turning.gains["kA"], their_straight.gains["kA"]
+Table(
+    ("number", "in their code", "measured"),
+    (
+        ("wheel radius [mm]", 50.8, 1000 * radius),
+        ("moment of inertia [kg·m²]", 3.0, mine.inertia(theirs.mass, their_lever, *kas)),
+        (
+            "grip µ",
+            1.2,
+            mine.grip(theirs.motor.torque_constant * pushing, theirs.ratio, radius, theirs.mass),
+        ),
+    ),
+)
+
+# %% [markdown]
+# Their wheels are worn, so the robot drives 2.6 % less far than its code believes. And their wheels
+# hold less than they hoped: with µ = 1.2 a planner plans curves in which they slip. The moment of
+# inertia is good enough: the measured one is a few percent too large, because wheels and rotors are
+# in it (section 5).
 
 # %% [markdown]
 # ## 8 Your own robot
@@ -440,7 +613,8 @@ Table(
 # 2. **Compare the modules:** `sysid fit straight.wpilog`. Look for the sentence with the modules.
 # 3. **Spin** slowly, five turns or more, on carpet. Write down gyro and motor turns.
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
-#    robot, and nobody in it. Use a small step here, too.
+#    robot, and nobody in it. Use a small step here, too. CTRE's own, π rad/s, is 3.4 V on our
+#    robot, and its wheels slip above 2.4 V. With 2 rad/s they do not.
 # 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
 #    names in your log. Replace V by a `MotorVoltage`, P by the gyro's `Yaw`, and W by its
 #    `AngularVelocityZWorld`:
@@ -450,8 +624,7 @@ Table(
 #    ```
 #
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
-#    (CTRE logs the straight drive in motor rotations. That is enough: the lever shows how far one
-#    rotation goes.)
+#    (CTRE logs the straight drive in motor rotations. `sysid fit` converts them with the lever.)
 #
 # 6. **Push** at a wall, once.
 #
@@ -460,8 +633,11 @@ Table(
 # AdvantageKit's templates have one routine, for going straight. Its page shows the two lines to
 # change so that the modules stand across the diagonals: drive open loop, steer to the angle of the
 # module's place plus 90°. Then a *voltage* turns the robot, and the log contains that voltage.
+# ([TalonFX Swerve Template, at one commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 # YAGSL's `SwerveDriveTest` has a drive and an angle routine; the drive routine centers the modules
 # first, and each module logs itself in meters. For the gyro's angle add your own entries.
+# ([SwerveDriveTest.java, at one
+# commit](https://github.com/BroncBotz3481/YAGSL/blob/4bc6978a20dc2a036b3f562bf3c23c46f6da9361/swervelib/SwerveDriveTest.java))
 # </details>
 
 # %% [markdown]
@@ -477,7 +653,7 @@ Table(
 #
 # ## 10 Knowledge check
 #
-# Click an answer to the first question; you get feedback at once.
+# Click an answer to the first question.
 
 # %%
 from grader import QuickCheck
@@ -499,7 +675,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # The size of its wheel: a worn wheel turns more often. (Then its gear ratio, if somebody built in
-# another module.) A module that rubs would *not* look different: the floor couples the wheels.
+# another module.) A module that rubs would *not* look different: the floor forces all wheels to the
+# same speed.
 # </details>
 #
 # **2.** A rotation log gives kV = 1.02 and no unit that makes sense. What did you load as voltage?

@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -118,6 +119,7 @@ def reads(request, tmp_path):
         number = next(count)
         title = request.node.name if number == 1 else f"{request.node.name}, {number}"
         text = str(text).replace(str(tmp_path), "FOLDER")
+        text = re.sub(r"FOLDER[\\\w./-]*", lambda path: path[0].replace("\\", "/"), text)  # Windows
         compare_part(request.path.stem, title, text)
 
     return same

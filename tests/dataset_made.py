@@ -70,7 +70,7 @@ def sysid(*arguments: object) -> int:
     return run_command(command, name="sysid", arguments=[str(one) for one in arguments])
 
 
-def make(path: Path, name: str = "data", *more: object) -> Path:
+def make_dataset(path: Path, name: str = "data", *more: object) -> Path:
     """A dataset, made to its end beside its spec; its folder."""
     folder = path.parent / name
     assert sysid("dataset", path, "-o", folder, *more) == 0

@@ -39,10 +39,10 @@ KNOBS = (
     Knob("kV", "kV [V·s/m]", low=1.0, high=4.0, step=0.01, value=2.0),
     Knob("kA", "kA [V·s²/m]", low=0.0, high=0.6, step=0.01, value=0.1),
 )
-PROGRAM = {name: Gain(name) for name in GAINS}
+KNOB_GAINS = {name: Gain(name) for name in GAINS}
 MOTIONS = {
-    "program": Motion("robot", gains=GAINS, program=PROGRAM),
-    "model": Motion("robot", gains=PROGRAM | {"kA": 0.3}, voltage=4.0 * np.sin(3 * TIME)),
+    "program": Motion("robot", gains=GAINS, program=KNOB_GAINS),
+    "model": Motion("robot", gains=KNOB_GAINS | {"kA": 0.3}, voltage=4.0 * np.sin(3 * TIME)),
     "elevator": Motion(
         "robot", gains=GAINS | {"kG": 1.2}, type="elevator", voltage=Gain("kV", 2.0), start=0.4
     ),
@@ -82,7 +82,7 @@ def shown(browser, tmp_path):
     """Shows an animation in a page; the first figure of it."""
     pages = []
 
-    def show(animation, *, viewport=SCREEN, motion="reduce", scheme="light"):
+    def open_page(animation, *, viewport=SCREEN, motion="reduce", scheme="light"):
         path = tmp_path / "page.html"
         path.write_text(f'<!DOCTYPE html><meta charset="utf-8">{animation.html}', encoding="utf-8")
         page = browser.new_page(viewport=viewport, reduced_motion=motion, color_scheme=scheme)
@@ -95,7 +95,7 @@ def shown(browser, tmp_path):
         pages.append(page)
         return page, page.locator("figure.motion").first
 
-    yield show
+    yield open_page
     for page in pages:
         assert page.complaints == []
         assert {url.partition(":")[0] for url in page.asked} == {"file"}

@@ -190,28 +190,28 @@ def test_a_fast_mechanism_gets_wider_bands_for_ka():
 
 
 @pytest.mark.parametrize(
-    ("name", "answers", "said", "misconception"),
+    ("name", "answers", "misconception"),
     [
-        ("kV", {"kV": 0.13 / TURN}, "6.28 times too small", "M-UNITS"),
-        ("kV", {"kV": 0.13 * TURN}, "6.28 times too large", "M-UNITS"),
-        ("kV", {"kV": 0.13 / 60}, "rpm", "M-UNITS"),
-        ("kV", {"kV": 0.13 * 60}, "60 times too large", "M-UNITS"),
-        ("kV", {"kV": 0.13 / (180 / math.pi)}, "57.3 = 180/π", "M-UNITS"),
-        ("kV", {"kV": 0.13 / 360}, "a rotation is 360°", "M-UNITS"),
-        ("kV", {"kV": 0.13 / 12}, "in place of volts", "M-DUTY"),
-        ("kV", {"kV": 0.13 * 12}, "in place of volts", "M-DUTY"),
-        ("kS", {"kS": 0.10 / 12}, "in place of volts", "M-DUTY"),
-        ("kS", {"kS": 100.0}, "millivolts", "M-UNITS"),
-        ("kV", {"kV": -0.13}, "the sign is not", ""),
-        ("kA", {"kA": 0.035 * 50}, "divide the change of velocity", ""),
-        ("kS", {"kS": 0.10 + 0.035 / 0.13 * 0.5}, "crosses v = 0", "M-KS-INTERCEPT"),
-        ("kV", {"kV": 0.035, "kA": 0.13}, "did you swap them", "M-ARGORDER"),
+        ("kV", {"kV": 0.13 / TURN}, "M-UNITS"),
+        ("kV", {"kV": 0.13 * TURN}, "M-UNITS"),
+        ("kV", {"kV": 0.13 / 60}, "M-UNITS"),
+        ("kV", {"kV": 0.13 * 60}, "M-UNITS"),
+        ("kV", {"kV": 0.13 / (180 / math.pi)}, "M-UNITS"),
+        ("kV", {"kV": 0.13 / 360}, "M-UNITS"),
+        ("kV", {"kV": 0.13 / 12}, "M-DUTY"),
+        ("kV", {"kV": 0.13 * 12}, "M-DUTY"),
+        ("kS", {"kS": 0.10 / 12}, "M-DUTY"),
+        ("kS", {"kS": 100.0}, "M-UNITS"),
+        ("kV", {"kV": -0.13}, ""),
+        ("kA", {"kA": 0.035 * 50}, ""),
+        ("kS", {"kS": 0.10 + 0.035 / 0.13 * 0.5}, "M-KS-INTERCEPT"),
+        ("kV", {"kV": 0.035, "kA": 0.13}, ""),
     ],
 )
-def test_a_slip_is_named(name, answers, said, misconception):
+def test_a_slip_is_named(name, answers, reads, misconception):
     caught = wrong(name, answers, FLYWHEEL_KEY)
 
-    assert said in caught.hint
+    reads(caught.hint)
     assert caught.misconception == misconception
 
 
@@ -257,16 +257,16 @@ def test_a_slip_two_numbers_share_is_named_alone():
 
 
 @pytest.mark.parametrize(
-    ("value", "said"),
+    "value",
     [
-        (2.4 * 1.05, "within ±8 %, not yet within ±3 %"),
-        (2.4 * 1.12, "just outside the accepted ±3 %"),
-        (2.4 * 1.6, "far outside the accepted ±3 %"),
-        (-17.0, "cannot be negative"),
+        2.4 * 1.05,
+        2.4 * 1.12,
+        2.4 * 1.6,
+        -17.0,
     ],
 )
-def test_without_a_slip_only_the_band_is_told(value, said):
-    assert said in wrong("kV", {"kV": value}).hint
+def test_without_a_slip_only_the_band_is_told(value, reads):
+    reads(wrong("kV", {"kV": value}).hint)
 
 
 def test_a_band_in_volts_is_told_in_volts():

@@ -42,7 +42,7 @@ def modules(benchmarks, monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def made(benchmarks, tmp_path_factory):
+def finished_run(benchmarks, tmp_path_factory):
     """What one whole run keeps and prints, and what making the same cases again leaves."""
     where = tmp_path_factory.mktemp("reconcile")
     (where / "nosy.py").write_text(NOSY, encoding="utf-8")
@@ -97,8 +97,8 @@ def test_a_plan_is_the_same_for_the_same_seed_and_holds_nothing_that_cannot_be(m
     assert {c.type for c in cases if "gravity-cosine" in c.hidden} == {"simple"}
 
 
-def test_the_same_seed_makes_the_same_files_again(made):
-    where, _ = made
+def test_the_same_seed_makes_the_same_files_again(finished_run):
+    where, _ = finished_run
     kept, again = (
         {path.relative_to(where / folder): path.read_bytes() for path in paths}
         for folder in ("kept", "again")
@@ -110,8 +110,8 @@ def test_the_same_seed_makes_the_same_files_again(made):
     assert len(set(kept.values())) == len(kept)
 
 
-def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(made, modules):
-    where, _ = made
+def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(finished_run, modules):
+    where, _ = finished_run
     names = (*EFFECTS, *modules("strangers").STRANGERS, "encoder-slip", "hard-stop", "dirty")
     for file in (where / "again").rglob("*"):
         if file.is_file():
@@ -122,8 +122,8 @@ def test_a_case_says_what_a_team_knows_and_names_nothing_hidden(made, modules):
     assert set(known) == {"type", "mechanism", "travel", "period_s"}
 
 
-def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(made):
-    where, _ = made
+def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(finished_run):
+    where, _ = finished_run
     answers = json.loads((where / "kept" / "answers.json").read_text(encoding="utf-8"))
     key = json.loads((where / "kept" / "key.json").read_text(encoding="utf-8"))
     allowed = {"--validation", "--held-out", "--type", "--travel", "--json"}
@@ -135,8 +135,8 @@ def test_the_solver_is_told_no_more_and_the_key_comes_after_the_answers(made):
     assert (where / "kept" / "shuffled" / "key.json").exists()
 
 
-def test_a_solver_that_finds_nothing_is_right_of_complete_models_alone(made):
-    _, told = made
+def test_a_solver_that_finds_nothing_is_right_of_complete_models_alone(finished_run):
+    _, told = finished_run
 
     marks = {one["case"]: (one["group"].split()[1], one["mark"]) for one in told["cases"]}
 

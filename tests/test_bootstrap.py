@@ -170,25 +170,24 @@ def test_an_installation_that_does_not_help_is_not_tried_again(world, monkeypatc
     assert world.quiet == []
 
 
-def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypatch, capsys):
+def test_when_pip_fails_its_last_words_are_shown_and_what_to_do(world, monkeypatch, capsys, reads):
     inside(monkeypatch)
     chatter = "\n".join(f"  Downloading {number}" for number in range(50))
     world.says = f"{chatter}\nERROR: Could not find a version that satisfies click\n"
 
     assert bootstrap.main(["start"]) == 2
     said = capsys.readouterr().err
-    assert "ERROR: Could not find a version" in said
+    reads(said)
     assert "Downloading" not in said
     assert said.splitlines()[-1].startswith("grade: pip could not install the course")
-    assert "Is this machine online" in said
     assert world.foreground == []
 
 
-def test_without_venv_it_names_the_package_to_install(world, monkeypatch, capsys):
+def test_without_venv_it_names_the_package_to_install(world, monkeypatch, capsys, reads):
     monkeypatch.setattr(bootstrap, "find_spec", lambda _name: None)
 
     assert bootstrap.main(["start"]) == 2
-    assert "sudo apt install python3-venv" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
     assert world.foreground == []
 
 
@@ -201,11 +200,11 @@ def test_a_folder_that_is_something_else_is_left_alone(world, capsys):
     assert (world.root / ".venv" / "diary.txt").is_file()
 
 
-def test_without_the_project_it_says_what_to_install(world, capsys):
+def test_without_the_project_it_says_what_to_install(world, capsys, reads):
     (world.root / "pyproject.toml").unlink()
 
     assert bootstrap.main(["start"]) == 2
-    assert 'python -m pip install "sysid-course[course]"' in capsys.readouterr().err
+    reads(capsys.readouterr().err)
 
 
 def test_ctrl_c_is_quiet(monkeypatch, capsys):
@@ -258,7 +257,7 @@ def test_what_is_there_is_not_missing(monkeypatch):
     assert bootstrap.find_missing_packages(["test"]) == []
 
 
-def test_an_isolated_python_gets_as_far_as_installing(tmp_path):
+def test_an_isolated_python_gets_as_far_as_installing(tmp_path, reads):
     """A real process without any package: it starts, sees what is missing, and makes a place."""
     clone = tmp_path / "clone"
     (clone / "grader").mkdir(parents=True)
@@ -282,11 +281,11 @@ def test_an_isolated_python_gets_as_far_as_installing(tmp_path):
 
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
-    assert "no virtual environment. Move it away." in done.stderr
+    reads(done.stderr)
 
 
 def test_when_pip_fails_on_a_newer_python_it_names_the_newest_that_works(
-    world, monkeypatch, capsys
+    world, monkeypatch, capsys, reads
 ):
     inside(monkeypatch)
     monkeypatch.setattr(sys, "version_info", (3, 99, 0))
@@ -294,5 +293,5 @@ def test_when_pip_fails_on_a_newer_python_it_names_the_newest_that_works(
 
     assert bootstrap.main(["start"]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
-    assert "some packages have no wheel for Python" in said
+    reads(said)
     assert "Use Python 3.14" in said

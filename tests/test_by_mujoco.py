@@ -35,14 +35,14 @@ def moved(root, monkeypatch):
         "bench": import_module("reconcile_recording").on_the_bench,
     }
 
-    def made(mechanism, who):
+    def simulated(mechanism, who):
         sensor = replace(mechanism.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
         plain = {"battery": Battery(resistance=0.0), "stator": 1e4, "supply": 1e4}
         bare = replace(mechanism, sensor=sensor, **plain)
         chance = np.random.default_rng(0)
         return physics[who](bare, ROUTINE, rng=chance, period=0.02, wobble=0.0)
 
-    return made
+    return simulated
 
 
 def off(runs, others):

@@ -239,7 +239,7 @@ WRONG = {  # what is wrong -> the program, the check that fails, and what it say
 }  # fmt: skip
 
 
-def graded(exercise, text, tmp_path, *, name="ExampleSubsystem.java"):
+def grade_answer(exercise, text, tmp_path, *, name="ExampleSubsystem.java"):
     path = tmp_path / name
     path.write_text(text, "utf-8")
     return {one.id: one for one in exercise.grade(path, student="ann", run=False).checks}
@@ -262,7 +262,7 @@ def test_the_facts_are_read(style, tmp_path):
 
 @pytest.mark.parametrize("style", RIGHT)
 def test_a_right_answer_earns_all_points(style, tmp_path):
-    found = graded(EXERCISE4, RIGHT[style], tmp_path)
+    found = grade_answer(EXERCISE4, RIGHT[style], tmp_path)
 
     assert {name: one.seen for name, one in found.items() if one.status != "passed"} == {}
     assert sum(one.points for one in found.values()) == 15
@@ -272,7 +272,7 @@ def test_a_right_answer_earns_all_points(style, tmp_path):
 def test_a_wrong_answer_is_told_what_is_wrong(mistake, tmp_path):
     text, check, said = WRONG[mistake]
 
-    found = graded(EXERCISE4, text, tmp_path)[check]
+    found = grade_answer(EXERCISE4, text, tmp_path)[check]
 
     assert found.status == "failed"
     assert said in found.seen
@@ -327,7 +327,7 @@ def test_its_commands_are_bound_and_guarded_like_those_of_v2(tmp_path):
     path.write_text(BINDINGS, "utf-8")
 
     facts = read_bindings(path)
-    found = graded(EXERCISE5, BINDINGS, tmp_path, name="RobotContainer.java")
+    found = grade_answer(EXERCISE5, BINDINGS, tmp_path, name="RobotContainer.java")
 
     assert all(one.guards == (Guard.TEST_MODE,) for one in facts.bindings)
     assert {name: one.seen for name, one in found.items() if one.status != "passed"} == {}

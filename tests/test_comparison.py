@@ -31,7 +31,7 @@ def plan(benchmarks, monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def made(benchmarks, tmp_path_factory):
+def output_folders(benchmarks, tmp_path_factory):
     """Two folders with what the command makes of one log a row, one row a section, no robots."""
     folders = [tmp_path_factory.mktemp(name) for name in ("first", "again")]
     for folder in folders:
@@ -61,15 +61,17 @@ def prose(text):
     return {NUMBER.sub("#", re.sub(r"!\[.*\]", "![]", line)) for line in [*lines, *heads]}
 
 
-def test_one_command_makes_page_and_picture_and_makes_the_same_again(made):
-    first, again = ({path.name: path.read_bytes() for path in one.iterdir()} for one in made)
+def test_one_command_makes_page_and_picture_and_makes_the_same_again(output_folders):
+    first, again = (
+        {path.name: path.read_bytes() for path in one.iterdir()} for one in output_folders
+    )
 
     assert set(first) == {"COMPARISON.md", PICTURE}
     assert first == again
 
 
-def test_the_picture_says_in_words_what_it_shows(made, benchmarks):
-    for folder in (made[0], benchmarks):
+def test_the_picture_says_in_words_what_it_shows(output_folders, benchmarks):
+    for folder in (output_folders[0], benchmarks):
         text = (folder / "COMPARISON.md").read_text(encoding="utf-8")
         drawing = ET.parse(folder / PICTURE).getroot()  # noqa: S314 - our own drawing
         title = drawing.find(".//{http://purl.org/dc/elements/1.1/}title")
@@ -78,16 +80,16 @@ def test_the_picture_says_in_words_what_it_shows(made, benchmarks):
         assert len(NUMBER.findall(title.text)) >= 6
 
 
-def test_without_logs_of_robots_their_rows_are_left_out_and_that_is_said(made):
-    text = (made[0] / "COMPARISON.md").read_text(encoding="utf-8")
+def test_without_logs_of_robots_their_rows_are_left_out_and_that_is_said(output_folders):
+    text = (output_folders[0] / "COMPARISON.md").read_text(encoding="utf-8")
 
     assert "the logs of real robots were not to be had" in text
     assert sections(text)["Logs of real robots"] == []
     assert "run held out" not in text
 
 
-def test_the_page_in_the_repository_says_what_the_command_says(made, page):
-    fresh = (made[0] / "COMPARISON.md").read_text(encoding="utf-8")
+def test_the_page_in_the_repository_says_what_the_command_says(output_folders, page):
+    fresh = (output_folders[0] / "COMPARISON.md").read_text(encoding="utf-8")
     absent = {line for line in prose(fresh) if "were not to be had" in line}
 
     assert prose(fresh) - absent <= prose(page)

@@ -117,13 +117,13 @@ def test_any_number_has_a_consequence(course, name, size):
     assert "inf" not in found.words
 
 
-def test_a_plan_that_runs_too_far_is_told(course):
+def test_a_plan_that_runs_too_far_is_told(course, reads):
     machines = EXERCISES["exercise6"].module.draw("ann").machines
     lines = {"ramp": 1.0, "step": 3.0, "timeout": 10.0, "release": "timeout"}
     write(course["exercise6"], **{f"turret_{what}": value for what, value in lines.items()})
     found = consequence(course["exercise6"])
 
-    assert "The turret: the ramp needs" in found.words
+    reads(found.words)
     assert f"{machines['turret'].travel:g} rot" in found.words
     (axes,) = found.draw().figure.axes
     wanted, ramp, *_ = axes.get_lines()
@@ -183,25 +183,23 @@ def test_the_command_tells_it_and_draws_it(course, capsys):
 
     assert run_command(["9", "--picture", "what.svg"]) == 1
     out, err = capsys.readouterr()
-    assert "then  Your numbers as feedforward, without feedback. Asked for" in out
+    assert "then  This is what your numbers do as feedforward, without feedback. Asked for" in out
     assert "See it: grade exercise9 --picture what.svg" in out
     assert max(map(len, out.splitlines())) <= 80
     assert "what your answer would do: what.svg" in err
     assert "Asked for" in Path("what.svg").read_text("utf-8")
 
 
-def test_a_picture_that_cannot_be_is_said(course, capsys):
+def test_a_picture_that_cannot_be_is_said(course, capsys, reads):
     right = key("exercise9", "me")
     write(course["exercise9"], **right)
     assert run_command(["9", "--picture", "what.svg"]) == 1  # the function is not written yet
-    assert "was not written. Nothing to draw: your" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
     assert not Path("what.svg").exists()
 
     write(course["exercise9"], **(right | {"kV": 1.0}))
     assert run_command(["9", "--picture", "what.doc"]) == 2
-    assert "a picture cannot end in '.doc'" in capsys.readouterr().err
     assert run_command(["--picture", "what.svg"]) == 2
-    assert "Say which: grade exercise4 --picture what.svg" in capsys.readouterr().err
 
 
 def test_a_cell_shows_it_below_the_checks(course):

@@ -69,24 +69,24 @@ def test_what_is_asked_for_is_read(text, asked):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    "text",
     [
-        ("", "it has no name"),
-        (":2", "it has no name"),
-        ("@dynamic-forward", "it has no name"),
-        ("brownout:", "'' is not a number"),
-        ("brownout:lots", "'lots' is not a number"),
-        ("brownout@", "no test is named after @"),
-        ("brownout@+3", "no test is named after @"),
-        ("brownout@dynamic-forward+soon", "'soon' is not a number"),
-        ("brownout@dynamic-forward+", "'' is not a number"),
+        "",
+        ":2",
+        "@dynamic-forward",
+        "brownout:",
+        "brownout:lots",
+        "brownout@",
+        "brownout@+3",
+        "brownout@dynamic-forward+soon",
+        "brownout@dynamic-forward+",
     ],
 )
-def test_what_is_misspelled_is_one_line_with_the_right_spelling(text, said):
+def test_what_is_misspelled_is_one_line_with_the_right_spelling(text, reads):
     with pytest.raises(BadRequest) as refused:
         parse_fault_request(text)
 
-    assert said in str(refused.value)
+    reads(str(refused.value))
     assert "encoder-slip:0.5@dynamic-forward+0.4" in str(refused.value)
 
 
@@ -99,34 +99,35 @@ def test_whatever_is_typed_is_read_or_refused(text):
 
 
 @pytest.mark.parametrize(
-    ("name", "how", "said"),
+    ("name", "how"),
     [
-        ("gremlin", {}, "unknown fault 'gremlin'. Choose one of: brownout, "),
-        ("brownout", {"severity": -0.1}, "brownout of severity -0.1. Choose 0 (nothing) to 3"),
-        ("brownout", {"severity": MOST + 0.01}, "brownout of severity 3.01"),
-        ("brownout", {"severity": math.nan}, "brownout of severity nan"),
-        ("brownout", {"severity": math.inf}, "brownout of severity inf"),
-        ("brownout", {"test": "static"}, "'static' is not the name of a test"),
-        ("brownout", {"test": "coast-forward"}, "there is no coast-forward test in this log. It"),
-        ("wheel-slip", {"test": "quasistatic-forward"}, "cannot happen in a quasistatic-forward"),
-        ("brownout", {"test": "dynamic-forward", "at": 99.0}, "99 s is not within dynamic-forward"),
-        ("brownout", {"test": "dynamic-forward", "at": -1.0}, "-1 s is not within"),
-        ("brownout", {"test": "dynamic-forward", "at": math.nan}, "nan s is not within"),
-        ("brownout", {"test": "quasistatic-forward", "at": 0.0, "severity": 0.1}, "would not show"),
+        ("gremlin", {}),
+        ("brownout", {"severity": -0.1}),
+        ("brownout", {"severity": MOST + 0.01}),
+        ("brownout", {"severity": math.nan}),
+        ("brownout", {"severity": math.inf}),
+        ("brownout", {"test": "static"}),
+        ("brownout", {"test": "coast-forward"}),
+        ("wheel-slip", {"test": "quasistatic-forward"}),
+        ("brownout", {"test": "dynamic-forward", "at": 99.0}),
+        ("brownout", {"test": "dynamic-forward", "at": -1.0}),
+        ("brownout", {"test": "dynamic-forward", "at": math.nan}),
+        ("brownout", {"test": "quasistatic-forward", "at": 0.0, "severity": 0.1}),
     ],
     ids=lambda value: str(value)[:50],
 )
-def test_impossible_damage_is_one_line_with_advice(drive, name, how, said):
+def test_impossible_damage_is_one_line_with_advice(drive, name, how, reads):
     with pytest.raises(BadRequest) as refused:
         contaminate(drive, name, rng=rng(), **how)
 
-    assert said in str(refused.value)
+    reads(str(refused.value))
     assert "\n" not in str(refused.value)
 
 
-def test_an_elevator_has_no_wheels(elevator):
-    with pytest.raises(BadRequest, match="cannot happen to a mechanism of type elevator"):
+def test_an_elevator_has_no_wheels(elevator, reads):
+    with pytest.raises(BadRequest) as refused:
         contaminate(elevator, "wheel-slip", rng=rng())
+    reads(refused.value)
 
 
 def short(count, test="dynamic-forward"):
@@ -195,7 +196,9 @@ def test_left_to_chance_it_strikes_while_it_moves(elevator):
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".wpilog"])
-def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_path, drive, suffix):
+def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(
+    tmp_path, drive, suffix, reads
+):
     write(drive, tmp_path / "drive.csv")
 
     made = sysid(
@@ -208,7 +211,7 @@ def test_the_command_writes_what_can_be_read_and_says_where_the_damage_is(tmp_pa
     slip, overrun, written = made.stdout.splitlines()
     assert slip.startswith("encoder-slip: dynamic-forward")
     assert overrun.startswith("loop-overrun: quasistatic-reverse")
-    assert written == f"bad{suffix}: written. Next: sysid inspect bad{suffix}"
+    reads(written)
     bad = read(tmp_path / f"bad{suffix}")
     assert [run.test for run in bad.runs] == [run.test for run in drive.runs]
     assert len(bad.runs[1]) < len(drive.runs[1])

@@ -158,13 +158,14 @@ def test_an_unknown_column_is_named_and_left_out(tmp_path: Path) -> None:
     assert "bus_voltage" in doubt.message
 
 
-def test_columns_of_other_names_are_read_when_one_says_which(tmp_path: Path) -> None:
+def test_columns_of_other_names_are_read_when_one_says_which(tmp_path: Path, reads) -> None:
     text = PLAIN.replace(HEADER, "State,time_s,Volts,Angle,velocity")
     names = {"state": "state", "voltage": "volts", "position": "ANGLE"}
 
     assert columns(read_text(tmp_path, text, entries=names)) == WORKED
-    with pytest.raises(BadRequest, match="Choose among: run, test"):
+    with pytest.raises(BadRequest) as refused:
         read_text(tmp_path, text, entries={"torque": "volts"})
+    reads(refused.value)
 
 
 def test_repeated_times_are_dropped_with_a_doubt(tmp_path: Path) -> None:
@@ -231,17 +232,16 @@ def test_positions_are_written_in_the_unit_of_the_log(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("runs", "said"),
+    "runs",
     [
-        pytest.param((), "has no runs", id="no runs"),
-        pytest.param((Run("dynamic-forward", [], [], [], []),), "has no samples", id="empty run"),
+        pytest.param((), id="no runs"),
+        pytest.param((Run("dynamic-forward", [], [], [], []),), id="empty run"),
     ],
 )
-def test_what_rows_cannot_hold_is_not_written(
-    tmp_path: Path, runs: tuple[Run, ...], said: str
-) -> None:
-    with pytest.raises(BadRequest, match=f"{said}.*a row of CSV is one"):
+def test_what_rows_cannot_hold_is_not_written(tmp_path: Path, runs: tuple[Run, ...], reads) -> None:
+    with pytest.raises(BadRequest) as refused:
         sim.write(Log(runs), tmp_path / "log.csv")
+    reads(refused.value)
 
     assert list(tmp_path.iterdir()) == []
 
@@ -259,7 +259,7 @@ def test_the_reference_logs_read_whole(shared: Path) -> None:
         assert log.doubts == ()
 
 
-def test_a_motor_asked_of_a_file_with_one_is_said_to_make_no_difference(tmp_path):
+def test_a_motor_asked_of_a_file_with_one_is_said_to_make_no_difference(tmp_path, reads):
     path = tmp_path / "log.csv"
     path.write_text(
         "test,time_s,voltage,position,velocity\n"
@@ -270,4 +270,4 @@ def test_a_motor_asked_of_a_file_with_one_is_said_to_make_no_difference(tmp_path
     (doubt,) = sim.read(path, motor="left").doubts
 
     assert doubt.code == "one-motor"
-    assert "'left' made no difference" in doubt.message
+    reads(doubt.message)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
 
 import sim
 from sim.bench.dataset import making
@@ -27,7 +27,7 @@ def jobs_of(path):
 
 
 def test_a_dataset_is_logs_in_a_folder_and_a_key_beside_it(tmp_path, capsys):
-    folder = make(spec(tmp_path))
+    folder = make_dataset(spec(tmp_path))
 
     assert list(files(folder)) == [f"log-0{number}.wpilog" for number in (1, 2, 3, 4)]
     assert sorted(log["mechanism"] for log in key(folder)["logs"]) == [
@@ -39,7 +39,7 @@ def test_a_dataset_is_logs_in_a_folder_and_a_key_beside_it(tmp_path, capsys):
 
 
 def test_students_have_folders_of_their_own_and_each_format_is_written(tmp_path):
-    made = files(make(spec(tmp_path, DAMAGED)))
+    made = files(make_dataset(spec(tmp_path, DAMAGED)))
 
     assert list(made) == [
         f"{student}/log-0{number}.{ending}"
@@ -50,7 +50,7 @@ def test_students_have_folders_of_their_own_and_each_format_is_written(tmp_path)
 
 
 def test_both_formats_of_a_log_hold_the_same_numbers(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
+    folder = make_dataset(spec(tmp_path, DAMAGED))
 
     for entry in key(folder)["logs"]:
         csv, wpilog = (
@@ -64,7 +64,7 @@ def test_both_formats_of_a_log_hold_the_same_numbers(tmp_path):
 def test_the_same_spec_and_secret_give_the_same_bytes(tmp_path):
     path = spec(tmp_path, DAMAGED)
 
-    assert files(make(path, "one")) == files(make(path, "two"))
+    assert files(make_dataset(path, "one")) == files(make_dataset(path, "two"))
     assert key(tmp_path / "one") == key(tmp_path / "two")
 
 
@@ -77,16 +77,16 @@ def test_the_same_spec_and_secret_give_the_same_bytes(tmp_path):
 )
 def test_anything_else_gives_other_bytes_in_every_file(tmp_path, other):
     (tmp_path / "other").mkdir()
-    ours = files(make(spec(tmp_path, DAMAGED)))
+    ours = files(make_dataset(spec(tmp_path, DAMAGED)))
 
-    theirs = files(make(spec(tmp_path / "other", **other)))
+    theirs = files(make_dataset(spec(tmp_path / "other", **other)))
 
     assert list(ours) == list(theirs)
     assert not [file for file in ours if ours[file] == theirs[file]]
 
 
 def test_no_two_logs_are_alike(tmp_path):
-    made = files(make(spec(tmp_path, DAMAGED)))
+    made = files(make_dataset(spec(tmp_path, DAMAGED)))
 
     assert len(set(made.values())) == len(made)
 
@@ -94,8 +94,8 @@ def test_no_two_logs_are_alike(tmp_path):
 def test_two_processes_make_what_one_makes(tmp_path):
     path = spec(tmp_path, PLAIN.replace("count = 2", "count = 30"))  # 60 logs: worth two
 
-    one = make(path, "one", "--processes", 1)
-    two = make(path, "two", "--processes", 2)
+    one = make_dataset(path, "one", "--processes", 1)
+    two = make_dataset(path, "two", "--processes", 2)
 
     assert len(files(one)) == 60
     assert files(one) == files(two)
@@ -112,9 +112,9 @@ def test_a_job_does_not_depend_on_the_others(tmp_path):
 
 
 def test_more_students_leave_the_logs_of_the_others_as_they_are(tmp_path, capsys):
-    before = files(make(spec(tmp_path, DAMAGED)))
+    before = files(make_dataset(spec(tmp_path, DAMAGED)))
 
-    after = files(make(spec(tmp_path, DAMAGED.replace('["ann"', '["zoe", "ann"'))))
+    after = files(make_dataset(spec(tmp_path, DAMAGED.replace('["ann"', '["zoe", "ann"'))))
 
     assert before.items() <= after.items()
     assert len(after) == len(before) + 8
@@ -164,18 +164,18 @@ def test_another_processor_gives_the_same_bytes(tmp_path, monkeypatch):
         return {name: np.nextafter(getattr(run, name), np.inf) for name in names}
 
     path = spec(tmp_path, DAMAGED)
-    here = files(make(path, "here"))
+    here = files(make_dataset(path, "here"))
     monkeypatch.setattr(making, "simulate", lambda *a, **k: off_by_a_bit(simulate(*a, **k)))
     monkeypatch.setattr(making, "contaminate", lambda *a, **k: spoilt_there(contaminate(*a, **k)))
 
-    assert files(make(path, "there")) == here
+    assert files(make_dataset(path, "there")) == here
 
 
 def test_a_log_holds_the_tests_that_are_asked_for(tmp_path):
     tests = '["coast-reverse", "quasistatic-forward", "quasistatic-reverse"]'
     text = PLAIN.replace("step = 3.0", f"step = 3.0\ntests = {tests}\nelectrical = true")
 
-    log = sim.read(make(spec(tmp_path, text)) / "log-01.wpilog")
+    log = sim.read(make_dataset(spec(tmp_path, text)) / "log-01.wpilog")
 
     assert [run.test for run in log.runs] == [
         "quasistatic-forward", "quasistatic-reverse", "coast-reverse",
@@ -215,7 +215,7 @@ def test_the_example_can_be_made_as_it_is(tmp_path, capsys):
     path = tmp_path / "week3.toml"
 
     assert sysid("dataset", path, "--example") == 0
-    folder = make(path)
+    folder = make_dataset(path)
 
     assert f"sysid dataset {path} -o week3" in capsys.readouterr().out
     assert len(files(folder)) == 2 * (2 * 2 + 3 + 2)  # students x (mechanisms x clean + damaged)

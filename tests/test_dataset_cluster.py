@@ -5,7 +5,7 @@ import importlib.util
 import sys
 
 import pytest
-from dataset_made import DAMAGED, PLAIN, files, key, make, process, spec, sysid
+from dataset_made import DAMAGED, PLAIN, files, key, make_dataset, process, spec, sysid
 
 from sim.bench.dataset.making import make_log
 from sim.bench.dataset.plan import plan_jobs
@@ -37,7 +37,7 @@ def address():
 @needs_dask
 def test_a_cluster_makes_the_files_that_one_process_makes(tmp_path, address):
     path = spec(tmp_path, DAMAGED.replace("count = 2", "count = 20"))  # 22 logs of each student
-    here = make(path, "here", "--processes", 1)
+    here = make_dataset(path, "here", "--processes", 1)
 
     asked = ("dataset", "spec.toml", "-o", "there", "--cluster", address)
     with process(*asked, folder=tmp_path) as running:
@@ -57,9 +57,9 @@ def test_a_worker_of_many_threads_makes_the_same(tmp_path):
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=4, processes=True, dashboard_address="127.0.0.1:0"
     ) as found:
-        there = make(path, "there", "--cluster", found.scheduler_address)
+        there = make_dataset(path, "there", "--cluster", found.scheduler_address)
 
-    assert files(there) == files(make(path, "here"))
+    assert files(there) == files(make_dataset(path, "here"))
 
 
 @needs_dask
@@ -132,7 +132,7 @@ def test_nothing_but_a_cluster_imports_dask(tmp_path, monkeypatch):
     monkeypatch.setattr(builtins, "__import__", watched)
     monkeypatch.setattr(cluster, "import_module", pytest.fail)
 
-    make(spec(tmp_path))
+    make_dataset(spec(tmp_path))
 
 
 class Workers:

@@ -5,7 +5,7 @@ import subprocess
 from itertools import count
 
 import pytest
-from dataset_made import DAMAGED, PLAIN, files, key, make, spec, sysid
+from dataset_made import DAMAGED, PLAIN, files, key, make_dataset, spec, sysid
 
 from sim.bench.dataset import folder as shelf
 from sim.bench.dataset import key as keys
@@ -41,7 +41,7 @@ def test_a_disk_that_is_really_full_keeps_whole_files_only(tmp_path, small_disk,
     assert said.count("\n") == 1
     assert "cannot be written (No space left on device). Make room there" in said
     there = files(small_disk / "data")
-    whole = files(make(path, "whole"))
+    whole = files(make_dataset(path, "whole"))
     assert there
     assert there.items() < whole.items()
 
@@ -62,7 +62,7 @@ def full_after(monkeypatch, module, name, *, calls):
 
 @pytest.mark.parametrize("calls", [0, 2])
 def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch, capsys, calls):
-    whole = files(make(spec(tmp_path, DAMAGED), "whole"))
+    whole = files(make_dataset(spec(tmp_path, DAMAGED), "whole"))
     capsys.readouterr()
 
     with monkeypatch.context() as context:
@@ -79,7 +79,7 @@ def test_a_full_disk_is_one_line_and_the_next_run_goes_on(tmp_path, monkeypatch,
         assert sorted(one.name for one in tmp_path.iterdir() if "whole" not in one.name) == [
             "class.secret", "spec.toml",
         ]  # fmt: skip
-    assert files(make(tmp_path / "spec.toml")) == whole
+    assert files(make_dataset(tmp_path / "spec.toml")) == whole
 
 
 def test_a_disk_too_full_for_the_journal_leaves_no_file_without_an_entry(tmp_path, monkeypatch):
@@ -96,7 +96,7 @@ def test_a_disk_too_full_for_the_journal_leaves_no_file_without_an_entry(tmp_pat
         assert sysid("dataset", path, "-o", tmp_path / "data") == 2
 
     assert len(files(tmp_path / "data")) == 1
-    assert len(files(make(path))) == 4
+    assert len(files(make_dataset(path))) == 4
 
 
 def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, capsys):
@@ -113,13 +113,13 @@ def test_a_disk_too_full_for_the_key_keeps_the_files(tmp_path, monkeypatch, caps
     assert f"{tmp_path / 'data.key.json'}: the key cannot be written (No space left" in said
     assert len(files(tmp_path / "data")) == 4
     assert not (tmp_path / "data.key.json").exists()
-    make(path)
+    make_dataset(path)
     assert "4 logs, 4 of them made earlier" in capsys.readouterr().out
 
 
 def unfinished(path):
     """A dataset as a kill leaves it after the last log: no key, a journal, and what is in it."""
-    folder = make(path)
+    folder = make_dataset(path)
     truth = key(folder)
     journal = Journal(folder.with_name("data.key.json"), secret=secret_of(path))
     journal.start(truth["logs"])
@@ -139,7 +139,7 @@ def test_a_journal_that_was_torn_costs_one_log(tmp_path, capsys):
     (folder / max(truth["logs"][-1]["files"])).unlink()
     capsys.readouterr()
 
-    make(path)
+    make_dataset(path)
 
     assert "4 logs, 3 of them made earlier" in capsys.readouterr().out
     assert key(folder) == truth

@@ -4,7 +4,7 @@ import json
 import shutil
 
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
 
 from sim.bench.dataset.folder import DatasetFolder
 from sim.core.errors import BadRequest
@@ -27,11 +27,11 @@ def refused(capsys, *arguments):
 
 def test_what_is_finished_is_kept(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     before = {one: one.stat().st_ino for one in folder.rglob("*")}
     capsys.readouterr()
 
-    make(path)
+    make_dataset(path)
 
     assert {one: one.stat().st_ino for one in folder.rglob("*")} == before
     reads(capsys.readouterr().out)
@@ -39,12 +39,12 @@ def test_what_is_finished_is_kept(tmp_path, capsys, reads):
 
 def test_a_file_that_went_missing_is_made_again(tmp_path):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     before = files(folder)
     (folder / "ann" / "log-02.csv").unlink()
     shutil.rmtree(folder / "bo")
 
-    assert files(make(path)) == before
+    assert files(make_dataset(path)) == before
 
 
 def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
@@ -58,9 +58,9 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     reads(said)
     assert files(tmp_path / "data") == {"log-02.wpilog": b"a robot's own log", "notes.txt": b"mine"}
     assert not (tmp_path / "data.key.json").exists()
-    made = files(make(path, "data", "--overwrite"))
+    made = files(make_dataset(path, "data", "--overwrite"))
     assert made.pop("notes.txt") == b"mine"
-    assert made == files(make(path, "other"))
+    assert made == files(make_dataset(path, "other"))
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_a_foreign_file_is_never_overwritten_unasked(tmp_path, capsys, reads):
     ],
 )
 def test_files_of_another_spec_are_foreign(tmp_path, capsys, other, reads):
-    before = files(make(spec(tmp_path)))
+    before = files(make_dataset(spec(tmp_path)))
 
     said = refused(capsys, spec(tmp_path, other), "-o", tmp_path / "data")
 
@@ -93,20 +93,20 @@ def test_a_file_that_comes_there_meanwhile_is_not_overwritten(tmp_path, reads):
 
 def test_a_changed_file_is_foreign_too(tmp_path, capsys, reads):
     path = spec(tmp_path)
-    (make(path) / "log-01.wpilog").write_bytes(b"changed by a student")
+    (make_dataset(path) / "log-01.wpilog").write_bytes(b"changed by a student")
 
     reads(refused(capsys, path, "-o", tmp_path / "data"))
 
 
 def test_logs_that_the_spec_no_longer_has_are_not_forgotten_unasked(tmp_path, capsys, reads):
-    folder = make(spec(tmp_path, DAMAGED))
+    folder = make_dataset(spec(tmp_path, DAMAGED))
     fewer = spec(tmp_path, DAMAGED.replace('"ann", ', ""))
 
     said = refused(capsys, fewer, "-o", folder)
 
     reads(said)
     assert {log["student"] for log in key(folder)["logs"]} == {"ann", "Bo"}
-    make(fewer, "data", "--overwrite")
+    make_dataset(fewer, "data", "--overwrite")
     assert {log["student"] for log in key(folder)["logs"]} == {"Bo"}
 
 
@@ -177,7 +177,7 @@ def check(path, folder, capsys):
 
 def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
 
     assert check(path, folder, capsys) == (
         0,
@@ -187,7 +187,7 @@ def test_what_is_as_it_was_made_passes_the_check(tmp_path, capsys):
 
 def test_every_change_to_the_data_is_noticed(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     changed = folder / "ann" / "log-01.csv"
     changed.write_bytes(changed.read_bytes().replace(b"1", b"2", 1))
     (folder / "bo" / "log-02.wpilog").unlink()
@@ -200,7 +200,7 @@ def test_every_change_to_the_data_is_noticed(tmp_path, capsys):
 
 
 def test_another_spec_is_noticed(tmp_path, capsys, reads):
-    folder = make(spec(tmp_path, DAMAGED))
+    folder = make_dataset(spec(tmp_path, DAMAGED))
     more = DAMAGED.replace('["ann"', '["zoe", "ann"').replace("1.5]", "1.6]")
 
     code, lines = check(spec(tmp_path, more), folder, capsys)
@@ -221,7 +221,7 @@ def test_another_spec_is_noticed(tmp_path, capsys, reads):
 )
 def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change, reads):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     content = key(folder)
     change(content["logs"])
     (tmp_path / "data.key.json").write_text(json.dumps(content), encoding="utf-8")
@@ -233,7 +233,7 @@ def test_every_change_to_the_key_is_noticed(tmp_path, capsys, change, reads):
 @pytest.mark.parametrize("content", ["", "{", "[]", "{}", '{"logs": [], "seal": 7}'])
 def test_a_key_that_is_none_is_refused(tmp_path, capsys, content, reads):
     path = spec(tmp_path)
-    folder = make(path)
+    folder = make_dataset(path)
     (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
 
     reads(refused(capsys, path, "-o", folder, "--check"))
@@ -241,7 +241,7 @@ def test_a_key_that_is_none_is_refused(tmp_path, capsys, content, reads):
 
 def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     content = json.dumps(key(folder), indent=4, sort_keys=True)
     (tmp_path / "data.key.json").write_text(content, encoding="utf-8")
 
@@ -250,7 +250,7 @@ def test_a_key_that_is_only_printed_another_way_is_whole(tmp_path, capsys):
 
 def test_another_secret_does_not_open_the_seal(tmp_path, capsys, reads):
     path = spec(tmp_path, DAMAGED)
-    folder = make(path)
+    folder = make_dataset(path)
     (tmp_path / "class.secret").write_text(SECRET + "!", encoding="utf-8")
 
     reads(refused(capsys, path, "-o", folder, "--check"))
@@ -267,7 +267,7 @@ def test_there_is_nothing_to_check_before_there_is_a_key(tmp_path, capsys, reads
 
 
 def test_the_key_and_the_secret_are_for_their_owner_only(tmp_path):
-    make(spec(tmp_path, DAMAGED, secret=""))
+    make_dataset(spec(tmp_path, DAMAGED, secret=""))
 
     for name in ("data.key.json", "class.secret"):
         path = tmp_path / name

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make, spec, sysid
+from dataset_made import DAMAGED, PLAIN, SECRET, files, key, make_dataset, spec, sysid
 
 import sim
 from sim.bench.dataset.key import Journal, read_key, write_key
@@ -22,7 +22,7 @@ def _no_secret_around(monkeypatch):
 
 def test_the_key_holds_the_true_gains_in_the_units_of_the_log(tmp_path):
     text = PLAIN.replace("count = 2", "drawn = false").replace("timeout = 1.0", "timeout = 6.0")
-    folder = make(spec(tmp_path, text))
+    folder = make_dataset(spec(tmp_path, text))
 
     truth = {log["mechanism"]: log for log in key(folder)["logs"]}
 
@@ -41,7 +41,7 @@ def test_the_key_holds_the_true_gains_in_the_units_of_the_log(tmp_path):
 
 
 def test_the_key_says_what_was_done_to_each_log_and_where(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
+    folder = make_dataset(spec(tmp_path, DAMAGED))
 
     logs = key(folder)["logs"]
     damaged = [log for log in logs if log["faults"]]
@@ -69,7 +69,7 @@ test = "dynamic-reverse"
 name = "missing-test"
 test = "quasistatic-forward"
 """
-    folder = make(spec(tmp_path, text))
+    folder = make_dataset(spec(tmp_path, text))
 
     (entry,) = key(folder)["logs"]
     log = sim.read(folder / "log-01.wpilog")
@@ -86,9 +86,9 @@ test = "quasistatic-forward"
 
 def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
     effect = '[[logs.effects]]\nname = ["drag", "stribeck"]\nsize = [1.5, 2.0]\n'
-    clean = files(make(spec(tmp_path), "clean"))
+    clean = files(make_dataset(spec(tmp_path), "clean"))
 
-    folder = make(spec(tmp_path, PLAIN + effect))
+    folder = make_dataset(spec(tmp_path, PLAIN + effect))
 
     found = {}
     for log in key(folder)["logs"]:
@@ -103,7 +103,7 @@ def test_the_key_names_the_effects_that_are_hidden_and_they_act(tmp_path):
 
 
 def test_the_hash_in_the_key_is_that_of_the_file(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
+    folder = make_dataset(spec(tmp_path, DAMAGED))
 
     made = files(folder)
     hashes = {file: found for log in key(folder)["logs"] for file, found in log["files"].items()}
@@ -112,7 +112,7 @@ def test_the_hash_in_the_key_is_that_of_the_file(tmp_path):
 
 
 def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
-    folder = make(spec(tmp_path, DAMAGED))
+    folder = make_dataset(spec(tmp_path, DAMAGED))
 
     truth = key(folder)["logs"]
     told = {
@@ -135,9 +135,9 @@ def test_nothing_in_the_folder_gives_the_truth_away(tmp_path):
 def test_a_secret_is_made_on_first_use_and_kept(tmp_path, capsys):
     path = spec(tmp_path, DAMAGED, secret="")
 
-    first = files(make(path, "one"))
+    first = files(make_dataset(path, "one"))
     said = capsys.readouterr().err
-    again = files(make(path, "two"))
+    again = files(make_dataset(path, "two"))
 
     assert (
         said
@@ -152,18 +152,18 @@ def test_two_secrets_that_are_made_differ(tmp_path):
     made = []
     for name in ("one", "two"):
         (tmp_path / name).mkdir()
-        make(spec(tmp_path / name, DAMAGED, secret=""))
+        make_dataset(spec(tmp_path / name, DAMAGED, secret=""))
         made.append((tmp_path / name / "class.secret").read_bytes())
 
     assert made[0] != made[1]
 
 
 def test_the_environment_may_hold_the_secret(tmp_path, monkeypatch):
-    kept = files(make(spec(tmp_path, DAMAGED)))
+    kept = files(make_dataset(spec(tmp_path, DAMAGED)))
     (tmp_path / "class.secret").unlink()
     monkeypatch.setenv("SYSID_SECRET", SECRET)
 
-    assert files(make(tmp_path / "spec.toml", "from-environment")) == kept
+    assert files(make_dataset(tmp_path / "spec.toml", "from-environment")) == kept
     assert not (tmp_path / "class.secret").exists()
 
 

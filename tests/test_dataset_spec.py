@@ -27,89 +27,84 @@ def refusal(path):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new"),
     [
-        ("seed = 1", "sed = 1", ': unknown key "sed". Did you mean "seed"?'),
-        ("seed = 1", "qqq = 1", ': unknown key "qqq". Choose one of: name, seed, secret, students'),
-        ('name = "week3"', "", ': name is missing. Add, for example: name = "week3"'),
-        ('"week3"', "3", ': name is 3. Give a text: name = "week3"'),
-        ('"week3"', '" "', ': name is " ". Give a text'),
-        ('"week3"', f'"{"w" * 65}"', "Give a name of 1 to 64 characters."),
-        ("seed = 1", "seed = -1", ": seed is -1. Give a whole number from 0 to"),
-        ("seed = 1", "seed = true", ": seed is true. Give a whole number"),
-        ("seed = 1", "seed = 1\nsecret = 'x.secret'", ": both seed and secret are there."),
+        ("seed = 1", "sed = 1"),
+        ("seed = 1", "qqq = 1"),
+        ('name = "week3"', ""),
+        ('"week3"', "3"),
+        ('"week3"', '" "'),
+        ('"week3"', f'"{"w" * 65}"'),
+        ("seed = 1", "seed = -1"),
+        ("seed = 1", "seed = true"),
+        ("seed = 1", "seed = 1\nsecret = 'x.secret'"),
         (
             "seed = 1",
             "formats = 'hoot'",
-            ': formats "hoot" is unknown. Choose one of: wpilog, csv.',
         ),
-        ("seed = 1", "formats = []", ": formats is []. Give texts"),
-        ("seed = 1", "formats = ['csv', 'csv']", ': formats names "csv" twice. Name each once.'),
-        ("[[logs]]", "[logs]", ": logs is {"),
-        ("[[logs]]", "[[log]]", ': unknown key "log". Did you mean "logs"?'),
-        ("timeout", "time_out", ', routine: unknown key "time_out". Did you mean "timeout"?'),
-        ("1.0", "-1.0", ", routine: a timeout of -1 s. Choose a number above 0"),
-        ("1.0", "'long'", ', routine: timeout is "long". Give a number.'),
-        ("1.0", "nan", ", routine: timeout is NaN. Give a number."),
+        ("seed = 1", "formats = []"),
+        ("seed = 1", "formats = ['csv', 'csv']"),
+        ("[[logs]]", "[logs]"),
+        ("[[logs]]", "[[log]]"),
+        ("timeout", "time_out"),
+        ("1.0", "-1.0"),
+        ("1.0", "'long'"),
+        ("1.0", "nan"),
         (
             "step = 3.0",
             "step = 13.0",
-            ", routine: a step of 13 V. Choose a number above 0, at most",
         ),
-        ("step = 3.0", "period = 9.0", ", routine: period is 9.0. Give 0.0005 to 0.5 s"),
-        ("step = 3.0", "tests = 'wobble'", ', routine: tests "wobble" is unknown. '),
-        ("count = 2", "count = 0", ", [[logs]] number 1: count is 0. Give a whole number from 1"),
-        ("count = 2", "count = 2.5", ", [[logs]] number 1: count is 2.5. Give a whole number"),
-        ("count = 2", "count = 90000", ": 180000 logs are requested. Split it: one dataset has at"),
-        ("count = 2", "drawn = 'yes'", ', [[logs]] number 1: drawn is "yes". Give true or false'),
-        ("shooter", "shoter", '[[logs]] number 1: mechanisms "shoter" is unknown. Did you mean'),
-        ("mechanisms", "mechanism", 'number 1: unknown key "mechanism". Did you mean "mechanisms"'),
-        ("count = 2", "routine = 3", ", [[logs]] number 1, routine: 3 is in the place of keys and"),
+        ("step = 3.0", "period = 9.0"),
+        ("step = 3.0", "tests = 'wobble'"),
+        ("count = 2", "count = 0"),
+        ("count = 2", "count = 2.5"),
+        ("count = 2", "count = 90000"),
+        ("count = 2", "drawn = 'yes'"),
+        ("shooter", "shoter"),
+        ("mechanisms", "mechanism"),
+        ("count = 2", "routine = 3"),
         (
             "count = 2",
             "effects = 3",
-            ", [[logs]] number 1: effects is 3. Begin each with a line [[",
         ),
     ],
 )
-def test_what_cannot_be_meant_is_refused_by_its_name_and_place(tmp_path, old, new, said):
+def test_what_cannot_be_meant_is_refused_by_its_name_and_place(tmp_path, old, new, reads):
     assert old in PLAIN
 
-    assert said in refusal(spec(tmp_path, PLAIN.replace(old, new)))
+    reads(refusal(spec(tmp_path, PLAIN.replace(old, new))))
 
 
 @pytest.mark.parametrize(
-    ("part", "said"),
+    "part",
     [
-        (FAULT.replace("overrun", "overun"), 'name "loop-overun" is unknown. Did you mean "loop-o'),
-        (FAULT + "severity = 3.5", "severity is 3.5. Give a number from 0 to 3, or the two to"),
-        (FAULT + "severity = [2, 1]", "severity is [2, 1]. Give a number from 0 to 3"),
-        (FAULT + "severity = [1, 2, 3]", "severity is [1, 2, 3]. Give a number from 0 to 3"),
-        (FAULT + "severity = [1]", "severity is [1]. Give a number from 0 to 3"),
-        (FAULT + "severity = 0", "severity is 0. Leave the fault out, or give a number above 0."),
-        (FAULT + "severity = inf", "severity is Infinity. Give a number"),
-        (FAULT + "chance = 0", "chance is 0. Give a number above 0, at most 1."),
-        (FAULT + "chance = 1.5", "chance is 1.5. Give a number above 0, at most 1."),
-        (FAULT + "size = 1.0", 'unknown key "size". '),
-        (FAULT + "at = 1.5", "at is 1.5. Give a number from 0 to 1"),  # the timeout is 1 s
-        (FAULT + "at = -1", "at is -1. Give a number from 0 to 1"),
-        (FAULT + 'test = "dynamic"', "test 'dynamic' is not run. Did you mean \"dynamic-"),
-        (FAULT + 'test = "coast-forward"', "test 'coast-forward' is not run. "),
-        (WHOLE + "at = 0.5", "sign-flip spoils a whole test, so at means nothing. Leave out at."),
-        ("[[logs.faults]]\n", "name is missing. Add, for example: name ="),
+        FAULT.replace("overrun", "overun"),
+        FAULT + "severity = 3.5",
+        FAULT + "severity = [2, 1]",
+        FAULT + "severity = [1, 2, 3]",
+        FAULT + "severity = [1]",
+        FAULT + "severity = 0",
+        FAULT + "severity = inf",
+        FAULT + "chance = 0",
+        FAULT + "chance = 1.5",
+        FAULT + "size = 1.0",
+        FAULT + "at = 1.5",  # the timeout is 1 s
+        FAULT + "at = -1",
+        FAULT + 'test = "dynamic"',
+        FAULT + 'test = "coast-forward"',
+        WHOLE + "at = 0.5",
+        "[[logs.faults]]\n",
     ],
 )
-def test_an_impossible_fault_is_refused_before_anything_is_made(tmp_path, part, said):
-    assert f", [[logs]] number 1, [[logs.faults]] number 1: {said}" in refusal(
-        spec(tmp_path, PLAIN + part)
-    )
+def test_an_impossible_fault_is_refused_before_anything_is_made(tmp_path, part, reads):
+    reads(refusal(spec(tmp_path, PLAIN + part)))
 
 
-def test_a_fault_needs_a_test_that_is_run(tmp_path):
+def test_a_fault_needs_a_test_that_is_run(tmp_path, reads):
     text = PLAIN.replace("step = 3.0", 'tests = ["dynamic-forward", "dynamic-reverse"]')
     fault = FAULT + 'test = "quasistatic-forward"'
 
-    assert "test 'quasistatic-forward' is not run." in refusal(spec(tmp_path, text + fault))
+    reads(refusal(spec(tmp_path, text + fault)))
 
 
 def test_the_second_of_a_kind_is_counted(tmp_path):
@@ -121,32 +116,30 @@ def test_the_second_of_a_kind_is_counted(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("part", "said"),
+    "part",
     [
-        (EFFECT.replace("beck", "bek"), 'name "stribek" is unknown. Did you mean "stribeck"?'),
-        (EFFECT + "size = -1", "stribeck of size -1. Choose 0 to 5"),
-        (EFFECT + "size = 0", "size is 0. Leave the effect out"),
-        (EFFECT.replace("stribeck", "gravity-cosine"), "a drivetrain cannot have gravity-cosine: "),
-        (EFFECT + "size = 'big'", 'size is "big". Give a number, or the two to draw between'),
-        (EFFECT + "size = [2.0, 1.0]", "size is [2.0, 1.0]. Give a number, or the two"),
-        (EFFECT + "severity = 1.0", 'unknown key "severity". Choose one of: name, size, chance'),
+        EFFECT.replace("beck", "bek"),
+        EFFECT + "size = -1",
+        EFFECT + "size = 0",
+        EFFECT.replace("stribeck", "gravity-cosine"),
+        EFFECT + "size = 'big'",
+        EFFECT + "size = [2.0, 1.0]",
+        EFFECT + "severity = 1.0",
     ],
 )
-def test_an_impossible_effect_is_refused_before_anything_is_made(tmp_path, part, said):
+def test_an_impossible_effect_is_refused_before_anything_is_made(tmp_path, part, reads):
     where = ", [[logs]] number 1, [[logs.effects]] number 1: "
 
     found = refusal(spec(tmp_path, PLAIN + part))
 
     assert found.startswith(where)
-    assert said in found
+    reads(found)
 
 
-def test_an_effect_cannot_be_hidden_twice_in_one_log(tmp_path):
+def test_an_effect_cannot_be_hidden_twice_in_one_log(tmp_path, reads):
     second = EFFECT.replace('"stribeck"', '["drag", "stribeck"]\nchance = 0.1')
 
-    assert ", [[logs]] number 1: effect 'stribeck' might be hidden twice" in refusal(
-        spec(tmp_path, PLAIN + EFFECT + second)
-    )
+    reads(refusal(spec(tmp_path, PLAIN + EFFECT + second)))
 
 
 def test_a_spec_that_is_no_toml_says_in_which_line(tmp_path):
@@ -156,39 +149,37 @@ def test_a_spec_that_is_no_toml_says_in_which_line(tmp_path):
     assert "line 10" in said
 
 
-def test_a_spec_that_is_not_there_says_how_to_get_one(tmp_path):
+def test_a_spec_that_is_not_there_says_how_to_get_one(tmp_path, reads):
     path = tmp_path / "none.toml"
 
-    assert refusal(path) == (
-        f": there is no such file. Write an example there with: sysid dataset --example {path}"
-    )
+    reads(refusal(path))
 
 
-def test_a_spec_in_the_encoding_of_an_old_shell_is_refused(tmp_path):
+def test_a_spec_in_the_encoding_of_an_old_shell_is_refused(tmp_path, reads):
     (tmp_path / "spec.toml").write_bytes(PLAIN.encode("utf-16"))
 
-    assert "is not UTF-8. Save it as UTF-8." in refusal(tmp_path / "spec.toml")
+    reads(refusal(tmp_path / "spec.toml"))
 
 
-def test_a_secret_in_clear_is_refused_and_not_repeated(tmp_path):
+def test_a_secret_in_clear_is_refused_and_not_repeated(tmp_path, reads):
     said = refusal(spec(tmp_path, DAMAGED.replace('"class.secret"', f'"{SECRET}"')))
 
-    assert "secret is not the name of a file that ends in .secret. Write secret = " in said
+    reads(said)
     assert SECRET not in said
 
 
 @pytest.mark.parametrize(
-    ("text", "kept", "around", "said"),
+    ("text", "kept", "around"),
     [
-        (DAMAGED.replace('secret = "class.secret"', ""), "", "", "says neither secret nor seed."),
-        (DAMAGED, "short", "", "the secret has fewer than 16 characters"),
-        (DAMAGED, SECRET, SECRET + "!", "the file of the secret and SYSID_SECRET differ."),
-        (DAMAGED, " ", "", "the file of the secret is empty"),
+        (DAMAGED.replace('secret = "class.secret"', ""), "", ""),
+        (DAMAGED, "short", ""),
+        (DAMAGED, SECRET, SECRET + "!"),
+        (DAMAGED, " ", ""),
     ],
     ids=["none", "too short", "two that differ", "empty"],
 )
 def test_a_secret_that_is_none_is_refused(  # noqa: PLR0917 - pytest passes them by name
-    tmp_path, monkeypatch, capsys, text, kept, around, said
+    tmp_path, monkeypatch, capsys, text, kept, around, reads
 ):
     monkeypatch.setenv("SYSID_SECRET", around)
     path = spec(tmp_path, text, secret=kept)
@@ -196,7 +187,7 @@ def test_a_secret_that_is_none_is_refused(  # noqa: PLR0917 - pytest passes them
     assert sysid("dataset", path, "-o", tmp_path / "data") == 2
 
     shown = capsys.readouterr().err
-    assert said in shown
+    reads(shown)
     assert shown.count("\n") == 1
     assert not (tmp_path / "data").exists()
 

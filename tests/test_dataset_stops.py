@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 
 import psutil
 import pytest
-from dataset_made import PLAIN, files, key, make, process, spec
+from dataset_made import PLAIN, files, key, make_dataset, process, spec
 
 from sim.support.work.interrupt import deferred_interrupt
 
@@ -25,7 +25,7 @@ def _no_secret_around(monkeypatch):
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory):
     """What a run that nothing stops makes of LONG."""
-    folder = make(spec(tmp_path_factory.mktemp("whole"), LONG), "data", "--processes", 1)
+    folder = make_dataset(spec(tmp_path_factory.mktemp("whole"), LONG), "data", "--processes", 1)
     return files(folder), key(folder)
 
 
@@ -68,7 +68,7 @@ def test_a_killed_run_leaves_whole_files_and_the_next_one_goes_on(tmp_path, undi
     assert not psutil.wait_procs(workers, timeout=5.0)[1]  # nobody works on for no one
 
     before = {path: path.stat().st_ino for path in (tmp_path / "data").glob("log*")}
-    folder = make(path, "data", "--processes", 1)
+    folder = make_dataset(path, "data", "--processes", 1)
 
     assert files(folder) == whole
     assert key(folder) == truth
@@ -91,7 +91,7 @@ def test_ctrl_c_leaves_whole_files_and_says_how_to_go_on(tmp_path, undisturbed):
     assert said == (
         f"sysid: stopped with {len(there)} of 120 logs done. Run the same command to continue.\n"
     )
-    assert files(make(tmp_path / "spec.toml", "data", "--processes", 1)) == whole
+    assert files(make_dataset(tmp_path / "spec.toml", "data", "--processes", 1)) == whole
 
 
 def test_a_worker_that_is_killed_is_told_in_one_line(tmp_path, undisturbed):

@@ -21,7 +21,7 @@ def drawn(name, seed=1, *, routine=LESSON, period=0.02):
     return simulate(MECHANISMS[name].draw(rng), routine, rng=rng, period=period)
 
 
-def said(log):
+def doubts_by_code(log):
     return {doubt.code: doubt.message for doubt in diagnose_log(LogFeatures(log))}
 
 
@@ -112,7 +112,7 @@ PLANTED = {
 def test_an_oddity_is_spoken_of(code):
     make, words = PLANTED[code]
 
-    assert words in said(make()).get(code, "")
+    assert words in doubts_by_code(make()).get(code, "")
 
 
 @pytest.mark.parametrize("period", [0.02, 0.005])
@@ -122,13 +122,13 @@ def test_a_clean_log_gives_no_reason_to_speak(name, seed, period):
     log = drawn(name, seed, period=period)
     too_quick = LogFeatures(log).timescale < 1.2 * period  # kA of an intake is beyond a 20 ms log
 
-    codes = set(said(log))
+    codes = set(doubts_by_code(log))
 
     assert codes == ({"short-rise"} if "short-rise" in codes and too_quick else set())
 
 
 def test_a_delay_is_told_in_milliseconds():
-    message = said(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
+    message = doubts_by_code(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
 
     assert 50 <= int(message.split(" ms")[0].rsplit(" ", 1)[1]) <= 70
 
@@ -136,7 +136,7 @@ def test_a_delay_is_told_in_milliseconds():
 def test_a_velocity_in_another_unit_is_not_called_late():
     log = each(drawn("turret"), lambda run: scaled(run, 57.3, only_velocity=True))
 
-    assert "velocity-lags" not in said(log)
+    assert "velocity-lags" not in doubts_by_code(log)
 
 
 def test_a_log_without_runs_is_looked_at_all_the_same():
@@ -156,4 +156,4 @@ def test_a_log_without_runs_is_looked_at_all_the_same():
 def test_what_is_known_of_a_real_log_is_said(shared, file, code, words):
     log = sim.read(shared / "data" / "real" / f"{file}.json")
 
-    assert words in said(log)[code]
+    assert words in doubts_by_code(log)[code]

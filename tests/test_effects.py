@@ -190,11 +190,12 @@ def test_slipping_wheels_agree_with_small_steps(share, drag):
     assert np.abs(track.position - track.load_position).max() > 0.05
 
 
-def test_slip_and_a_joint_would_be_three_bodies_and_are_refused():
+def test_slip_and_a_joint_would_be_three_bodies_and_are_refused(reads):
     robot = MECHANISMS["drivetrain"].hide("wheel-slip")
 
-    with pytest.raises(BadRequest, match="wheel-slip and backlash in one model"):
+    with pytest.raises(BadRequest) as refused:
         robot.hide("backlash")
+    reads(refused.value)
 
 
 @pytest.mark.parametrize(("name", "kind"), PAIRS)
@@ -436,25 +437,24 @@ def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
 
 
 @pytest.mark.parametrize(
-    ("make", "said"),
+    "make",
     [
-        (lambda: find_effect("magic"), "unknown effect 'magic'. Choose one of: asymmetric-back"),
-        (lambda: Part("drag", {}), "drag with no parameters. Give: drag."),
-        (lambda: Part("drag", {"drag": -1.0}), "drag: drag is -1. Choose 0 to inf."),
-        (lambda: Model("simple", {}) + Part("drag", {"drag": 1.0}) + Part("drag", {"drag": 1.0}),
-         "drag twice"),
-        (lambda: MECHANISMS["shooter"].hide("spring"), "a shooter cannot have spring: it turns"),
-        (lambda: MECHANISMS["drivetrain"].hide("drag", 9.0), "drag of size 9. Choose 0 to 5"),
-        (lambda: MECHANISMS["drivetrain"].hide("drag", math.nan), "drag of size nan"),
-        (lambda: MECHANISMS["drivetrain"].hide("drag").hide("drag"), "drag is hidden twice"),
+        lambda: find_effect("magic"),
+        lambda: Part("drag", {}),
+        lambda: Part("drag", {"drag": -1.0}),
+        lambda: Model("simple", {}) + Part("drag", {"drag": 1.0}) + Part("drag", {"drag": 1.0}),
+        lambda: MECHANISMS["shooter"].hide("spring"),
+        lambda: MECHANISMS["drivetrain"].hide("drag", 9.0),
+        lambda: MECHANISMS["drivetrain"].hide("drag", math.nan),
+        lambda: MECHANISMS["drivetrain"].hide("drag").hide("drag"),
     ],
     ids=["unknown", "missing", "sign", "twice", "cannot", "size", "nan", "hidden twice"],
 )  # fmt: skip
-def test_what_is_no_physics_is_refused(make, said):
+def test_what_is_no_physics_is_refused(make, reads):
     with pytest.raises(BadRequest) as refused:
         make()
 
-    assert said in str(refused.value)
+    reads(str(refused.value))
 
 
 def test_size_zero_hides_nothing():

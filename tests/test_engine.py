@@ -271,7 +271,7 @@ def test_an_effect_written_wrongly_stops_the_engine_with_a_sentence(change, said
 
 
 FEW = {"drag": EFFECTS["drag"]}  # a small engine is compiled in half the time
-PROGRAM = """
+SIMULATION_SCRIPT = """
 import numpy as np
 from sim.physics.effects import EFFECTS
 for name in {*EFFECTS} - {"drag"}:
@@ -287,7 +287,7 @@ print(round(float(track.velocity[-1]), 6))
 ENDS = str(round(1.4 * (1.0 - math.exp(-0.98 / 0.15)), 6))  # (3 - 0.2)/2, and kA/kV = 0.15 s
 
 
-def started(environment, program=PROGRAM):
+def started(environment, program=SIMULATION_SCRIPT):
     done = subprocess.run(
         [sys.executable, "-c", program], env=environment, capture_output=True, encoding="utf-8",
         check=False, timeout=120,
@@ -317,7 +317,7 @@ def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, m
 
 
 def test_what_was_compiled_is_loaded_without_the_compiler(cache):
-    asked = f"{PROGRAM}\nimport sys\nprint('numba' in sys.modules)"
+    asked = f"{SIMULATION_SCRIPT}\nimport sys\nprint('numba' in sys.modules)"
 
     done = started({**os.environ, CACHE: str(cache)}, asked)
 

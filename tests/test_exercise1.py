@@ -103,14 +103,14 @@ def test_numbers_that_were_changed_are_written_anew(copy):
 
 
 @pytest.mark.usefixtures("copy")
-def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch):
+def test_where_no_numbers_can_be_written_it_says_so(capsys, monkeypatch, reads):
     def full(*_args, **_more):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "mkdir", full)
 
     assert run_command(["1"]) == 2
-    assert "your numbers cannot be written: No space left" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
 
 
 @pytest.mark.parametrize(
@@ -124,29 +124,29 @@ def test_the_unit_may_be_written_in_many_ways(copy, written):
 
 
 @pytest.mark.parametrize(
-    ("written", "points", "says"),
+    ("written", "points"),
     [
-        ('"V·s/ft"', 1, "the right kind of unit"),
-        ('"V/rpm"', 1, "the right kind of unit"),
-        ('"m/s/V"', 0, "upside down"),
-        ('"rot/(V·s)"', 0, "upside down"),
-        ('"V·s"', 0, "multiply it by the unit of your"),
-        ('"V·s/(m·rot)"', 0, "multiply it by the unit of your"),
-        ('"V·s/kg"', 0, "multiply it by the unit of your"),
-        ('"V·s/A"', 0, "multiply it by the unit of your"),
-        ('"V·s·rot"', 0, "multiply it by the unit of your"),
-        ('"V/(s"', 0, "( without )"),
-        ('" "', 0, "nothing yet"),
-        ("[1, 2]", 0, "which is no unit"),
-        ("{a = 1}", 0, "which is no unit"),
-        ("3", 0, "which is no unit"),
+        ('"V·s/ft"', 1),
+        ('"V/rpm"', 1),
+        ('"m/s/V"', 0),
+        ('"rot/(V·s)"', 0),
+        ('"V·s"', 0),
+        ('"V·s/(m·rot)"', 0),
+        ('"V·s/kg"', 0),
+        ('"V·s/A"', 0),
+        ('"V·s·rot"', 0),
+        ('"V/(s"', 0),
+        ('" "', 0),
+        ("[1, 2]", 0),
+        ("{a = 1}", 0),
+        ("3", 0),
     ],
 )
-def test_what_is_no_unit_of_kv_is_told_why(copy, written, points, says):
+def test_what_is_no_unit_of_kv_is_told_why(copy, written, points, reads):
     found = graded(copy, f"kV_unit = {written}", "kv-unit")
 
     assert (found.status, found.points) == ("failed", points)
-    assert says in f"{found.seen} {found.hint}"
+    reads(f"{found.seen} {found.hint}")
 
 
 @pytest.mark.parametrize("written", ["{}", "{}·{}", "{} * {}", "{}·({})", " {} "])

@@ -206,15 +206,15 @@ def test_gains_inside_the_motor_controller_earn_everything_too(checked, language
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
 @pytest.mark.parametrize(
-    ("factor", "says"),
+    "factor",
     [
-        ("rotor", "per rotation of the motor's rotor"),
-        ("radians", "Slot0Configs counts rotations of the mechanism"),
-        ("geared", "multiplied by the gear ratio"),
-        ("coded", "Slot0Configs counts rotations of the mechanism"),
+        "rotor",
+        "radians",
+        "geared",
+        "coded",
     ],
 )
-def test_another_rotation_than_the_mechanisms_is_named(checked, kind, factor, says):
+def test_another_rotation_than_the_mechanisms_is_named(checked, kind, factor, reads):
     student = of(kind=kind, used_in="Radians") if kind == "shooter" else of(kind=kind)
     variant = OWN.module.draw(student)
     inside = variant.held_by("Slot0Configs")
@@ -230,51 +230,49 @@ def test_another_rotation_than_the_mechanisms_is_named(checked, kind, factor, sa
     check = found["kv"] if found["kv"].status == "failed" else found["conversion"]
 
     assert check.status == "failed"
-    assert check.misconception == "M-UNITS"
-    assert says in f"{check.seen} {check.hint}"
+    assert check.misconception == ("M-GEARING" if factor in {"rotor", "geared"} else "M-UNITS")
+    reads(f"{check.seen} {check.hint}")
 
 
-def test_the_diameter_in_place_of_the_radius_is_named(checked):
+def test_the_diameter_in_place_of_the_radius_is_named(checked, reads):
     student = of(kind="elevator")
     found = checked(in_place(student, "Slot0Configs", kV=2.0), student=student)["kv"]
 
-    assert "did you use the diameter" in found.hint
+    reads(found.hint)
 
 
 @pytest.mark.parametrize(
-    ("kind", "place", "old", "new", "says"),
+    ("kind", "place", "old", "new"),
     [
-        ("arm", BOTH[0], ".withGravityType(GravityTypeValue.Arm_Cosine)", "", "is not set"),
-        ("arm", BOTH[0], "Arm_Cosine", "Elevator_Static", "GravityType is Elevator_Static"),
-        ("elevator", BOTH[0], "Elevator_Static", "Arm_Cosine", "the same at every height"),
+        ("arm", BOTH[0], ".withGravityType(GravityTypeValue.Arm_Cosine)", ""),
+        ("arm", BOTH[0], "Arm_Cosine", "Elevator_Static"),
+        ("elevator", BOTH[0], "Elevator_Static", "Arm_Cosine"),
         (
             "turret",
             BOTH[0],
             ".withGravityType(GravityTypeValue.Elevator_Static)",
             ".withStaticFeedforwardSign(StaticFeedforwardSignValue.UseClosedLoopSign)",
-            "UseVelocitySign, which is the default",
         ),
         (
             "turret",
             BOTH[0],
             "class A {",
             "class A { void feed() { config.Feedback.SensorToMechanismRatio = 1.0; }",
-            "SensorToMechanismRatio is 1.0",
         ),
-        ("arm", BOTH[1], "kCos(", "kG(", "An arm's kG goes into kCos"),
-        ("arm", BOTH[1], ".kCosRatio(0.15915494309189535)", "", "has no kCosRatio"),
-        ("arm", BOTH[1], "0.15915494309189535", "1.0", "kCosRatio = 1.0"),
-        ("elevator", BOTH[1], ".kG(", ".kCos(", "kCos is for arms"),
+        ("arm", BOTH[1], "kCos(", "kG("),
+        ("arm", BOTH[1], ".kCosRatio(0.15915494309189535)", ""),
+        ("arm", BOTH[1], "0.15915494309189535", "1.0"),
+        ("elevator", BOTH[1], ".kG(", ".kCos("),
     ],
 )
-def test_gravity_and_the_sign_of_ks_are_settings_too(checked, kind, place, old, new, says):  # noqa: PLR0917 - a row of the table
+def test_gravity_and_the_sign_of_ks_are_settings_too(checked, kind, place, old, new, reads):  # noqa: PLR0917 - a row of the table
     student = of(kind=kind)
     text = in_place(student, place)
     assert old in text
     found = checked(text.replace(old, new), student=student)["feedforward"]
 
     assert found.status == "failed"
-    assert says in f"{found.seen} {found.hint}"
+    reads(f"{found.seen} {found.hint}")
 
 
 def test_the_ratio_itself_may_stand_in_the_code(checked):
@@ -304,13 +302,13 @@ def test_what_the_motor_controller_would_do_is_simulated(tmp_path, kind, place):
     assert "slow" in consequence(kV=0.9).words or "does about" in consequence(kV=0.9).words
 
 
-def test_a_comment_with_the_unit_of_another_place_is_told(checked):
+def test_a_comment_with_the_unit_of_another_place_is_told(checked, reads):
     student = of(kind="elevator")
     text = in_place(student, "Slot0Configs")
     found = checked(text.replace("V·s/rot", "V·s/m"), student=student)["units"]
 
     assert found.misconception == "M-UNITS"
-    assert "not the unit of this number" in found.hint
+    reads(found.hint)
 
 
 @pytest.mark.parametrize("place", BOTH)
@@ -409,23 +407,22 @@ def test_python_is_read_in_many_styles(checked, turret, style):
 
 
 @pytest.mark.parametrize(
-    ("made", "handed", "says"),
+    ("made", "handed"),
     [
         (
             "CharacterizationConstants(kV=load())",
             "C.kS, C.kV, C.kA",
-            "the grader cannot see the number",
         ),
-        ("CharacterizationConstants", "*gains", "the grader cannot see by reading"),
+        ("CharacterizationConstants", "*gains"),
     ],
 )
-def test_what_reading_cannot_tell_is_asked(checked, turret, made, handed, says):
+def test_what_reading_cannot_tell_is_asked(checked, turret, made, handed, reads):
     student, shown = turret
     body = PYTHON_BODY.replace("C = CharacterizationConstants", f"C = {made}")
     body = body.replace("C.kS, C.kV, C.kA", handed)
     found = checked(body.format(**shown), student=student, name=PYTHON)["conversion"]
 
-    assert says in found.seen
+    reads(found.seen)
 
 
 def test_a_constant_that_is_made_of_itself_ends(tmp_path):
@@ -451,54 +448,51 @@ def test_constants_may_stand_in_a_file_of_their_own(tmp_path, turret):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "check", "points", "says", "code"),
+    ("old", "new", "check", "points", "code"),
     [
-        ("{kV} / (2 * Math.PI)", "{kV}", "conversion", 1, "6.28 times too large", "M-UNITS"),
+        ("{kV} / (2 * Math.PI)", "{kV}", "conversion", 1, "M-UNITS"),
         (
             "{kV} / (2 * Math.PI)",
             "{kV} * 2 * Math.PI",
             "kv",
             0,
-            "converted in the wrong direction: a larger",
             "M-UNITS",
         ),
-        ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, "that is the analyzer's kA", "M-ARGORDER"),
-        ("{kV} / (2 * Math.PI)", "-{kV}", "kv", 0, "the sign is not", ""),
+        ("{kV} / (2 * Math.PI)", "{kA}", "kv", 0, ""),
+        ("{kV} / (2 * Math.PI)", "-{kV}", "kv", 0, ""),
         (
             "{kV} / (2 * Math.PI)",
             "{kV} / (2 * 3)",
             "kv",
             0,
-            "close, but rounded too much. Keep three",
             "",
         ),
-        ("{kV} / (2 * Math.PI)", "{kV} * 60", "kv", 0, "wrong by a factor of 60. Did", "M-UNITS"),
-        ("{kV} / (2 * Math.PI)", "load()", "kv", 0, "the grader cannot see the number", ""),
-        ("volts per (rad/s)", "V·s/rot", "units", 0, "This is the right kind of unit", "M-UNITS"),
-        ("volts per (rad/s)", "velocity gain", "units", 0, "no unit of kV", ""),
-        ("Constants.kS,", "Constants.kA,", "order", 0, "kA is where", "M-ARGORDER"),
-        ("Constants.kS,", "kick,", "order", 0, "the grader cannot see which gain", ""),
-        (", CharacterizationConstants.kA)", ")", "order", 1, "counts as 0", ""),
-        (" / (2 * Math.PI); // where", "; // where", "kp", 0.5, "as the analyzer", "M-UNITS"),
-        (" / (2 * Math.PI); // where", " / 75.4; // where", "kp", 0.5, "output is not", "M-DUTY"),
+        ("{kV} / (2 * Math.PI)", "{kV} * 60", "kv", 0, "M-UNITS"),
+        ("{kV} / (2 * Math.PI)", "load()", "kv", 0, ""),
+        ("volts per (rad/s)", "V·s/rot", "units", 0, "M-UNITS"),
+        ("volts per (rad/s)", "velocity gain", "units", 0, ""),
+        ("Constants.kS,", "Constants.kA,", "order", 0, "M-ARGORDER"),
+        ("Constants.kS,", "kick,", "order", 0, ""),
+        (", CharacterizationConstants.kA)", ")", "order", 1, ""),
+        (" / (2 * Math.PI); // where", "; // where", "kp", 0.5, "M-UNITS"),
+        (" / (2 * Math.PI); // where", " / 75.4; // where", "kp", 0.5, "M-DUTY"),
         (
             "// where tuning starts",
             "// V·s/rad",
             "kp",
             0.5,
-            "The number fits. Write in a comment",
             "",
         ),
     ],
 )
-def test_what_is_not_right_is_told(checked, turret, old, new, check, points, says, code):  # noqa: PLR0917 - a row of the table
+def test_what_is_not_right_is_told(checked, turret, old, new, check, points, reads, code):  # noqa: PLR0917 - a row of the table
     student, shown = turret
     assert old in BODY
     text = f"class A {{\n{BODY.replace(old, new).format(**shown)}}}\n"
     found = checked(text, student=student)[check]
 
     assert (found.status, found.points, found.misconception) == ("failed", points, code)
-    assert says in f"{found.seen} {found.hint}"
+    reads(f"{found.seen} {found.hint}")
 
 
 @pytest.mark.parametrize(
@@ -527,14 +521,14 @@ def test_a_gain_in_the_code_and_in_the_motor_controller_is_a_double_feedforward(
 
 @pytest.mark.parametrize("kind", ["arm", "elevator"])
 @pytest.mark.parametrize(
-    ("order", "says"),
+    "order",
     [
-        ("kS kV kA kG", "kV is where"),
-        ("kG kS kV kA", "kG is where"),
-        ("kS kV kG kA", "expects kG"),
+        "kS kV kA kG",
+        "kG kS kV kA",
+        "kS kV kG kA",
     ],
 )
-def test_gravity_in_the_wrong_place_is_named(checked, kind, order, says):
+def test_gravity_in_the_wrong_place_is_named(checked, kind, order, reads):
     student = of(kind=kind)
     text = written(student)
     right = ", ".join(f"CharacterizationConstants.{gain}" for gain in ["kS", "kG", "kV", "kA"])
@@ -542,7 +536,7 @@ def test_gravity_in_the_wrong_place_is_named(checked, kind, order, says):
     assert right in text
     found = checked(text.replace(right, wrong), student=student)
 
-    assert says in found["order"].hint
+    reads(found["order"].hint)
     assert found["order"].misconception == "M-ARGORDER"
     assert found["conversion"].points == 2  # one mistake costs once
 
@@ -559,24 +553,24 @@ def test_numbers_without_names_are_told_apart_by_their_size(checked):
         assert found.status == status
 
 
-def test_a_simple_feedforward_for_an_arm_has_no_place_for_gravity(checked):
+def test_a_simple_feedforward_for_an_arm_has_no_place_for_gravity(checked, reads):
     student = of(kind="arm")
     text = written(student).replace("ArmFeedforward", "SimpleMotorFeedforward")
     text = text.replace("CharacterizationConstants.kG, ", "")
     found = checked(text, student=student)["feedforward"]
 
     assert found.misconception == "M-NO-KG-IN-SYSID"
-    assert "This class has no argument for kG" in found.hint
+    reads(found.hint)
 
 
-def test_a_loop_with_duty_cycle_is_told_about_its_output(checked):
+def test_a_loop_with_duty_cycle_is_told_about_its_output(checked, reads):
     student = of(kind="shooter", duty=True)
     text = written(student)
     kp = re.search(r"kP = (\S+);", text)[1]
     found = checked(text.replace(f"kP = {kp}", f"kP = 12 * {kp}"), student=student)["kp"]
 
     assert found.misconception == "M-DUTY"
-    assert "a duty cycle, where 1 is 12 V" in found.hint
+    reads(found.hint)
 
 
 @pytest.mark.parametrize(
@@ -652,7 +646,7 @@ def test_every_mistake_is_named_whatever_the_mechanism(checked, tmp_path, kind, 
     answers = load("solve.py").solve(OWN.folder, tmp_path)
 
     for mistake in load("mistakes.py").MISTAKES:
-        text = mistake.make(answers[mistake.file])
+        text = mistake.edit_text(answers[mistake.file])
         found = checked(text, student=student, name=mistake.file)[mistake.check]
 
         assert (mistake.name, found.status) == (mistake.name, "failed")

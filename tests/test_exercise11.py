@@ -24,7 +24,7 @@ QUESTIONS = OWN.module.QUESTIONS
 POINTS = 12 * 1 + 3 * (2 + 2) + 1 + 7 * (1 + 1)  # short questions, knowledge checks, voltage, table
 
 
-def graded(exercise, *, student="ann", **answers):
+def grade_answer(exercise, *, student="ann", **answers):
     """The results of an answer, by check."""
     path = exercise.folder / "answers.toml"
     path.write_text("".join(f'{name} = "{value}"\n' for name, value in answers.items()), "utf-8")
@@ -54,7 +54,7 @@ def right(student):
 def test_fifty_students_can_earn_all_points(copy):
     for number in range(50):
         student = f"student {number}"
-        results = graded(copy, student=student, **right(student))
+        results = grade_answer(copy, student=student, **right(student))
 
         assert {check.status for check in results.values()} == {"passed"}
         assert sum(check.points for check in results.values()) == POINTS
@@ -90,7 +90,10 @@ def test_the_ka_of_repeated_readings_is_what_the_recipe_finds_in_such_a_log(fram
 
 def test_the_letters_of_a_neighbor_earn_little(copy):
     earned = [
-        sum(check.points for check in graded(copy, student=f"student {n}", **right("ann")).values())
+        sum(
+            check.points
+            for check in grade_answer(copy, student=f"student {n}", **right("ann")).values()
+        )
         for n in range(20)
     ]
 
@@ -104,7 +107,7 @@ def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
     answers = [one for one in QUESTIONS[name].options if one.share == 1.0]
     assert len(answers) == (2 if name == "KC1_answer" else 1)
     for option in QUESTIONS[name].options:
-        check = graded(copy, **{name: letter("ann", name, option.text)})[
+        check = grade_answer(copy, **{name: letter("ann", name, option.text)})[
             name.lower().replace("_", "-")
         ]
         assert (check.status == "passed") == (option.share == 1.0)
@@ -128,7 +131,7 @@ def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
     ],
 )
 def test_half_a_solution_earns_its_part(copy, name, words, share):
-    check = graded(copy, **{name: letter("ann", name, words)})[name.lower().replace("_", "-")]
+    check = grade_answer(copy, **{name: letter("ann", name, words)})[name.lower().replace("_", "-")]
 
     assert check.points == pytest.approx(2 * share)
 
@@ -152,7 +155,7 @@ def test_half_a_solution_earns_its_part(copy, name, words, share):
 )
 def test_a_decision_of_ones_own_needs_a_reason_that_carries_it(copy, row, decision, reason, earned):
     (own,) = (one for one, key in OWN.module.draw("ann").reasons.items() if key == reason)
-    results = graded(copy, **{row: decision, f"{row}_reason": own})
+    results = grade_answer(copy, **{row: decision, f"{row}_reason": own})
 
     assert tuple(results[f"{kind}-{row}"].points for kind in ("decision", "reason")) == earned
 
@@ -161,7 +164,7 @@ def test_a_decision_of_ones_own_needs_a_reason_that_carries_it(copy, row, decisi
 def test_a_letter_may_be_written_in_many_ways(copy, written):
     given = written.format(letter("ann", "Q0_brace", "kA").upper())
 
-    assert graded(copy, Q0_brace=given)["q0-brace"].status == "passed"
+    assert grade_answer(copy, Q0_brace=given)["q0-brace"].status == "passed"
 
 
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])

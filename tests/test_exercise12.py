@@ -39,7 +39,7 @@ def truth(student, *, names=None):
     )
 
 
-def graded(text, student, folder):
+def grade_answer(text, student, folder):
     path = folder / "answers.toml"
     path.write_text(text, encoding="utf-8")
     return {check.id: check for check in OWN.grade(path, student=student).checks}
@@ -57,7 +57,7 @@ def hiding(count):
 def test_twelve_students_have_an_answer_that_earns_everything(tmp_path):
     drawn = set()
     for number in range(12):
-        results = graded(truth(f"student {number}"), f"student {number}", tmp_path)
+        results = grade_answer(truth(f"student {number}"), f"student {number}", tmp_path)
         drawn.add(ROOM.draw(f"student {number}").hidden)
 
         assert [one for one in results.values() if one.status != "passed"] == []
@@ -93,7 +93,7 @@ def test_a_student_gets_the_same_logs_every_time_and_nobody_elses(copy):
 def test_the_second_effect_named_first_costs_three_points(tmp_path):
     student = hiding(2)
     swapped = ROOM.draw(student).hidden[::-1]
-    results = graded(truth(student, names=swapped), student, tmp_path)
+    results = grade_answer(truth(student, names=swapped), student, tmp_path)
 
     assert results["first-effect"].status == "failed"
     assert "it is one of the hidden effects" in results["first-effect"].hint
@@ -103,7 +103,7 @@ def test_the_second_effect_named_first_costs_three_points(tmp_path):
 def test_one_of_three_alone_is_part_of_the_way(tmp_path):
     student = hiding(3)
     some = ROOM.draw(student).hidden[:1]
-    results = graded(truth(student, names=some), student, tmp_path)
+    results = grade_answer(truth(student, names=some), student, tmp_path)
 
     assert results["first-effect"].status == "passed"
     assert results["all-effects"].points == 1
@@ -113,10 +113,10 @@ def test_one_of_three_alone_is_part_of_the_way(tmp_path):
 
 
 def test_a_gap_of_another_fit_is_right_and_the_note_says_which_one_was_used(tmp_path):
-    exact = graded(truth("ann"), "ann", tmp_path)["held-out"]
+    exact = grade_answer(truth("ann"), "ann", tmp_path)["held-out"]
     base = float(re.search(r"gap_before = (.*)", truth("ann"))[1])
     doubled = re.sub(r"gap_before = .*", f"gap_before = {2 * base:.3g}", truth("ann"))
-    other = graded(doubled, "ann", tmp_path)["held-out"]
+    other = grade_answer(doubled, "ann", tmp_path)["held-out"]
 
     assert (exact.status, other.status) == ("passed", "passed")
     assert "gap_before" not in exact.hint
@@ -127,7 +127,7 @@ def test_a_gap_of_another_fit_is_right_and_the_note_says_which_one_was_used(tmp_
 def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
     text = re.sub(r"gap_before = .*", "gap_before = 900", truth("ann"))
 
-    assert graded(text, "ann", tmp_path)["held-out"].points == 2.5
+    assert grade_answer(text, "ann", tmp_path)["held-out"].points == 2.5
 
 
 @pytest.mark.parametrize(
@@ -143,13 +143,15 @@ def test_gaps_that_were_made_up_cost_half_a_point(tmp_path):
 def test_a_list_of_names_may_be_written_in_many_ways(tmp_path, written, right):
     name = ROOM.draw("ann").hidden[0]
     for spelled in (name, name.upper(), name.replace("-", "_")):
-        result = graded(f"effects = {written.format(spelled)}\n", "ann", tmp_path)["first-effect"]
+        result = grade_answer(f"effects = {written.format(spelled)}\n", "ann", tmp_path)[
+            "first-effect"
+        ]
 
         assert (result.status == "passed") == right
 
 
 def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
-    check = graded('effects = ["stribek"]\n', "ann", tmp_path)["first-effect"]
+    check = grade_answer('effects = ["stribek"]\n', "ann", tmp_path)["first-effect"]
 
     assert "Did you mean stribeck?" in check.hint
 
@@ -157,7 +159,7 @@ def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
 def test_a_value_beyond_physics_is_no_crash(tmp_path):
     text = 'effects = ["delay"]\ndelay.lag = -1\n'
 
-    assert "is physically impossible" in graded(text, "ann", tmp_path)["held-out"].hint
+    assert "is physically impossible" in grade_answer(text, "ann", tmp_path)["held-out"].hint
 
 
 def test_trying_an_effect_shows_the_gaps_but_not_the_held_out_one(copy, monkeypatch, capsys):

@@ -39,7 +39,7 @@ def solved(exercise, student):
     return solve(OWN.folder, data_of(exercise, student))["answers.toml"]
 
 
-def graded(exercise, text, student):
+def grade_answer(exercise, text, student):
     path = exercise.folder / "answers.toml"
     path.write_text(text, "utf-8")
     return {check.id: check for check in exercise.grade(path, student=student).checks}
@@ -47,7 +47,7 @@ def graded(exercise, text, student):
 
 def test_fifty_students_can_solve_theirs_from_what_they_are_given(copy):
     for student in CLASS:
-        found = graded(copy, solved(copy, student), student)
+        found = grade_answer(copy, solved(copy, student), student)
 
         assert [(one.id, one.seen, one.hint) for one in found.values() if one.hint] == [], student
         assert sum(one.points for one in found.values()) == POINTS
@@ -81,7 +81,7 @@ def test_every_wrong_lever_is_named_for_everybody(copy):
         variant = OWN.module.draw(student)
         lever = variant.asked["lever"].expected
         for times in (2**-0.5, 2**0.5, 2.0):
-            found = graded(copy, f"lever = {lever * times}\n", student)["lever"]
+            found = grade_answer(copy, f"lever = {lever * times}\n", student)["lever"]
 
             assert (found.status, found.misconception) == ("failed", "M-LEVER"), (student, times)
 
@@ -134,7 +134,7 @@ def test_nothing_a_learner_reads_holds_an_answer(copy, student, capsys):
     variant = OWN.module.draw(student)
     said = " ".join(OWN.hints) + (OWN.folder / "README.md").read_text("utf-8")
     wrong = "".join(f"{name} = 777.7\n" for name in variant.asked) + 'worn = "x"\n'
-    graded(copy, wrong, student)
+    grade_answer(copy, wrong, student)
     run_command(["13", "--student", student])
     run_command(["13", "--student", student, "--json"])
     said += capsys.readouterr().out
@@ -161,7 +161,7 @@ def test_a_lever_may_be_written_in_many_ways(copy, line, status):
     lever = OWN.module.draw("ann").asked["lever"].expected
     text = line.format(f"{lever:.4f}", f"{100 * lever:.2f}")
 
-    assert graded(copy, text, "ann")["lever"].status == status
+    assert grade_answer(copy, text, "ann")["lever"].status == status
 
 
 @pytest.mark.parametrize("unit", ["kg·m²", "kg m^2", "kg*m2", "kilogram meter squared"])
@@ -169,9 +169,11 @@ def test_an_inertia_may_have_its_unit(copy, unit):
     inertia = OWN.module.draw("ann").asked["inertia"].expected
     wanted = "passed" if unit != "kg*m2" else "failed"  # m2 is no way to write a square
 
-    assert graded(copy, f'inertia = "{inertia:.4f} {unit}"', "ann")["inertia"].status == wanted
+    assert (
+        grade_answer(copy, f'inertia = "{inertia:.4f} {unit}"', "ann")["inertia"].status == wanted
+    )
 
 
 @pytest.mark.parametrize("word", ["rad/s", "Radians per second", "radians_per_second"])
 def test_the_unit_of_a_rate_may_be_written_in_many_ways(copy, word):
-    assert graded(copy, f'rate_unit = "{word}"', "ann")["rate-unit"].status == "passed"
+    assert grade_answer(copy, f'rate_unit = "{word}"', "ann")["rate-unit"].status == "passed"

@@ -1,5 +1,6 @@
 """Exercise 2: a measured kV, the one on paper, and what to look at when they differ."""
 
+import math
 import re
 import runpy
 import tomllib
@@ -197,23 +198,23 @@ def test_a_list_may_be_written_in_many_ways(copy, written, status):
 
 
 @pytest.mark.parametrize(
-    ("listed", "points", "says"),
+    ("listed", "points"),
     [
-        (["motor-type", "unpowered-motor"], 2, "is not on your list"),
-        (["unpowered-motor", "wheel-size"], 2, "Check the easiest first"),
-        (["wheel-size", "logged-voltage"], 0, "contains the applied voltage"),
-        (["wheel-size", "motor-type", "logged-voltage"], 2, "contains the applied voltage"),
-        (["wheel-size", "motor-type", "mass"], 2, "does a heavier robot need more volts"),
-        (["wheel-size", "mass"], 0, "does a heavier robot need more volts"),
-        (["wheel-size", "motor-type", "tight-belt"], 2, "nothing gets hot"),
+        (["motor-type", "unpowered-motor"], 2),
+        (["unpowered-motor", "wheel-size"], 2),
+        (["wheel-size", "logged-voltage"], 0),
+        (["wheel-size", "motor-type", "logged-voltage"], 2),
+        (["wheel-size", "motor-type", "mass"], 2),
+        (["wheel-size", "mass"], 0),
+        (["wheel-size", "motor-type", "tight-belt"], 2),
     ],
 )
-def test_a_list_earns_what_is_good_about_it(copy, listed, points, says):
+def test_a_list_earns_what_is_good_about_it(copy, listed, points, reads):
     student = student_who(lambda one: one.planted == ("wheel-size",) and one.verdict == "inspect")
     found = graded(copy, student=student, inspection=listed)["inspection"]
 
     assert (found.points, found.status) == (points, "failed")
-    assert says in found.hint
+    reads(found.hint)
 
 
 @pytest.mark.parametrize("cause", ["tight-belt", "unpowered-motor", "dry-bearing"])
@@ -242,7 +243,7 @@ def test_what_a_turret_has_not_explains_nothing(copy, word):
     assert found.hint.startswith(word)
 
 
-def test_a_theory_made_with_the_ratio_in_the_code_is_named(copy):
+def test_a_theory_made_with_the_ratio_in_the_code_is_named(copy, reads):
     student = student_who(lambda one: one.planted == ("gear-ratio",))
     variant = OWN.module.draw(student)
     other = float(variant.told["code"]["ratio"]) / variant.parts.ratio
@@ -250,7 +251,7 @@ def test_a_theory_made_with_the_ratio_in_the_code_is_named(copy):
         "kv-theory"
     ]
 
-    assert "the ratio in the code" in found.hint
+    reads(found.hint)
 
 
 @pytest.mark.parametrize("times", [0.5, 2 * 3.14159265])
@@ -297,11 +298,14 @@ def test_every_slip_on_paper_is_named_for_everybody(copy):
     """Over rpm, over the ratio, twice the wheel, radians for rotations."""
     for student in CLASS[:20]:
         variant = OWN.module.draw(student)
-        slips = [1 / 60, 60.0, 1 / variant.parts.ratio, 6.2832]
-        for times in slips + [0.5, 2.0] * bool(variant.parts.diameter):
-            found = graded(copy, student=student, kV_theory=variant.parts.theoretical_kv * times)
+        parts = variant.parts
+        units = [1 / 60, 60.0, 6.2832]
+        gearing = [1 / parts.ratio, *([0.5, 2.0, math.pi] if parts.diameter else [])]
+        for times in units + gearing:
+            found = graded(copy, student=student, kV_theory=parts.theoretical_kv * times)
 
-            assert found["kv-theory"].misconception == "M-UNITS", (student, times)
+            code = "M-UNITS" if times in units else "M-GEARING"
+            assert found["kv-theory"].misconception == code, (student, times)
 
 
 def test_a_theory_in_another_unit_is_converted(copy):

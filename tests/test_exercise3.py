@@ -19,7 +19,7 @@ WORDS = {
 }
 
 
-def graded(exercise, *, student="ann", **answers):
+def grade_answer(exercise, *, student="ann", **answers):
     """The results of an answer, by check."""
     path = exercise.folder / "answers.toml"
     quoted = (f'{name} = "{value}"\n' for name, value in answers.items())
@@ -37,9 +37,11 @@ def test_fifty_students_can_solve_theirs_and_no_row_passes_for_horizontal(copy):
     for number in range(50):
         student = f"student {number}"
         variant = OWN.module.draw(student)
-        results = graded(copy, student=student, **variant.found, **WORDS)
+        results = grade_answer(copy, student=student, **variant.found, **WORDS)
         highest = max(variant.arm, key=lambda hold: hold.middle)
-        lazy = graded(copy, student=student, arm_kG=highest.middle, arm_offset=-highest.reading)
+        lazy = grade_answer(
+            copy, student=student, arm_kG=highest.middle, arm_offset=-highest.reading
+        )
 
         assert {check.status for check in results.values()} == {"passed"}
         assert sum(check.points for check in results.values()) == 10  # as the course lists it
@@ -60,7 +62,7 @@ def test_nothing_a_learner_reads_holds_the_answer(copy, student, capsys):
         dict.fromkeys(truth(student), 7.77),
         {name: 1.06 * value for name, value in truth(student).items()},
     ):
-        graded(copy, student=student, **wrong, **dict.fromkeys(WORDS, "Simple"))
+        grade_answer(copy, student=student, **wrong, **dict.fromkeys(WORDS, "Simple"))
         run_command(["3", "--student", student])
         run_command(["3", "--student", student, "--json"])
     said += capsys.readouterr().out
@@ -104,12 +106,14 @@ def test_edges_and_widths_as_they_stand_in_the_table_are_recognized(copy):
         low, high = variant.elevator.lower, variant.elevator.upper
         for kg in (low, high, high - low, low + high):
             assert (
-                graded(copy, student=student, elevator_kG=f"{kg:.2f}")["elevator-kg"].misconception
+                grade_answer(copy, student=student, elevator_kG=f"{kg:.2f}")[
+                    "elevator-kg"
+                ].misconception
                 == "M-KG-EDGE"
             )
         for row in variant.arm:
             width = f"{row.upper - row.lower:.2f}"
-            results = graded(copy, student=student, arm_kS=width)
+            results = grade_answer(copy, student=student, arm_kS=width)
             assert results["arm-ks"].misconception == "M-KG-EDGE"
 
 
@@ -130,7 +134,7 @@ def test_edges_and_widths_as_they_stand_in_the_table_are_recognized(copy):
     ],
 )
 def test_a_word_may_be_written_in_many_ways(copy, name, written, right):
-    result = graded(copy, **{name: written})[name.replace("_", "-")]
+    result = grade_answer(copy, **{name: written})[name.replace("_", "-")]
 
     assert (result.status == "passed") == right
     assert right or "Choose one of: Simple" in result.hint
@@ -152,11 +156,11 @@ def test_a_word_may_be_written_in_many_ways(copy, name, written, right):
 def test_an_offset_earns_full_marks_within_2_degrees_and_half_within_5(copy, off, unit, points):
     written = f"{truth('ann')['arm_offset'] + off:.3f}{unit}".replace(".", ",")
 
-    assert graded(copy, arm_offset=written)["arm-offset"].points == points
+    assert grade_answer(copy, arm_offset=written)["arm-offset"].points == points
 
 
 def test_an_offset_may_be_given_in_radians_if_it_says_so(copy):
     radians = truth("ann")["arm_offset"] * 3.14159 / 180
 
-    assert graded(copy, arm_offset=f"{radians:.4f} rad")["arm-offset"].status == "passed"
-    assert graded(copy, arm_offset=f"{radians:.4f}")["arm-offset"].misconception == "M-UNITS"
+    assert grade_answer(copy, arm_offset=f"{radians:.4f} rad")["arm-offset"].status == "passed"
+    assert grade_answer(copy, arm_offset=f"{radians:.4f}")["arm-offset"].misconception == "M-UNITS"

@@ -34,7 +34,7 @@ def real(tmp_path, monkeypatch):
     ("content", "said"),
     [
         (b"", "the file is empty. Write your answer into it. To get the file back as it was: "),
-        (b"  \n", "git checkout -- exercises/exercise4/ExampleSubsystem.java"),
+        (b"  \n", "NEW-FOLDER --no-lab, and take exercises/exercise4/ExampleSubsystem.java from"),
         (b"// big\n" * 1_500_000, "10 MB is too large for an answer"),
         (bytes(range(256)) * 20, "this is not text"),
         (b"\x89PNG\r\n\x1a\n\0\0", "this is not text"),
@@ -50,6 +50,14 @@ def test_a_file_that_is_no_code_is_refused_with_advice(real, capsys, content, sa
     assert out == ""
     assert said in err
     assert err.count("\n") == 1
+
+
+def test_an_empty_file_of_a_repository_is_got_back_with_git(real, capsys):
+    (real / ".git").mkdir()
+    (real / "exercises" / "exercise4" / JAVA).write_bytes(b"")
+
+    assert run_command(["exercise4", f"exercises/exercise4/{JAVA}"]) == 2
+    assert f"git checkout -- exercises/exercise4/{JAVA}" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -299,3 +307,34 @@ def test_a_field_that_is_empty_until_the_routine_is_made_is_right(tmp_path):
         grade = EXERCISE.grade(tmp_path / name / PYTHON, student="ann", run=False)
 
         assert (grade.score == grade.max_score) is right
+
+
+def graded_program(tmp_path, name, file):
+    """The checks of exercise 4 on a program of the corpus, by their ids."""
+    program = tmp_path / name
+    shutil.copytree(ROOT / "tests" / "robotcode" / "swerve" / name, program)
+    (found,) = program.rglob(file)
+    return {one.id: one for one in EXERCISE.grade(found, student="ann").checks}
+
+
+def test_steering_that_a_loop_holds_straight_is_no_mistake(tmp_path):
+    """AdvantageKit's template: the voltage goes through an interface to the drive motors."""
+    found = graded_program(tmp_path, "advantagekit_template", "Drive.java")
+
+    assert found["drive"].status == found["open-loop"].status == "passed"
+
+
+@pytest.mark.parametrize(
+    ("program", "said"),
+    [
+        ("advantagekit_template_torque", "TorqueCurrentFOC"),
+        ("advantagekit_duty_on_one", "cannot see what modules[i].io gets"),
+        ("advantagekit_simulated_only", "cannot see what modules[i].io gets"),
+    ],
+)
+def test_where_no_voltage_is_sure_to_reach_the_wheels_it_is_said_or_asked(tmp_path, program, said):
+    found = graded_program(tmp_path, program, "Drive.java")
+
+    assert found["drive"].status == found["open-loop"].status == "failed"
+    assert said in found["drive"].seen
+    assert "line 0" not in found["drive"].seen

@@ -10,7 +10,7 @@ from grader.robotcode.bench import RunFacts, RunOutcome
 EXERCISE = Exercise("exercise4", ROOT / "exercises" / "exercise4")
 
 
-def graded(tmp_path, text):
+def grade_answer(tmp_path, text):
     path = tmp_path / "mine.py"
     path.write_text(text, "utf-8")
     return {one.id: one for one in EXERCISE.grade(path, student="ann").checks}
@@ -19,7 +19,7 @@ def graded(tmp_path, text):
 @needs_robot
 def test_what_reading_cannot_tell_is_settled_by_the_run(tmp_path):
     step = ("stepVoltage=3.5", "stepVoltage=float(open(__file__).read()[3:3] or 3.5)")
-    checks = graded(tmp_path, changed(step))
+    checks = grade_answer(tmp_path, changed(step))
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert "The grader could not decide this by" in checks["step"].hint
@@ -73,7 +73,7 @@ def test_what_reading_cannot_tell_is_settled_by_the_run(tmp_path):
     ],
 )
 def test_what_reading_lets_pass_the_run_may_not(tmp_path, changes, check, said):
-    checks = graded(tmp_path, changed(*changes))
+    checks = grade_answer(tmp_path, changed(*changes))
     wrong = {name: one for name, one in checks.items() if one.status != "passed"}
 
     assert [*wrong] == ([check] if check else [])
@@ -84,7 +84,7 @@ def test_what_reading_lets_pass_the_run_may_not(tmp_path, changes, check, said):
 @needs_robot
 def test_a_question_that_the_run_cannot_settle_stays_one(tmp_path):
     text = changed(("self.right.setVoltage(voltage)", "{}['team'].send(self.right, voltage)"))
-    checks = graded(tmp_path, text)
+    checks = grade_answer(tmp_path, text)
 
     assert checks["drive"].seen.startswith("the grader cannot see")
     assert "KeyError: 'team'" in checks["drive"].hint
@@ -96,7 +96,7 @@ def test_a_question_about_a_log_that_names_no_tests_stays_one(tmp_path):
         ("timeout=10.0", "timeout=10.0, recordState=lambda state: None"),
         ("self.left.getVoltage()", "getattr(self.left, 'getVoltage')()"),
     )
-    checks = graded(tmp_path, text)
+    checks = grade_answer(tmp_path, text)
 
     assert checks["log"].status == "failed"
     assert checks["log"].seen.startswith(
@@ -107,7 +107,7 @@ def test_a_question_about_a_log_that_names_no_tests_stays_one(tmp_path):
 @needs_robot
 def test_code_that_reading_finds_wrong_is_not_run(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "run", lambda *_: pytest.fail("it was run"))
-    checks = graded(tmp_path, changed(("rampRate=0.5", "rampRate=0.25")))
+    checks = grade_answer(tmp_path, changed(("rampRate=0.5", "rampRate=0.25")))
 
     assert [name for name, one in checks.items() if one.status != "passed"] == ["ramp"]
 
@@ -123,7 +123,7 @@ def test_whoever_grades_can_leave_running_out(tmp_path, monkeypatch):
 
 def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "is_robotpy_installed", lambda: False)
-    checks = graded(tmp_path, RIGHT)
+    checks = grade_answer(tmp_path, RIGHT)
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert checks["routine"].hint.startswith("Read, not compiled, not run")
@@ -136,7 +136,7 @@ def test_a_vendors_file_is_graded_by_reading_and_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "is_robotpy_installed", lambda: True)
     unable = RunFacts(RunOutcome.CANNOT, "it imports phoenix6, which is not here")
     monkeypatch.setattr(bench, "run", lambda *_: unable)
-    checks = graded(tmp_path, RIGHT)
+    checks = grade_answer(tmp_path, RIGHT)
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert "Only read, not run in WPILib's simulation: it imports" in checks["routine"].hint

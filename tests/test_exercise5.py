@@ -93,11 +93,11 @@ def test_the_source_lesson_to_the_letter_gets_full_marks_with_its_subsystem_besi
     assert "Unplug that controller" in found["guard"].hint
 
 
-def test_without_the_subsystem_it_asks_for_it_and_never_guesses(tmp_path):
+def test_without_the_subsystem_it_asks_for_it_and_never_guesses(tmp_path, reads):
     found = judged(tmp_path, LESSON)
 
-    assert "the grader cannot see the methods" in found["factories"].seen
-    assert "Put the subsystem's file into the same" in found["factories"].hint
+    reads(found["factories"].seen)
+    reads(found["factories"].hint)
     assert found["factories"].points == 0
     assert found["held"].status == found["guard"].status == "passed"
 
@@ -159,7 +159,7 @@ def test_what_is_not_right_is_told(tmp_path, change, check, points, says):
     assert says in f"{found.seen} {found.hint}"
 
 
-def test_a_method_that_makes_one_test_or_another_is_asked_about(tmp_path):
+def test_a_method_that_makes_one_test_or_another_is_asked_about(tmp_path, reads):
     more = """def make(self, kind, way):
     if kind == "dynamic":
         return self.arm.dynamic(way)
@@ -171,7 +171,7 @@ def test_a_method_that_makes_one_test_or_another_is_asked_about(tmp_path):
     )
     found = judged(tmp_path, python(body, more=more), name=PYTHON)
 
-    assert "the grader cannot see which test" in found["held"].seen
+    reads(found["held"].seen)
     assert {found[name].status for name in ("each-once", "guard")} == {"not-reached"}
 
 
@@ -191,11 +191,11 @@ def test_the_only_controller_is_no_controller_of_its_own(tmp_path):
     assert judged(tmp_path, java(bound))["guard"].status == "failed"
 
 
-def test_a_chooser_holds_no_button(tmp_path):
+def test_a_chooser_holds_no_button(tmp_path, reads):
     rows = four('m_chooser.addOption("{kind} {way}", m_arm.{kind}(Direction.k{Way}));')
     found = judged(tmp_path, java(rows))
 
-    assert "No button is held there, so nobody" in found["held"].hint
+    reads(found["held"].hint)
     assert 'addOption("quasistatic forward"' in found["held"].seen
 
 
@@ -224,11 +224,11 @@ def test_a_comment_names_the_test_and_the_property(tmp_path, comment, right):
     assert above.points == behind.points == (2 if right else 1.5)
 
 
-def test_two_slashes_in_a_text_are_no_comment(tmp_path):
+def test_two_slashes_in_a_text_are_no_comment(tmp_path, reads):
     line = 'System.out.println("// quasistatic: kS and kV");\n'
     found = judged(tmp_path, java(line + PLAIN))["comments"]
 
-    assert "no comment next to" in found.seen
+    reads(found.seen)
 
 
 def test_robotpy_has_no_mode_triggers_and_says_so(tmp_path):
@@ -289,12 +289,12 @@ INVERTED = [
 
 
 @pytest.mark.parametrize("guard", INVERTED)
-def test_a_guard_that_asks_for_any_mode_but_test_mode_is_none(tmp_path, guard):
+def test_a_guard_that_asks_for_any_mode_but_test_mode_is_none(tmp_path, guard, reads):
     found = judged(tmp_path, java(PLAIN.replace(START, guard)))["guard"]
 
     assert (found.status, found.points) == ("failed", 0)
-    assert "checks for another mode than test mode" in found.seen
-    assert "Then the test can start in a" in found.hint
+    reads(found.seen)
+    reads(found.hint)
 
 
 @pytest.mark.parametrize(
@@ -309,12 +309,12 @@ def test_a_guard_that_asks_for_any_mode_but_test_mode_is_none(tmp_path, guard):
         "lambda: False if DriverStation.isTest() else True",
     ],
 )
-def test_an_inverted_guard_in_robotpy_is_none(tmp_path, guard):
+def test_an_inverted_guard_in_robotpy_is_none(tmp_path, guard, reads):
     body = four(f"self.driver.{{key}}().and_({guard})!")
     found = judged(tmp_path, python(body), name=PYTHON)["guard"]
 
     assert (found.status, found.points) == ("failed", 0)
-    assert "checks for another mode than test mode" in found.seen
+    reads(found.seen)
 
 
 @pytest.mark.parametrize(

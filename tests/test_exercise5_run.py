@@ -21,7 +21,7 @@ def changed(old, new):
     return RIGHT.replace(old, new)
 
 
-def graded(tmp_path, text, **options):
+def grade_answer(tmp_path, text, **options):
     path = tmp_path / "robotcontainer.py"
     path.write_text(text, "utf-8")
     return {one.id: one for one in EXERCISE.grade(path, student="ann", **options).checks}
@@ -85,8 +85,10 @@ def tampering_allowed(monkeypatch):
     ],
 )
 def test_what_reading_lets_pass_pressing_the_buttons_may_not(tmp_path, change, check, said, points):
-    read = graded(tmp_path, changed(*change), run=False)
-    wrong = [one for one in graded(tmp_path, changed(*change)).values() if one.status != "passed"]
+    read = grade_answer(tmp_path, changed(*change), run=False)
+    wrong = [
+        one for one in grade_answer(tmp_path, changed(*change)).values() if one.status != "passed"
+    ]
 
     assert {one.status for one in read.values()} == {"passed"}
     assert [one.id for one in wrong] == [check]
@@ -104,7 +106,7 @@ def test_what_reading_lets_pass_pressing_the_buttons_may_not(tmp_path, change, c
     ids=["a vendor's library", "a file"],
 )
 def test_what_cannot_be_run_is_graded_by_reading_and_says_so(tmp_path, new, said):
-    checks = graded(tmp_path, changed(IMPORT, IMPORT + new))
+    checks = grade_answer(tmp_path, changed(IMPORT, IMPORT + new))
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert f"Only read, not run in WPILib's simulation: {said}" in checks["held"].hint
@@ -113,7 +115,7 @@ def test_what_cannot_be_run_is_graded_by_reading_and_says_so(tmp_path, new, said
 @needs_robot
 def test_a_chord_starts_nothing_by_one_button_and_is_left_to_reading(tmp_path):
     text = changed("testing = wpilib.DriverStation.isTest", "testing = self.driver.start()")
-    checks = graded(tmp_path, text)
+    checks = grade_answer(tmp_path, text)
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert checks["held"].hint == ""
@@ -123,13 +125,13 @@ def test_a_chord_starts_nothing_by_one_button_and_is_left_to_reading(tmp_path):
 def test_what_is_wrong_by_reading_or_only_to_be_read_is_not_run(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "press_buttons", lambda *_: pytest.fail("it was run"))
 
-    assert graded(tmp_path, changed(".whileTrue(", ".onTrue("))["held"].status == "failed"
-    assert graded(tmp_path, RIGHT, run=False)["held"].status == "passed"
+    assert grade_answer(tmp_path, changed(".whileTrue(", ".onTrue("))["held"].status == "failed"
+    assert grade_answer(tmp_path, RIGHT, run=False)["held"].status == "passed"
 
 
 def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "is_robotpy_installed", lambda: False)
-    checks = graded(tmp_path, RIGHT)
+    checks = grade_answer(tmp_path, RIGHT)
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert checks["held"].hint == "Read, not compiled, not run: RobotPy is not installed here."

@@ -34,7 +34,7 @@ STEPS = ["wire-routine", "run-tests", "inspect-and-fit", "place-gains"]
 UNITS = {"m": "meters", "rot": "rotations"}
 
 
-def graded(exercise, *, student="ann", **answers):
+def grade_answer(exercise, *, student="ann", **answers):
     """The results of an answer, by check."""
     path = exercise.folder / "answers.toml"
     lines = (f"{name} = {toml(value)}\n" for name, value in answers.items())
@@ -102,7 +102,7 @@ def test_fifty_students_can_solve_theirs_from_what_they_are_given(copy):
 
 def test_plans_away_from_every_bound_pass(copy):
     for student in CLASS:
-        results = graded(copy, student=student, **right(OWN.module.draw(student)))
+        results = grade_answer(copy, student=student, **right(OWN.module.draw(student)))
 
         assert {check.status for check in results.values()} == {"passed"}
         assert sum(check.points for check in results.values()) == 10  # as the course lists it
@@ -121,14 +121,14 @@ def test_any_plan_that_keeps_the_rules_passes(copy):
     for kind, machine in variant.machines.items():
         kept = [plan for plan in grid(machine) if not RULES.broken(machine, plan)]
         for plan in kept[:: max(1, len(kept) // 6)]:
-            assert graded(copy, **written(kind, plan))[kind].points == 1.5
+            assert grade_answer(copy, **written(kind, plan))[kind].points == 1.5
 
 
 def test_the_numbers_of_the_source_lesson_do_not_pass_for_a_drivetrain_without_a_thumb(copy):
     """0.5 V/s, 3.5 V, 10 s: nine or ten meters of ramp, and more of step."""
     for student in CLASS[:10]:
         plan = PLAN.Plan(0.5, 3.5, 10.0, math.inf)
-        found = graded(copy, student=student, **written("drivetrain", plan))["drivetrain"]
+        found = grade_answer(copy, student=student, **written("drivetrain", plan))["drivetrain"]
 
         assert re.search(r"your ramp needs \d+\.\d\d m; you have [\d.]+ m", found.hint)
 
@@ -251,7 +251,7 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
     for ramp, step, timeout in ((0.11, 11.5, 9.9), (3.9, 0.15, 1.1), (99.0, 99.0, 99.0)):
         plan = PLAN.Plan(ramp, step, timeout, math.inf)
         lines = {name: one for kind in KINDS for name, one in written(kind, plan).items()}
-        results = graded(copy, student=student, **lines, **words, steps=STEPS[::-1])
+        results = grade_answer(copy, student=student, **lines, **words, steps=STEPS[::-1])
         said += [one.hint for one in results.values()]
         run_command(["6", "--student", student, "--json"])
     printed = capsys.readouterr().out
@@ -271,7 +271,7 @@ def test_nothing_a_learner_reads_is_a_plan_or_favors_the_word_that_is_right(copy
 def test_every_broken_rule_is_told_with_its_figure(copy):
     """7 V, 0.1 V/s, 30 s and no thumb: half a dozen rules at once."""
     plan = PLAN.Plan(0.1, 7.0, 30.0, math.inf)
-    found = graded(copy, **written("drivetrain", plan))["drivetrain"]
+    found = grade_answer(copy, **written("drivetrain", plan))["drivetrain"]
 
     assert found.points == 0
     for figure in (
@@ -300,8 +300,10 @@ def test_who_rounds_up_to_a_bound_is_not_wrong(off, kept):
 def test_a_plan_that_breaks_one_rule_earns_half(copy):
     machine = OWN.module.draw("ann").machines["shooter"]
     plan = DRAWN.sound(machine)
-    one = graded(copy, **written("shooter", replace(plan, step=12.0)))["shooter"]
-    two = graded(copy, **written("shooter", replace(plan, step=12.0, timeout=30.0)))["shooter"]
+    one = grade_answer(copy, **written("shooter", replace(plan, step=12.0)))["shooter"]
+    two = grade_answer(copy, **written("shooter", replace(plan, step=12.0, timeout=30.0)))[
+        "shooter"
+    ]
 
     assert (one.points, two.points) == (0.75, 0)
 
@@ -325,14 +327,14 @@ def test_a_number_may_be_written_in_many_ways(copy, written_as, status):
     answers = written("turret", plan) | {"turret_step": written_as.format(plan.step)}
     comma = answers | {"turret_step": answers["turret_step"].replace(".", ",")}
 
-    assert graded(copy, **answers)["turret"].status == status
-    assert graded(copy, **comma)["turret"].status == status
+    assert grade_answer(copy, **answers)["turret"].status == status
+    assert grade_answer(copy, **comma)["turret"].status == status
 
 
 @pytest.mark.parametrize("part", ["ramp", "step", "timeout", "release"])
 def test_a_part_of_a_plan_that_is_next_to_nothing_earns_nothing(copy, part):
     plan = written("shooter", DRAWN.sound(OWN.module.draw("ann").machines["shooter"]))
-    found = graded(copy, **plan | {f"shooter_{part}": "1e-320"})["shooter"]
+    found = grade_answer(copy, **plan | {f"shooter_{part}": "1e-320"})["shooter"]
 
     assert found.points == 0
     assert "Choose a number above 0.001" in found.hint
@@ -345,7 +347,7 @@ def test_extreme_numbers_are_told_what_is_wrong(copy, extreme):
     for name in {"ramp", "step", "timeout", "release"} - never:
         answers = plan | {f"drivetrain_{name}": extreme}
 
-        assert graded(copy, **answers)["drivetrain"].status == "failed"
+        assert grade_answer(copy, **answers)["drivetrain"].status == "failed"
 
 
 @pytest.mark.parametrize(
@@ -370,7 +372,7 @@ def test_extreme_numbers_are_told_what_is_wrong(copy, extreme):
     ],
 )
 def test_a_word_may_be_written_in_many_ways(copy, name, check, given, status):
-    assert graded(copy, **{name: given})[check].status == status
+    assert grade_answer(copy, **{name: given})[check].status == status
 
 
 @pytest.mark.parametrize(("go", "no_go"), [("GO", "NO GO"), ("go!", "nogo"), ("yes", "no")])
@@ -378,13 +380,13 @@ def test_a_decision_may_be_written_in_many_ways(copy, go, no_go):
     decisions = OWN.module.draw("ann").morning.decisions
     words = {f"check_{item}": go if word == "go" else no_go for item, word in decisions.items()}
 
-    assert graded(copy, **words)["checklist"].status == "passed"
+    assert grade_answer(copy, **words)["checklist"].status == "passed"
 
 
 def test_decisions_and_limits_earn_their_share(copy):
     variant = OWN.module.draw("ann")
     answers = right(variant) | {"check_log": "perhaps", "limit_a": "perhaps"}
-    results = graded(copy, **answers)
+    results = grade_answer(copy, **answers)
 
     assert results["checklist"].points == pytest.approx(5 / 6)
     assert results["limits"].points == 0.25
@@ -395,7 +397,7 @@ def test_a_limit_in_the_controller_called_bypassed_is_named_and_the_other_is_not
         effects = OWN.module.draw(student).morning.effects
         for name, effect in effects.items():
             wrong = effects | {name: "acts" if effect == "bypassed" else "bypassed"}
-            found = graded(copy, student=student, **wrong)["limits"]
+            found = grade_answer(copy, student=student, **wrong)["limits"]
 
             assert found.misconception == ("M-LIMITS-BYPASSED" if effect == "acts" else "")
 
@@ -419,6 +421,6 @@ def test_a_mark_beyond_the_end_of_the_run_is_wrong(copy):
     for kind, machine in variant.machines.items():
         if machine.travel is None:
             continue
-        found = graded(copy, **{**answers, f"{kind}_release": 60.0 * machine.travel})
+        found = grade_answer(copy, **{**answers, f"{kind}_release": 60.0 * machine.travel})
 
         assert any("your mark is at" in check.hint for check in found.values()), kind

@@ -90,17 +90,17 @@ def test_twenty_students_get_twelve_solvable_logs_and_all_of_the_faults_come_up(
 
 
 @pytest.mark.parametrize(
-    ("taken_for", "said"),
+    "taken_for",
     [
-        ("loop-overrun, whole, rerun", "Count: are samples missing, or are there too many alike?"),
-        ("stuck-sensor, whole, rerun", "once, or all the time?"),
-        ("clean", "Plot the velocity close up with a dot for each sample: is each one new?"),
-        ("stale-samples, whole, rerun", "What would prevent it from happening again?"),
+        "loop-overrun, whole, rerun",
+        "stuck-sensor, whole, rerun",
+        "clean",
+        "stale-samples, whole, rerun",
     ],
 )
 @pytest.mark.parametrize("student", ["ann", "ben", "zoë"])
 def test_repeated_readings_that_are_taken_for_something_else_are_told(
-    student, taken_for, said, tmp_path
+    student, taken_for, reads, tmp_path
 ):
     cases = CHECKS.draw(student)
     (place,) = (
@@ -112,7 +112,7 @@ def test_repeated_readings_that_are_taken_for_something_else_are_told(
     check = graded(tmp_path, lines, student=student).checks[place]
 
     assert check.status == "failed"
-    assert said in check.hint
+    reads(check.hint)
 
 
 def test_a_student_gets_the_same_logs_every_time_and_nobody_elses():
@@ -200,7 +200,7 @@ def test_half_a_sample_off_is_forgiven_where_damage_is_short():
         ("the belt is loose", 'in which "belt" is not known'),
         ("rerun", "with no faults in it"),
         ("brownout sign-flip", "with 2 faults in it"),
-        ("brownout 1.2", "with 1 number(s)"),
+        ("brownout 1.2", "with one time in it"),
         ("brownout rerun trim", "with 2 actions"),
         ("clean + brownout", "and a fault"),
         (" + ", "0 faults"),
@@ -237,16 +237,16 @@ def test_no_feedback_names_what_it_really_is():
 
 
 @pytest.mark.parametrize(
-    ("said", "really", "asks"),
+    ("said", "really"),
     [
-        ("encoder-slip", "wheel-slip", "When did this begin?"),
-        ("brownout", "hard-stop", "speed up again"),
-        ("hard-stop", "brownout", "At a hard stop the mechanism cannot"),
-        ("loop-overrun", "stale-samples", "are samples missing"),
+        ("encoder-slip", "wheel-slip"),
+        ("brownout", "hard-stop"),
+        ("hard-stop", "brownout"),
+        ("loop-overrun", "stale-samples"),
     ],
 )
-def test_who_mistakes_a_look_alike_is_asked_what_tells_the_two_apart(said, really, asks):
-    assert asks in TOLD.mixed_up(said, really)
+def test_who_mistakes_a_look_alike_is_asked_what_tells_the_two_apart(said, really, reads):
+    reads(TOLD.mixed_up(said, really))
 
 
 def test_calling_all_logs_clean_or_all_the_same_earns_little(tmp_path):

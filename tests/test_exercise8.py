@@ -238,17 +238,18 @@ def test_nothing_a_learner_reads_holds_a_gain(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("written", ["0 to 3.90x", "0 to 1 min", "from 1 kg to 2", "1 or 2"])
-def test_a_window_with_a_word_that_is_none_is_refused(written):
-    with pytest.raises(WrongAnswer, match="which is not two times"):
+def test_a_window_with_a_word_that_is_none_is_refused(written, reads):
+    with pytest.raises(WrongAnswer) as refused:
         PREPARATION._window("quasistatic-forward", written)
+    reads(refused.value)
 
 
 @pytest.mark.parametrize("written", ["1,5,5", "0,4,5,2", "from 1,5,5 s"])
-def test_commas_that_can_be_read_in_two_ways_are_refused(written):
+def test_commas_that_can_be_read_in_two_ways_are_refused(written, reads):
     with pytest.raises(WrongAnswer) as refused:
         PREPARATION._window("quasistatic-forward", written)
 
-    assert "can be read as two times in two ways" in refused.value.hint
+    reads(refused.value.hint)
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,7 @@ def solution():
     return module.fit
 
 
-def graded(folder, text, student="ann"):
+def grade_answer(folder, text, student="ann"):
     """What the check of the function says of a text."""
     (folder / "fit.py").write_text(text, "utf-8")
     result = Exercise("exercise9", folder).grade(None, student=student)
@@ -131,13 +131,13 @@ def test_every_log_that_is_right_earns_a_point(copy, most, points):
     expected = float(sum(length <= most for length in lengths))
     text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
     early = f"    if len(time) > {most}:\n        raise ValueError('too long')\n"
-    check = graded(copy.folder, text.replace("    ks = kv = ka = None\n", early))
+    check = grade_answer(copy.folder, text.replace("    ks = kv = ka = None\n", early))
 
     assert check.points == expected == points
 
 
 def test_what_a_function_prints_is_shown_in_one_line(copy):
-    check = graded(copy.folder, "def fit(**columns):\n    print('one', 'two\\nthree')\n")
+    check = grade_answer(copy.folder, "def fit(**columns):\n    print('one', 'two\\nthree')\n")
 
     assert "It printed: one two three one two three" in check.hint
 
@@ -145,7 +145,7 @@ def test_what_a_function_prints_is_shown_in_one_line(copy):
 def test_one_log_that_goes_wrong_is_told_by_what_is_special_about_it(copy):
     text = (ROOT / "solutions" / "exercise9" / "fit.py").read_text("utf-8")
     wrong = "    if len(set(test)) == 3:\n        ka *= 1.4\n    return {"
-    check = graded(copy.folder, text.replace("    return {", wrong))
+    check = grade_answer(copy.folder, text.replace("    return {", wrong))
 
     assert check.points == 4.0
     assert "The other three are enough" in check.hint

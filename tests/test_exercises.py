@@ -97,7 +97,7 @@ def test_the_solution_gets_full_marks(name, student, answered, tmp_path):
 @pytest.mark.parametrize(("name", "mistake"), MISTAKES)
 def test_a_mistake_is_caught_and_named(name, mistake, student, answered, tmp_path):
     texts = answered(name, student)
-    texts[mistake.file] = mistake.make(texts[mistake.file])
+    texts[mistake.file] = mistake.edit_text(texts[mistake.file])
     result = grade(name, texts, mistake.file, student, tmp_path)
     (check,) = (one for one in result.checks if one.id == mistake.check)
 

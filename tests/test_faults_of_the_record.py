@@ -85,7 +85,7 @@ def each(log, change):
     return replace(log, runs=tuple(change(run) for run in log.runs))
 
 
-def made(name, seed=1, *, period=0.02):
+def recorded(name, seed=1, *, period=0.02):
     rng = np.random.default_rng(seed)
     return simulate(MECHANISMS[name].draw(rng), LESSON, rng=rng, period=period)
 
@@ -102,7 +102,9 @@ def coarse(run, step):
 
 
 def test_the_number_of_samples_a_reading_is_held_is_told():
-    damage = found("stale-samples", each(made("turret", period=0.005), lambda run: held(run, 4)))
+    damage = found(
+        "stale-samples", each(recorded("turret", period=0.005), lambda run: held(run, 4))
+    )
 
     assert len(damage) == 4
     assert all("each velocity for 4.0" in one.evidence for one in damage)
@@ -110,14 +112,14 @@ def test_the_number_of_samples_a_reading_is_held_is_told():
 
 
 def test_a_coarse_velocity_is_not_a_stale_one():
-    log = each(made("drivetrain"), lambda run: coarse(run, 0.1))
+    log = each(recorded("drivetrain"), lambda run: coarse(run, 0.1))
 
     assert np.mean(np.diff(log.runs[0].velocity) == 0.0) > 0.5
     assert names(log) == set()
 
 
 def test_a_test_under_another_name_is_mislabelled_and_not_missing():
-    log = made("elevator")
+    log = recorded("elevator")
     wrong = replace(log.runs[2], test="quasistatic-forward")  # the forward step, filed as the ramp
 
     log = replace(log, runs=(*log.runs[:2], wrong, log.runs[3]))
@@ -129,7 +131,7 @@ def test_a_test_under_another_name_is_mislabelled_and_not_missing():
 
 
 def test_what_is_missing_is_named():
-    log = made("arm")
+    log = recorded("arm")
 
     damage = found("missing-test", replace(log, runs=log.runs[:3]))
 
@@ -155,12 +157,12 @@ def test_a_log_of_other_tests_misses_nothing():
     ids=["inverted", "unsigned", "position alone"],
 )
 def test_a_sign_is_missed_in_the_runs_that_have_it_wrong(name, change, runs):
-    assert [one.where.run for one in found("sign-flip", each(made(name), change))] == runs
+    assert [one.where.run for one in found("sign-flip", each(recorded(name), change))] == runs
 
 
 def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
     # an elevator that 0.5 V cannot lift: it sinks, in the forward test as in the reverse one
-    log = made("elevator")
+    log = recorded("elevator")
     forward, reverse = (
         log.runs_of_test("dynamic-forward")[0],
         log.runs_of_test("dynamic-reverse")[0],
@@ -188,7 +190,7 @@ def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
     ],
 )
 def test_a_unit_is_known_by_its_factor(factor, words):
-    log = each(made("drivetrain"), lambda run: replace(run, velocity=run.velocity * factor))
+    log = each(recorded("drivetrain"), lambda run: replace(run, velocity=run.velocity * factor))
 
     damage = found("unit-error", log)
 
@@ -198,7 +200,7 @@ def test_a_unit_is_known_by_its_factor(factor, words):
 
 @pytest.mark.parametrize("speed", [0.0, "frozen"], ids=["a stop", "a sensor"])
 def test_a_stop_has_no_speed_and_a_stuck_sensor_has(speed):
-    log = made("drivetrain")
+    log = recorded("drivetrain")
     run = log.runs[0]
     at = slice(250, 300)  # a second, halfway up the ramp
     position, velocity = run.position.copy(), run.velocity.copy()
@@ -216,7 +218,7 @@ def test_a_stop_has_no_speed_and_a_stuck_sensor_has(speed):
 
 
 def test_a_ramp_that_starts_in_motion_is_given_a_standstill_to_tremble_in():
-    log = made("shooter")
+    log = recorded("shooter")
     log = each(log, lambda run: select_samples(run, np.abs(run.velocity) > 0.0))
 
     spoilt = contaminate(log, "noisy-standstill", rng=np.random.default_rng(2))
@@ -247,7 +249,7 @@ def dropped(run, times, *, motion):
     ids=["one", "two", "a series", "a series that is felt", "one that is felt"],
 )
 def test_drop_outs_are_told_one_by_one_or_as_a_series(times, motion, stories, words):
-    log = made("drivetrain")
+    log = recorded("drivetrain")
     log = replace(log, runs=(dropped(log.runs[0], times, motion=motion), *log.runs[1:]))
 
     damage = found("voltage-dropout", log)
@@ -257,7 +259,7 @@ def test_drop_outs_are_told_one_by_one_or_as_a_series(times, motion, stories, wo
 
 
 def test_a_clipped_step_that_is_logged_as_applied_is_no_fault():
-    log = made("drivetrain")
+    log = recorded("drivetrain")
     spoilt = contaminate(log, "command-logged", rng=np.random.default_rng(5)).log
     applied = each(
         spoilt,
@@ -277,7 +279,7 @@ def test_a_clipped_step_that_is_logged_as_applied_is_no_fault():
 
 @pytest.mark.parametrize("name", MINE)
 def test_damage_grows_with_severity(name):
-    log = made("turret")
+    log = recorded("turret")
 
     hurt = [
         sum(

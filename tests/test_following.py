@@ -28,12 +28,12 @@ def followed(kind, *, wanted=UP, **changes):
 
 
 @pytest.mark.parametrize("kind", PLANTS)
-def test_right_gains_follow(kind):
+def test_right_gains_follow(kind, reads):
     one = followed(kind)
     off = np.abs(np.subtract(one.position, one.target.position)).max()
 
     assert off < 0.015 * 0.5  # of the way
-    assert one.description == "Here the thing does nearly what it should."
+    reads(one.description)
 
 
 def test_a_profile_is_whole():
@@ -67,24 +67,23 @@ def test_an_elevator_without_kg_falls_as_its_gains_say():
 
 
 @pytest.mark.parametrize(
-    ("kind", "changes", "words"),
+    ("kind", "changes"),
     [
-        ("elevator", {"kG": 0.0}, "Told to stand still, the thing sinks about 0.4 m in 1 s."),
-        ("elevator", {"kG": 5.5}, "Told to stand still, the thing climbs about 0.7 m in 1 s."),
-        ("elevator", {"kG": 9.0}, "Told to stand still, the thing climbs about 0.8 m, to its stop"),
-        ("elevator", {"kG": 2.2}, "Asked for 0.5 m/s, the thing is about 0.04 m/s too fast."),
-        ("elevator", {"kG": 2.2}, "It ends about 0.1 m above where it should be."),
-        ("elevator", {"kV": 4.5 / 6.28}, "Asked for 0.5 m/s, the thing reaches about 0.08 m/s."),
-        ("elevator", {"kV": 0.0, "kS": 0.0}, "Asked for 0.5 m/s, the thing hardly moves."),
-        ("elevator", {"kV": -4.5}, "Asked for 0.5 m/s, the thing goes the other way."),
-        ("elevator", {"kV": 60.0}, "Asked for 0.5 m/s, the thing is at its stop."),
-        ("simple", {"kA": 0.0}, "While the thing gets faster, it is up to about 0.2 m/s too slow."),
-        ("simple", {"kA": 0.6}, "While the thing gets faster, it is up to about 0.3 m/s too fast."),
-        ("arm", {"offset_rad": 0.3 - math.pi}, "Told to stand still, the thing sinks"),
+        ("elevator", {"kG": 0.0}),
+        ("elevator", {"kG": 5.5}),
+        ("elevator", {"kG": 9.0}),
+        ("elevator", {"kG": 2.2}),
+        ("elevator", {"kV": 4.5 / 6.28}),
+        ("elevator", {"kV": 0.0, "kS": 0.0}),
+        ("elevator", {"kV": -4.5}),
+        ("elevator", {"kV": 60.0}),
+        ("simple", {"kA": 0.0}),
+        ("simple", {"kA": 0.6}),
+        ("arm", {"offset_rad": 0.3 - math.pi}),
     ],
 )
-def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, words):
-    assert words in followed(kind, **changes).description
+def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, reads):
+    reads(followed(kind, **changes).description)
 
 
 @pytest.mark.parametrize("size", [1e300, -1e300])
@@ -117,10 +116,12 @@ def test_where_only_speed_matters_there_is_one_panel():
     assert [one.ylabel for one in make_profile_traces(spun)] == ["velocity [rot/s]"]
 
 
-def test_what_cannot_be_drawn_is_refused():
+def test_what_cannot_be_drawn_is_refused(reads):
     short = Trace("thing", "way [m]", (0.0, 1.0), (0.0, 1.0), {"what it does": (0.0,)})
 
-    with pytest.raises(BadRequest, match="not one value for each time. Give as many"):
+    with pytest.raises(BadRequest) as refused:
         plot_consequence([short], words="")
-    with pytest.raises(BadRequest, match="no motion to draw"):
+    reads(refused.value)
+    with pytest.raises(BadRequest) as refused:
         plot_consequence([], words="")
+    reads(refused.value)

@@ -75,19 +75,23 @@ def test_a_path_that_leads_to_no_log_is_refused_with_advice(
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
-def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path, reads) -> None:
     os.mkfifo(tmp_path / "log.csv")
 
-    with pytest.raises(UnreadableFile, match="not a file on a disk"):
+    with pytest.raises(UnreadableFile) as refused:
         sim.read(tmp_path / "log.csv")
+    reads(refused.value)
 
 
-def test_an_enormous_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_enormous_file_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, reads
+) -> None:
     sim.write(LOG, tmp_path / "log.csv")
     monkeypatch.setattr(io, "LARGEST_FILE", 10)
 
-    with pytest.raises(UnreadableFile, match="can be read.*Export only the four tests"):
+    with pytest.raises(UnreadableFile) as refused:
         sim.read(tmp_path / "log.csv")
+    reads(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -42,16 +42,14 @@ def test_the_verdict_comes_first_and_the_exit_code_says_the_same(
     assert capsys.readouterr().out.startswith(verdict)
 
 
-def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys):
+def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys, reads):
     answer(course, "size = 1")
     run_command(["1"])
     out = capsys.readouterr().out
 
     assert "got  1" in out
     assert "try  Count again ≈ ±1." in out
-    assert "why  A number means something only with its unit." in out
-    assert "checked after this is right" in out
-    assert "Hint 1 of 3: grade exercise1 --hint" in out
+    reads(out)
     assert max(map(len, out.splitlines())) <= 80
     assert "\x1b" not in out
 
@@ -85,7 +83,7 @@ def test_json_has_these_keys_and_no_others(course, capsys):
     }
 
 
-def test_our_own_error_blames_nobody(course, capsys):
+def test_our_own_error_blames_nobody(course, capsys, reads):
     answer(course, 'size = "boom"')
 
     assert run_command(["exercise1", "--json"]) == 2
@@ -95,7 +93,7 @@ def test_our_own_error_blames_nobody(course, capsys):
     assert result["status"] == "ungradable"
     assert [check["status"] for check in result["checks"]] == ["error", "not-reached"]
     assert err.count("\n") == 1
-    assert "a fault of the course, not yours" in err
+    reads(err)
 
 
 def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, capsys, monkeypatch):
@@ -113,50 +111,50 @@ def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, c
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    "arguments",
     [
-        (["exercise2"], "There are: exercise1."),
-        (["exrcise1"], "Did you mean exercise1?"),
-        (["exercise1", "nowhere.toml"], "nowhere.toml: there is no such file."),
-        (["exercise1", "lessons"], "lessons: no .toml file in this folder. Name the file itself."),
-        (["--json"], "no exercise was named. Say which: grade exercise4 --json"),
-        (["--hint"], "no exercise was named. Say which: grade exercise4 --hint"),
-        (["exercise1", "--color"], "No such option '--color'. See 'grade --help'."),
-        (["exercise1", "a", "b"], "(b). See 'grade --help'."),
-        (["exercise1", "--student", "a/b"], "has a path separator"),
-        (["exercise1", "--student", "a\\b"], "has a path separator"),
-        (["exercise1", "--student", " "], "is empty"),
-        (["exercise1", "--student", "x" * 65], "has 65 characters"),
-        (["exercise1", "--student", "a\x07"], "nobody can see"),
+        ["exercise2"],
+        ["exrcise1"],
+        ["exercise1", "nowhere.toml"],
+        ["exercise1", "lessons"],
+        ["--json"],
+        ["--hint"],
+        ["exercise1", "--color"],
+        ["exercise1", "a", "b"],
+        ["exercise1", "--student", "a/b"],
+        ["exercise1", "--student", "a\\b"],
+        ["exercise1", "--student", " "],
+        ["exercise1", "--student", "x" * 65],
+        ["exercise1", "--student", "a\x07"],
     ],
 )
 @pytest.mark.usefixtures("course")
-def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, said):
+def test_what_cannot_be_done_is_one_line_and_code_2(capsys, arguments, reads):
     assert run_command(arguments) == 2
     out, err = capsys.readouterr()
 
     assert out == ""
     assert err.startswith("grade: ")
     assert err.count("\n") == 1
-    assert said in err
+    reads(err)
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    "text",
     [
-        ("size = 0,5", "Write a decimal point"),
-        ("color = 1\nsize =", "line 2: nothing stands after size ="),
-        ("size is 3", "'size is 3' cannot be read. Every line is a name, = and a number"),
-        ("", "the file is empty. Write your answer into it."),
-        (" \n\n", "git checkout -- exercises/exercise1/answers.toml"),
-        ("size = 3\0", "this is not text"),
+        "size = 0,5",
+        "color = 1\nsize =",
+        "size is 3",
+        "",
+        " \n\n",
+        "size = 3\0",
     ],
 )
-def test_an_answer_file_that_cannot_be_read_names_the_line(course, capsys, text, said):
+def test_an_answer_file_that_cannot_be_read_names_the_line(course, capsys, text, reads):
     answer(course, text)
 
     assert run_command(["exercise1"]) == 2
-    assert said in capsys.readouterr().err
+    reads(capsys.readouterr().err)
 
 
 @pytest.mark.parametrize("name", ["exercise1", "exercise01", "Exercise1", "ex1", "1", "exercise 1"])
@@ -185,13 +183,13 @@ def test_what_windows_editors_save_can_be_read(course, encoding):
 
 
 @pytest.mark.usefixtures("course")
-def test_hints_come_one_by_one_and_then_all_again(capsys):
+def test_hints_come_one_by_one_and_then_all_again(capsys, reads):
     shown = []
     for _ in range(5):
         assert run_command(["exercise1", "--hint"]) == 0
         shown.append(capsys.readouterr().out)
 
-    assert shown[0] == "Hint 1 of 3: Sizes are counted.\n"
+    reads(shown[0])
     assert shown[1].startswith("Hint 2 of 3: Look at the ruler.")
     assert shown[2].startswith("Hint 3 of 3: One, two")
     assert shown[3] == shown[4]

@@ -51,14 +51,14 @@ def make_owlet(folder, *, body):
 def owlet(tmp_path, monkeypatch):
     """Makes owlet, found by its variable."""
 
-    def make(body):
+    def make_handler(body):
         folder = tmp_path / "tools"
         folder.mkdir(exist_ok=True)
         program = make_owlet(folder, body=body)
         monkeypatch.setenv("SYSID_OWLET", str(program))
         return program
 
-    return make
+    return make_handler
 
 
 def copies(path):

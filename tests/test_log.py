@@ -40,28 +40,29 @@ def test_a_run_knows_its_kind_and_direction():
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    "changes",
     [
-        ({"velocity": [0.0, math.nan, 0.5]}, "velocity is nan at sample 1. Remove that sample"),
-        ({"voltage": [0.0, math.inf, 7.0]}, "voltage is inf at sample 1"),
-        ({"position": [0.0, 1e12, 0.0]}, "position is 1e+12 at sample 1"),
-        ({"position": [0.0, 1.0]}, "position has shape (2,) where time has 3 samples"),
-        ({"time": [0.0, 0.02, 0.02]}, "time does not increase at sample 2 (t = 0.02 s)"),
-        ({"current": [1.0]}, "current has shape (1,)"),
+        {"velocity": [0.0, math.nan, 0.5]},
+        {"voltage": [0.0, math.inf, 7.0]},
+        {"position": [0.0, 1e12, 0.0]},
+        {"position": [0.0, 1.0]},
+        {"time": [0.0, 0.02, 0.02]},
+        {"current": [1.0]},
     ],
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )
-def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes, said):
+def test_what_cannot_be_a_measurement_is_refused_with_its_place(changes, reads):
     with pytest.raises(BadSample) as refused:
         run(**changes)
 
-    assert said in str(refused.value)
+    reads(str(refused.value))
     assert str(refused.value).startswith("dynamic-forward: ")
 
 
-def test_a_test_nobody_knows_is_refused_with_those_that_exist():
-    with pytest.raises(BadRequest, match=r"'wobble' is not the name.*quasistatic\|dynamic"):
+def test_a_test_nobody_knows_is_refused_with_those_that_exist(reads):
+    with pytest.raises(BadRequest) as refused:
         run(test="wobble")
+    reads(refused.value)
 
 
 def test_a_log_finds_its_runs_by_test():
@@ -72,13 +73,14 @@ def test_a_log_finds_its_runs_by_test():
     assert log.units == "rotations"
 
 
-def test_two_logs_join_unless_one_is_an_angle():
+def test_two_logs_join_unless_one_is_an_angle(reads):
     meters = Log((run(),), source="a.csv")
     turned = Log((run(),), units="degrees", source="b.csv")
 
     assert len(meters.join(Log((run(),), units="feet")).runs) == 2
-    with pytest.raises(BadRequest, match=r"a\.csv is in meters, b\.csv in degrees. Fit one mech"):
+    with pytest.raises(BadRequest) as refused:
         meters.join(turned)
+    reads(refused.value)
 
 
 def test_doubts_travel_with_the_log():
@@ -88,12 +90,13 @@ def test_doubts_travel_with_the_log():
 
 
 @pytest.mark.parametrize("type_", ["crane", "Simple"])
-def test_a_log_of_no_known_type_is_refused(type_):
-    with pytest.raises(BadRequest, match="Choose one of: simple, elevator, arm"):
+def test_a_log_of_no_known_type_is_refused(type_, reads):
+    with pytest.raises(BadRequest) as refused:
         Log((run(),), type=type_)
+    reads(refused.value)
 
 
-def test_raw_columns_become_si_and_repeated_times_are_said():
+def test_raw_columns_become_si_and_repeated_times_are_said(reads):
     signals = {
         "time": np.array([0.0, 0.02, 0.02, 0.04]),
         "voltage": np.ones(4),
@@ -106,10 +109,10 @@ def test_raw_columns_become_si_and_repeated_times_are_said():
     assert made.velocity.tolist() == [0.0, 2.0, 4.0]
     assert made.position.tolist() == [0.0, 1.0, 2.0]
     (doubt,) = doubts
-    assert "1 of 4 samples repeat the time" in doubt.message
+    reads(doubt.message)
 
 
-def test_raw_columns_are_refused_with_file_run_and_time():
+def test_raw_columns_are_refused_with_file_run_and_time(reads):
     signals = dict.fromkeys(("time", "voltage", "position"), np.arange(3.0))
 
     with pytest.raises(BadSample) as refused:
@@ -120,10 +123,7 @@ def test_raw_columns_are_refused_with_file_run_and_time():
             where="x.csv",
         )
 
-    assert str(refused.value) == (
-        "x.csv, coast-forward: velocity is nan at sample 2 (t = 2 s). "
-        "Remove that sample, or record the run again."
-    )
+    reads(str(refused.value))
 
 
 @pytest.mark.parametrize(
@@ -135,9 +135,10 @@ def test_units_are_worth_what_they_are(name, si):
     assert find_unit(f" {name.upper()} ") is UNITS[name]
 
 
-def test_an_unknown_unit_lists_the_known():
-    with pytest.raises(BadRequest, match="Choose one of: meters, feet, inches, radians"):
+def test_an_unknown_unit_lists_the_known(reads):
+    with pytest.raises(BadRequest) as refused:
         find_unit("furlongs")
+    reads(refused.value)
 
 
 # -- a voltage that slides between samples -------------------------------------------------------

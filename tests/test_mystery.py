@@ -37,7 +37,7 @@ def drawn(number, seed, level=1):
     return draw_mystery(ROOT, MysteryState(number, level, seed))
 
 
-def graded(mystery, answer):
+def grade_answer(mystery, answer):
     return grade_mystery(mystery, answer, student="ann")
 
 
@@ -47,10 +47,10 @@ def test_the_right_answer_to_twenty_mysteries_earns_everything_and_a_wrong_one_n
         mystery = drawn(number, seed, level=1 + seed % HIGHEST)
         wrong = "sign-flip, whole, rerun" if number == FAULTS else "hysteresis"
 
-        assert graded(mystery, mystery.solution).status == "passed", (seed, mystery.solution)
-        assert graded(mystery, wrong).status == "failed", seed
-        assert graded(mystery, "").score == 0.0
-        assert graded(mystery, "no idea at all").score == 0.0
+        assert grade_answer(mystery, mystery.solution).status == "passed", (seed, mystery.solution)
+        assert grade_answer(mystery, wrong).status == "failed", seed
+        assert grade_answer(mystery, "").score == 0.0
+        assert grade_answer(mystery, "no idea at all").score == 0.0
 
 
 def test_the_same_seed_draws_the_same_mystery_whatever_the_class():
@@ -80,7 +80,7 @@ def test_levels_get_harder():
 def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
     mystery = next(one for one in (drawn(FAULTS, seed) for seed in SEEDS) if " to " in one.solution)
     fault, test, _, action = mystery.solution.split(", ")
-    result = graded(mystery, f"{fault}, {test}, 0 to 0.02, {action}")
+    result = grade_answer(mystery, f"{fault}, {test}, 0 to 0.02, {action}")
 
     assert 0.0 < result.score < result.max_score
     assert "not the place" in result.checks[0].hint
@@ -89,7 +89,7 @@ def test_a_fault_in_the_wrong_place_earns_a_part_and_says_so():
 def test_two_effects_in_the_wrong_order_keep_the_points_for_the_names():
     mystery = drawn(EFFECTS, 1, level=3)
     first, second = mystery.solution.split(", ")
-    result = graded(mystery, f"{second} {first}")
+    result = grade_answer(mystery, f"{second} {first}")
 
     assert [one.status for one in result.checks] == ["failed", "passed"]
 

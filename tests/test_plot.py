@@ -139,9 +139,9 @@ def test_velocities_are_in_the_unit_of_the_log():
     )
 
 
-def test_a_line_is_told_in_words_and_numbers():
+def test_a_line_is_told_in_words_and_numbers(reads):
     picture = plot_voltage_velocity(DRIVE, lines={"truth": Line(0.15, 2.524)})
-    assert "meets standstill at 0.150 V and rises by 2.524 V per m/s" in picture.alt
+    reads(picture.alt)
     assert picture.table.rows == (("truth", 0.15, 2.524),)
 
 
@@ -157,10 +157,10 @@ def test_a_small_error_looks_small():
     assert most > 2.4
 
 
-def test_misses_are_squared_and_summed():
+def test_misses_are_squared_and_summed(reads):
     picture = plot_misses([1, 2], [3, 5], intercept=0, slope=2, xlabel="x [m]", ylabel="y [V]")
     assert [row[3] for row in picture.table.rows] == [1.0, 1.0]  # 3 - 2 and 5 - 4
-    assert "the sum of their squares is 2.00 V²" in picture.alt
+    reads(picture.alt)
 
 
 @pytest.mark.parametrize(
@@ -182,22 +182,20 @@ def test_the_table_of_a_curve_is_short():
 
 
 @pytest.mark.parametrize(
-    ("draw", "advice"),
+    "draw",
     [
-        (lambda: plot_choices({}, truth=1.0, name="kA"), "Give at least one value"),
-        (lambda: plot_curves([1, 2], {}, xlabel="", ylabel=""), "Give one or more"),
-        (lambda: plot_curves([1, 2], {"a": [1]}, xlabel="", ylabel=""), "of equal length"),
-        (lambda: plot_time_series(replace(DRIVE, runs=())), "Give a log of a SysIdRoutine"),
-        (
-            lambda: plot_voltage_velocity(replace(DRIVE, runs=DRIVE.runs[2:])),
-            "with a slow ramp in it",
-        ),
+        lambda: plot_choices({}, truth=1.0, name="kA"),
+        lambda: plot_curves([1, 2], {}, xlabel="", ylabel=""),
+        lambda: plot_curves([1, 2], {"a": [1]}, xlabel="", ylabel=""),
+        lambda: plot_time_series(replace(DRIVE, runs=())),
+        lambda: plot_voltage_velocity(replace(DRIVE, runs=DRIVE.runs[2:])),
     ],
     ids=["no choices", "no curves", "a short curve", "an empty log", "no ramp"],
 )
-def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
-    with pytest.raises(BadRequest, match=advice):
+def test_what_cannot_be_drawn_is_refused_with_advice(draw, reads):
+    with pytest.raises(BadRequest) as refused:
         draw()
+    reads(refused.value)
 
 
 @pytest.mark.parametrize("suffix", ["svg", "png", "pdf", "PNG"])

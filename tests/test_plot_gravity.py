@@ -90,20 +90,20 @@ def test_the_table_of_a_band_has_its_middles_and_half_its_widths():
 
 
 @pytest.mark.parametrize(
-    ("offset", "angle", "level"),
-    [(None, "angle [deg]", "at 0 degrees: the arm is level."),
-     (0.0, "reading [deg]", "at 0 degrees: level, if the offset is 0°."),
-     (-25.0, "reading [deg]", "at 25.0 degrees: level, if the offset is −25.0°.")],
+    ("offset", "angle"),
+    [(None, "angle [deg]"),
+     (0.0, "reading [deg]"),
+     (-25.0, "reading [deg]")],
 )  # fmt: skip
-def test_an_offset_is_told_as_the_guess_it_is(offset, angle, level):
+def test_an_offset_is_told_as_the_guess_it_is(offset, angle, reads):
     picture = plot_hold_angles(HOLDS, kg=1.51, ks=0.25, offset=offset)
     assert picture.table.header[0] == angle
-    assert level in picture.alt
+    reads(picture.alt)
 
 
-def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises():
+def test_up_only_is_a_strip_on_which_one_gain_falls_as_the_other_rises(reads):
     picture = PICTURES["ellipses"]()
-    assert "kG [V] changes by −1.00 where kS [V] changes by 1" in picture.alt
+    reads(picture.alt)
     assert picture.table.rows[0] == ("up", "unknown", "unknown")
 
 
@@ -114,17 +114,15 @@ def test_the_errors_of_a_whole_log_are_those_of_the_rows():
 
 
 @pytest.mark.parametrize(
-    ("draw", "advice"),
+    "draw",
     [
-        (lambda: plot_hold_window([1.0], [], window=(1.0, 2.0), marks={}), "as many of both"),
-        (
-            lambda: plot_hold_window([1.0], [0.0], window=(2.0, 1.0), marks={}),
-            "the lower one first",
-        ),
-        (lambda: plot_ellipses({}, names=NAMES, truth=TRUTH, reach=REACH), "at least one set"),
+        lambda: plot_hold_window([1.0], [], window=(1.0, 2.0), marks={}),
+        lambda: plot_hold_window([1.0], [0.0], window=(2.0, 1.0), marks={}),
+        lambda: plot_ellipses({}, names=NAMES, truth=TRUTH, reach=REACH),
     ],
     ids=["a missing speed", "edges swapped", "no rows"],
 )
-def test_what_cannot_be_drawn_is_refused_with_advice(draw, advice):
-    with pytest.raises(BadRequest, match=advice):
+def test_what_cannot_be_drawn_is_refused_with_advice(draw, reads):
+    with pytest.raises(BadRequest) as refused:
         draw()
+    reads(refused.value)

@@ -93,22 +93,19 @@ def test_damage_of_one_sample_can_still_be_seen():
 
 
 @pytest.mark.parametrize(
-    ("where", "words"),
+    "where",
     [
-        (LogInterval(None, "", 0.0, 0.0), "damage, the whole log."),
-        (
-            LogInterval(None, "dynamic-reverse", 0.0, 0.0),
-            "dynamic-reverse, which is not in the log.",
-        ),
-        (LogInterval(1, "quasistatic-reverse", 0.0, 99.0), "all of quasistatic-reverse."),
-        (LogInterval(4, "coast-forward", 35.0, 36.0), "run 4, which is not drawn, 1.00 to 2.00 s"),
+        LogInterval(None, "", 0.0, 0.0),
+        LogInterval(None, "dynamic-reverse", 0.0, 0.0),
+        LogInterval(1, "quasistatic-reverse", 0.0, 99.0),
+        LogInterval(4, "coast-forward", 35.0, 36.0),
     ],
     ids=["the log", "no run", "a whole run", "a test of another kind"],
 )
-def test_damage_that_no_box_can_show_is_told(where, words):
+def test_damage_that_no_box_can_show_is_told(where, reads):
     log = replace(FOUR, runs=(*FOUR.runs, run_of("coast-forward")))
     picture = plot_time_series(log, damages=[where])
-    assert words in picture.alt
+    reads(picture.alt)
     assert len(_boxes(picture)) == (2 if where.run == 1 else 0)
 
 
@@ -121,19 +118,17 @@ def test_much_damage_is_summed_up():
 
 
 @pytest.mark.parametrize(
-    ("where", "said"),
+    "where",
     [
-        (LogInterval(4, "coast-forward", 0.0, 1.0), "run 4 of a log whose runs are 0 to 3"),
-        (
-            LogInterval(0, "quasistatic-forward", 11.5, 11.8),
-            "11.50 to 11.80 s, but quasistatic-forward",
-        ),
+        LogInterval(4, "coast-forward", 0.0, 1.0),
+        LogInterval(0, "quasistatic-forward", 11.5, 11.8),
     ],
     ids=["no such run", "no such time"],
 )
-def test_damage_of_another_log_is_refused(where, said):
-    with pytest.raises(BadRequest, match=f"{said}.*Give damages that were found in this very log"):
+def test_damage_of_another_log_is_refused(where, reads):
+    with pytest.raises(BadRequest) as refused:
         plot_time_series(FOUR, damages=[where])
+    reads(refused.value)
 
 
 def test_damage_does_not_change_what_the_picture_shows():
@@ -159,28 +154,25 @@ def test_gravity_shows_on_both_sides_of_standstill():
     assert low < 0.8 - 0.2 < 0.8 + 0.2 < high  # kG ± kS, where the two directions meet standstill
 
 
-def test_the_words_tell_where_motion_begins_on_the_way_the_test_is_called():
+def test_the_words_tell_where_motion_begins_on_the_way_the_test_is_called(reads):
     # 5 % of the top speed, (5.00 + 0.80 - 0.2)/2 = 2.79 m/s, is 0.14 m/s: 0.2 + 0.8 + 2·0.14 V
-    assert (
-        "they move forward, faster than 0.14 m/s, from 1.28 V on"
-        in plot_voltage_velocity(ELEVATOR).alt
-    )
+    reads(plot_voltage_velocity(ELEVATOR).alt)
     flipped = replace(FOUR.runs[0], velocity=-FOUR.runs[0].velocity)
     assert "faster than 0.12 m/s, nowhere" in plot_voltage_velocity(Log((flipped,))).alt
 
 
-def test_the_words_measure_how_straight_the_samples_lie():
+def test_the_words_measure_how_straight_the_samples_lie(reads):
     straight = plot_voltage_velocity(FOUR)
-    assert "in motion they stray 0.000 V from a straight line" in straight.alt
+    reads(straight.alt)
     bent = replace(FOUR.runs[0], velocity=np.sqrt(FOUR.runs[0].velocity))
     assert plot_voltage_velocity(Log((bent,))).table.rows[0][-1] > 0.1
 
 
-def test_tests_that_are_no_ramps_are_left_out_and_repeated_ones_counted():
+def test_tests_that_are_no_ramps_are_left_out_and_repeated_ones_counted(reads):
     extra = [run_of(f"{kind}-forward") for kind in KINDS[2:]]
     log = replace(FOUR, runs=(*FOUR.runs, *extra, run_of("quasistatic-forward", start=80.0)))
     picture = plot_voltage_velocity(log)
-    assert "The 1000 samples of the 2 forward tests" in picture.alt
+    reads(picture.alt)
     (legend,) = (axes.get_legend() for axes in picture.figure.axes[:1])
     assert [text.get_text() for text in legend.get_texts()] == ["forward", "reverse"]
 

@@ -44,7 +44,7 @@ def solved(tmp_path_factory):
     return solver().solve(OWN.folder, room)
 
 
-def graded(folder, texts, *, student="ann", **answers):
+def grade_answer(folder, texts, *, student="ann", **answers):
     """The results of an answer, by check."""
     for name, text in texts.items():
         if name == "answers.toml":
@@ -107,14 +107,14 @@ def test_five_steps_are_checked_as_in_their_exercises():
 
 @pytest.mark.parametrize("language", ["java", "Python"])
 def test_without_a_robot_everything_can_be_earned_in_either_language(tmp_path, solved, language):
-    results = graded(tmp_path, solved, language=f'"{language}"')
+    results = grade_answer(tmp_path, solved, language=f'"{language}"')
 
     assert lacking(results) == {}
 
 
 def test_with_a_robot_everything_can_be_earned(tmp_path, solved):
     answers, found = robot(tmp_path)
-    results = graded(tmp_path, {**solved, **constants(found)}, **answers)
+    results = grade_answer(tmp_path, {**solved, **constants(found)}, **answers)
 
     assert lacking(results) == {}
 
@@ -122,11 +122,11 @@ def test_with_a_robot_everything_can_be_earned(tmp_path, solved):
 def test_a_poor_fit_asks_what_is_suspected(tmp_path, solved):
     answers, found = robot(tmp_path, noise=0.6)
     texts = {**solved, **constants(found)}
-    silent = graded(tmp_path, texts, **answers)["hypothesis"]
-    vague = graded(tmp_path, texts, **answers, hypothesis='"wheel-slip"')["hypothesis"]
-    strange = graded(tmp_path, texts, **answers, hypothesis='"bad luck"')["hypothesis"]
+    silent = grade_answer(tmp_path, texts, **answers)["hypothesis"]
+    vague = grade_answer(tmp_path, texts, **answers, hypothesis='"wheel-slip"')["hypothesis"]
+    strange = grade_answer(tmp_path, texts, **answers, hypothesis='"bad luck"')["hypothesis"]
     said = '"The wheels: chalk on the floor shows where they slip."'
-    whole = graded(tmp_path, texts, **answers, hypothesis='"wheel-slip"', first_check=said)
+    whole = grade_answer(tmp_path, texts, **answers, hypothesis='"wheel-slip"', first_check=said)
 
     assert found.simulated_velocity_r2 < 0.9
     assert "Choose one of" in silent.hint
@@ -149,7 +149,7 @@ def test_a_poor_fit_asks_what_is_suspected(tmp_path, solved):
 )
 def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, says):
     answers, found = robot(tmp_path)
-    results = graded(tmp_path, {**solved, **constants(found)}, **{**answers, **changed})
+    results = grade_answer(tmp_path, {**solved, **constants(found)}, **{**answers, **changed})
     first = next(one for one in results.values() if one.id.startswith(check.partition("-")[0]))
 
     assert {one.status for one in results.values()} <= {"passed", "failed", "not-reached"}
@@ -157,7 +157,7 @@ def test_what_is_missing_is_told_and_no_crash(tmp_path, solved, changed, check, 
 
 
 def test_an_r2_of_one_is_no_measurement(tmp_path, solved):
-    found = graded(tmp_path, solved, simulated_velocity_r2="1")["r2"]
+    found = grade_answer(tmp_path, solved, simulated_velocity_r2="1")["r2"]
 
     assert (found.points, found.misconception) == (0, "M-R2")
     assert "An R² of 1 would mean a" in found.hint
@@ -167,7 +167,7 @@ def test_files_may_have_names_of_their_own(tmp_path, solved):
     texts = {**solved, "Arm.java": solved["ExampleSubsystem.java"]}
     texts["ExampleSubsystem.java"] = "public class Empty {}\n"
     texts["answers.toml"] += 'subsystem = "Arm.java"\n'
-    own = graded(tmp_path, texts)
+    own = grade_answer(tmp_path, texts)
 
     assert own["routine-step"].status == "passed"
 
@@ -175,7 +175,7 @@ def test_files_may_have_names_of_their_own(tmp_path, solved):
 def test_constants_are_held_against_what_was_measured(tmp_path, solved):
     texts = dict(solved)
     texts["ExampleSubsystem.java"] = texts["ExampleSubsystem.java"].replace("kV = ", "kV = 3 * ")
-    results = graded(tmp_path, texts)
+    results = grade_answer(tmp_path, texts)
 
     assert results["constants-kv"].status == "failed"
     assert results["gains-kv"].status == "passed"
@@ -183,7 +183,7 @@ def test_constants_are_held_against_what_was_measured(tmp_path, solved):
 
 def test_a_wrong_gain_does_not_cost_the_constants_too(tmp_path, solved):
     texts = {**solved, "answers.toml": scale_numbers(2.0, "kV")(solved["answers.toml"])}
-    results = graded(tmp_path, texts)
+    results = grade_answer(tmp_path, texts)
 
     assert results["gains-kv"].status == "failed"
     assert results["constants-kv"].status == "passed"
@@ -228,8 +228,8 @@ def test_two_mechanisms_in_one_answer_do_not_earn_everything(tmp_path, solved):
     write(log, tmp_path / "mine.wpilog")
     fifth = (ROOT / "solutions" / "exercise5" / "RobotContainer.java").read_text(encoding="utf-8")
     texts = {**solved, "RobotContainer.java": fifth}
-    twice = graded(tmp_path, texts)["one-mechanism"]
-    turning = graded(tmp_path, solved, log='"mine.wpilog"')["one-mechanism"]
+    twice = grade_answer(tmp_path, texts)["one-mechanism"]
+    turning = grade_answer(tmp_path, solved, log='"mine.wpilog"')["one-mechanism"]
 
     assert (twice.points, turning.points) == (0, 1)
     assert (

@@ -59,7 +59,7 @@ each_case = pytest.mark.parametrize("name", TABLE)
 
 
 @pytest.fixture(scope="module")
-def made():
+def cases_by_name():
     """Name -> five logs of that case."""
     by_name = {}
     for seed in SEEDS:
@@ -81,13 +81,13 @@ def measured(five):
     return np.median(rows, axis=0)
 
 
-def test_every_row_of_the_reference_is_made(made):
-    assert list(made) == list(TABLE)
+def test_every_row_of_the_reference_is_made(cases_by_name):
+    assert list(cases_by_name) == list(TABLE)
 
 
 @each_case
-def test_our_bench_finds_what_the_table_says(name, made):
-    found, expected = measured(made[name]), np.array(TABLE[name][0])
+def test_our_bench_finds_what_the_table_says(name, cases_by_name):
+    found, expected = measured(cases_by_name[name]), np.array(TABLE[name][0])
     most = np.array([6.0, 1.5, 6.0, 0.05, 0.01])
     most[:3] += 0.08 * np.abs(expected[:3])
     if name in LUCKY:
@@ -97,8 +97,8 @@ def test_our_bench_finds_what_the_table_says(name, made):
 
 
 @each_case
-def test_two_benches_agree_or_it_is_said_why_not(name, made):
-    assert agree(measured(made[name]), TABLE[name][1]) == (name not in DIFFERS)
+def test_two_benches_agree_or_it_is_said_why_not(name, cases_by_name):
+    assert agree(measured(cases_by_name[name]), TABLE[name][1]) == (name not in DIFFERS)
 
 
 def agree(ours, theirs):
@@ -115,9 +115,9 @@ def about(one, other):
     return one * other > 0 and 1 / TWICE <= one / other <= TWICE
 
 
-def test_seventeen_of_nineteen_pass_for_good(made):
+def test_seventeen_of_nineteen_pass_for_good(cases_by_name):
     """The reference's count leaves the weak battery out: it would be a twentieth, and passes."""
-    wrong = [five for name, five in made.items() if five[0].harmful]
+    wrong = [five for name, five in cases_by_name.items() if five[0].harmful]
     counted = [five for five in wrong if five[0].name != "commanded volts, 10 V step"]
     passing = [five for five in counted if all(case.has_good_r2 for case in five)]
 
@@ -129,22 +129,24 @@ def test_seventeen_of_nineteen_pass_for_good(made):
     }
 
 
-def test_ka_is_fragile_kv_robust_and_ks_between(made):
+def test_ka_is_fragile_kv_robust_and_ks_between(cases_by_name):
     scales = ("wrong gear ratio", "encoder the wrong way")  # these are no damage but another unit
-    rows = np.array([measured(five) for name, five in made.items() if name not in scales])
+    rows = np.array([measured(five) for name, five in cases_by_name.items() if name not in scales])
     kv, ks, ka = (np.median(np.abs(rows[:, column])) for column in (1, 0, 2))
 
     assert kv < 1.0 < ks < ka
     assert ka > 30.0
 
 
-def test_no_score_sees_a_wrong_ratio_or_a_wrong_sign(made):
+def test_no_score_sees_a_wrong_ratio_or_a_wrong_sign(cases_by_name):
     for name in ("wrong gear ratio", "encoder the wrong way"):
-        assert measured(made[name])[3:] == pytest.approx(measured(made["clean"])[3:], abs=0.02)
+        assert measured(cases_by_name[name])[3:] == pytest.approx(
+            measured(cases_by_name["clean"])[3:], abs=0.02
+        )
 
 
-def test_the_highest_acceleration_r2_of_all_belongs_to_a_log_of_asked_volts(made):
-    best = max(made, key=lambda name: measured(made[name])[3])
+def test_the_highest_acceleration_r2_of_all_belongs_to_a_log_of_asked_volts(cases_by_name):
+    best = max(cases_by_name, key=lambda name: measured(cases_by_name[name])[3])
 
     assert best == "commanded volts, 7 V step"
 
@@ -167,7 +169,7 @@ def test_the_drivetrain_is_the_one_of_the_reference():
     assert DRIVETRAIN.gains == pytest.approx(dict(kS=0.15, kV=2.524, kA=0.191), rel=3e-3)
 
 
-def test_every_case_tells_its_story(made):
-    for five in made.values():
+def test_every_case_tells_its_story(cases_by_name):
+    for five in cases_by_name.values():
         assert len(five[0].story.split()) > 2
         assert not five[0].story.endswith(".")

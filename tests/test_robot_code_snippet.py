@@ -271,22 +271,22 @@ MILD = Doubt("late", "The velocity lags by 40 ms.")
 
 
 @pytest.mark.parametrize(
-    ("changes", "asked", "said"),
+    ("changes", "asked"),
     [
-        ({}, {"language": "c++"}, "unknown language 'c++'. Choose one of: java, python."),
-        ({}, {"season": 2025}, "unknown season 2025. Choose one of: 2026, 2027."),
-        ({}, {"name": "2 arms"}, "no class can be called after '2 arms'. Begin the name"),
-        ({"doubts": (GRAVE,)}, {}, "cannot be right: kG = -1 is negative"),
-        ({"gains": GAINS | {"kV": -2.5}}, {}, "no code for kV = -2.5"),
-        ({"gains": GAINS | {"kA": -0.1}}, {}, "no code for kA = -0.1"),
-        ({"gains": GAINS | {"kS": math.nan}}, {}, "no code for kS = nan"),
+        ({}, {"language": "c++"}),
+        ({}, {"season": 2025}),
+        ({}, {"name": "2 arms"}),
+        ({"doubts": (GRAVE,)}, {}),
+        ({"gains": GAINS | {"kV": -2.5}}, {}),
+        ({"gains": GAINS | {"kA": -0.1}}, {}),
+        ({"gains": GAINS | {"kS": math.nan}}, {}),
     ],
 )
-def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked, said):
+def test_what_cannot_be_pasted_is_refused_in_one_line(changes, asked, reads):
     with pytest.raises(BadRequest) as refused:
         write_robot_code(found("simple", **changes), **({"language": "java"} | asked))
 
-    assert said in str(refused.value)
+    reads(str(refused.value))
     assert "\n" not in str(refused.value)
 
 

@@ -1,12 +1,19 @@
 """Facts about robots that texts and starters rely on, worked out from the mechanisms themselves."""
 
+import subprocess
+import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from exercises.exercise6.preflight import WHY
 from exercises.exercise12.drawn import TESTS
 from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
+from sim.physics.model import Part
 from sim.physics.motors import MOTORS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -38,7 +45,7 @@ def test_a_test_begins_with_a_full_battery():
     lesson = (ROOT / "lessons/05_preflight_and_run.py").read_text(encoding="utf-8")
 
     assert "12.5 V" in WHY["battery"]
-    assert "**12.5 V or more at rest**, and for 20 mΩ or less" in lesson
+    assert "**12.5 V or more at rest**. On a battery tester, require 20 mΩ or less" in lesson
 
 
 @pytest.mark.parametrize("folder", ["exercises", "solutions"])
@@ -53,3 +60,71 @@ def test_a_test_begins_with_a_full_battery():
 )
 def test_forward_is_plus_for_the_right_side_and_for_the_stick(folder, file, words):
     assert words in (ROOT / folder / file).read_text(encoding="utf-8")
+
+
+ROUTINE = """
+import commands2
+from commands2.sysid import SysIdRoutine
+from wpilib.sysid import State, SysIdRoutineLog
+
+lift = commands2.Subsystem()
+mechanism = SysIdRoutine.Mechanism(lambda volts: None, {log}, lift)
+test = SysIdRoutine(SysIdRoutine.Config(), mechanism).dynamic(SysIdRoutine.Direction.kForward)
+test.initialize()
+for _ in range(3):
+    test.execute()
+print("says", str(State.kDynamicForward), SysIdRoutineLog.stateEnumToString(State.kDynamicForward))
+"""
+
+
+def run_routine(log, folder):
+    """A test of WPILib's own routine with this log callback, three loops long."""
+    pytest.importorskip("commands2")
+    return subprocess.run(
+        [sys.executable, "-c", ROUTINE.format(log=log)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+
+
+def test_none_for_the_log_callback_fails_in_the_first_loop(tmp_path):
+    failed = run_routine("None", tmp_path)
+
+    assert failed.returncode != 0
+    assert "TypeError: 'NoneType' object is not callable" in failed.stderr
+    assert run_routine("lambda log: None", tmp_path).returncode == 0
+
+
+def test_only_state_enum_to_string_makes_the_word_that_sysid_looks_for(tmp_path):
+    lines = run_routine("lambda log: None", tmp_path).stdout.splitlines()
+    _, name, word = next(line for line in lines if line.startswith("says")).split()
+
+    assert name == "State.kDynamicForward"
+    assert word == "dynamic-forward"
+
+
+def test_the_readme_of_exercise_4_warns_once_of_a_step_that_slips():
+    text = " ".join((ROOT / "exercises/exercise4/README.md").read_text(encoding="utf-8").split())
+
+    assert text.count("slips below 3.5 V") == 1
+    assert "spin the wheels" not in text
+
+
+def test_lesson_9_reaches_the_limit_with_the_hard_step_alone():
+    """Below the limit nothing changes by a digit; above it everything does."""
+    free = replace(MECHANISMS["drivetrain"], stator=np.inf, supply=np.inf, brownout=0.0)
+    limited = replace(free, hidden=(Part("current-limit", {"limit": 3.0}),))
+
+    def velocity(robot, step):
+        routine = Routine(1.0, step, timeout=2.0, kinds=("dynamic",))
+        return simulate(robot, routine, rng=np.random.default_rng(1)).runs[0].velocity
+
+    assert np.array_equal(velocity(limited, 2.5), velocity(free, 2.5))
+    assert not np.allclose(velocity(limited, 6.0), velocity(free, 6.0), rtol=0.05)
+    lesson = (ROOT / "lessons/09_reality_gap.py").read_text(encoding="utf-8")
+    assert 'Part("current-limit", {"limit": 3.0})' in lesson
+    assert "gentle = simulate(limited, sim.Routine(1.0, 2.5" in lesson
+    assert "hard = simulate(limited, sim.Routine(1.0, 6.0" in lesson

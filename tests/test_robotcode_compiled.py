@@ -258,7 +258,13 @@ OUT_OF_SIGHT = {
     "wpilib/ThirdPartyFactory.java": "swervelib",
     "wpilib/WrongSubsystem.java": "frc.robot.subsystems",  # a class of the same robot
 }
-TOGETHER = ("advantagekit", "swerve/advantagekit", "team", "teams", "wpilib/split")
+TOGETHER = (
+    "advantagekit",
+    *(f"swerve/{one.name}" for one in sorted((CORPUS / "swerve").glob("advantagekit*"))),
+    "team",
+    "teams",
+    "wpilib/split",
+)
 
 
 @pytest.fixture(scope="module")

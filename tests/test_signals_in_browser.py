@@ -25,7 +25,7 @@ def viewer(browser, tmp_path):
     """Opens a log with its signals alone; spans are written as exercise 7 asks for them."""
     tabs = []
 
-    def show(log, *, name="log04.wpilog", span_text=FAULTS, viewport=DESKTOP, theme="light"):
+    def show_log(log, *, name="log04.wpilog", span_text=FAULTS, viewport=DESKTOP, theme="light"):
         file = write_log(log, tmp_path / name)
         folder = tmp_path / f"session {len(tabs)}"
         folder.mkdir()
@@ -35,7 +35,7 @@ def viewer(browser, tmp_path):
         wait_until(tab.page, "sysid.chart.pictures > 0 && sysid.chart.runs.length === 4")
         return tab.page
 
-    yield show
+    yield show_log
     for tab, server in tabs:
         tab.__exit__()
         server.__exit__(None, None, None)

@@ -56,7 +56,7 @@ def build(folder, **variables):
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory):
+def built_site(tmp_path_factory):
     """The built site: path -> page."""
     folder = tmp_path_factory.mktemp("site")
     done = build(folder)
@@ -93,8 +93,8 @@ def lost_links(folder, pages):
                     yield f"{name}: {link}"
 
 
-def test_every_lesson_and_every_exercise_has_a_page_that_the_navigation_leads_to(site):
-    _, pages = site
+def test_every_lesson_and_every_exercise_has_a_page_that_the_navigation_leads_to(built_site):
+    _, pages = built_site
     expected = {f"lessons/{path.stem}.html" for path in (ROOT / "lessons").glob("*.py")}
     expected |= {
         f"exercises/{path.parent.name}/index.html"
@@ -105,8 +105,8 @@ def test_every_lesson_and_every_exercise_has_a_page_that_the_navigation_leads_to
     assert expected <= set(pages["index.html"].links)
 
 
-def test_every_link_within_the_site_leads_to_a_page_and_to_its_anchor(site):
-    assert list(lost_links(*site)) == []
+def test_every_link_within_the_site_leads_to_a_page_and_to_its_anchor(built_site):
+    assert list(lost_links(*built_site)) == []
 
 
 def test_a_lost_link_and_a_lost_anchor_are_seen(tmp_path):
@@ -118,8 +118,8 @@ def test_a_lost_link_and_a_lost_anchor_are_seen(tmp_path):
     assert list(lost_links(tmp_path, pages)) == ["a.html: b.html#x", "a.html: c.html"]
 
 
-def test_a_page_loads_nothing_from_elsewhere(site):
-    folder, pages = site
+def test_a_page_loads_nothing_from_elsewhere(built_site):
+    folder, pages = built_site
     elsewhere = {
         f"{name}: {loaded}"
         for name, page in pages.items()
@@ -136,8 +136,8 @@ def test_a_page_loads_nothing_from_elsewhere(site):
     assert styles == []
 
 
-def test_what_a_page_loads_is_there(site):
-    folder, pages = site
+def test_what_a_page_loads_is_there(built_site):
+    folder, pages = built_site
 
     assert {
         f"{name}: {loaded}"
@@ -149,15 +149,15 @@ def test_what_a_page_loads_is_there(site):
     } == set()
 
 
-def test_every_picture_has_words(site):
-    assert {name: page.wordless for name, page in site[1].items() if page.wordless} == {}
+def test_every_picture_has_words(built_site):
+    assert {name: page.wordless for name, page in built_site[1].items() if page.wordless} == {}
 
 
 @pytest.mark.parametrize(
     "lesson", sorted((ROOT / "lessons").glob("*.ipynb")), ids=lambda path: path.stem
 )
-def test_a_lesson_says_how_to_run_it_and_offers_its_notebook(site, lesson):
-    folder, pages = site
+def test_a_lesson_says_how_to_run_it_and_offers_its_notebook(built_site, lesson):
+    folder, pages = built_site
     links = pages[f"lessons/{lesson.stem}.html"].links
 
     assert "../guide.html#run-a-lesson" in links

@@ -174,19 +174,20 @@ def test_many_tries_at_one_answer_are_not_the_best_of_them(tmp_path, course, mon
     assert "5 files here could be the answer (a0.toml, a1.toml, a2.toml, …)" in page
 
 
-def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course):
+def test_a_stranger_is_told_with_the_likely_student_and_not_graded(tmp_path, course, reads):
     place = tmp_path / "in" / "Jane Dow" / "exercise1"
     place.mkdir(parents=True)
     (place / "answers.toml").write_text(RIGHT, encoding="utf-8")
     (one,) = find_submissions(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
 
     assert one.files == {}
-    assert "Jane Dow belongs to nobody on the roster; perhaps jdoe" in one.problem
+    reads(one.problem)
 
 
-def test_two_folders_of_one_student_are_refused(tmp_path, course):
+def test_two_folders_of_one_student_are_refused(tmp_path, course, reads):
     for name in ("Jane Doe", "Doe Jane"):
         (tmp_path / "in" / name).mkdir(parents=True)
 
-    with pytest.raises(BadRequest, match="belong to one student"):
+    with pytest.raises(BadRequest) as refused:
         find_submissions(tmp_path / "in", course, roster=people(tmp_path, CANVAS))
+    reads(refused.value)

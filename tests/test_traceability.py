@@ -25,9 +25,16 @@ EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 LESSONS = {path.stem[:2]: path for path in sorted((ROOT / "lessons").glob("*.py"))}
 HEADING = re.compile(r"^(?P<level>#{2,3}) (?:(?P<number>\d+) )?(?P<title>.+)$", re.MULTILINE)
 
+PINNED = re.compile(
+    r"https://github\.com/[\w.-]+/[\w.-]+/blob/(?:v\d[\w.]*|[0-9a-f]{40})/\S+"
+    r"|https://pypi\.org/project/[\w-]+/\d[\w.]*/"
+    r"|[A-Z][\w, ]+, \*[^*]+\*.* ?\(\d{4}\), (?:section|chapter) [\d.]+"  # a book
+)
+
 ITEMS = [*TABLE["item"], *TABLE["added"]]
 each_item = pytest.mark.parametrize("item", ITEMS, ids=lambda item: item["says"])
 each_claim = pytest.mark.parametrize("claim", TABLE["claim"], ids=lambda claim: claim["row"])
+each_fact = pytest.mark.parametrize("fact", TABLE["fact"], ids=lambda fact: fact["says"])
 each_lesson = pytest.mark.parametrize("lesson", LESSONS)
 
 
@@ -64,6 +71,12 @@ def boxes(lesson):
     """Of every box: what the source lesson says, and what stands against it."""
     quotes = [unquoted(one) for one in re.findall(r"(?:^>.*\n)+", prose(lesson), re.MULTILINE)]
     return [one.partition("**Source says:**")[::2] for one in quotes if "**Lesson says:**" in one]
+
+
+def one_line(path):
+    """A file's text without Python's string breaks, and every run of spaces as one space."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    return " ".join(re.sub(r'"\n\s*f?"', "", text).split())
 
 
 def assert_taught(lesson, heading, words):
@@ -121,15 +134,38 @@ def test_a_claim_of_the_source_lesson_stands_beside_the_fact(claim):
     assert claim.get("boxes") or claim.get("prose")
 
 
-@pytest.mark.parametrize("fact", TABLE["fact"], ids=lambda fact: fact["says"])
+@each_fact
 def test_a_fact_is_taught_where_the_table_says(fact):
-    assert fact["taught"]
-    for place in fact["taught"]:
+    assert fact.get("taught") or fact.get("texts")
+    for place in fact.get("taught", []):
         assert_taught(*place)
+    for path, words in fact.get("texts", []):
+        assert words in one_line(path), f"{path}: {words!r} is gone"
+
+
+@each_fact
+def test_a_fact_has_a_test_that_shows_it(fact):
+    assert fact["tests"]
+    for one in fact["tests"]:
+        name, _, function = one.partition("::")
+        text = (ROOT / "tests" / name).read_text(encoding="utf-8")
+        assert f"\ndef {function}(" in text, f"tests/{name} has no {function}"
+
+
+@each_fact
+def test_a_fact_has_its_source_beside_it_at_one_version(fact):
+    beside = [sections(lesson)[title][1] for lesson, title, _ in fact.get("taught", [])]
+    beside += [one_line(path) for path, _ in fact.get("texts", [])]
+    assert fact["sources"]
+    for source in fact["sources"]:
+        assert PINNED.fullmatch(source), f"not of one version: {source}"
+        assert any(source in text for text in beside), f"not beside what it says: {source}"
 
 
 def test_links_to_source_code_are_pinned():
-    moving = re.compile(r"github\.com/\S+?/(?:blob|tree)/(?:main|master)/")
+    moving = re.compile(
+        r"github\.com/\S+?/(?:blob|tree)/(?:main|master)/|github\.wpilib\.org/\S+/(?:release|development)/"
+    )
     for folder in ("lessons", "exercises", "sim"):
         for path in (ROOT / folder).rglob("*"):
             if path.suffix in {".py", ".md", ".toml"}:

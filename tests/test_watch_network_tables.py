@@ -105,7 +105,7 @@ def wait_for(condition, look):
     return found
 
 
-def connect(live, *, times=1):
+def wait_for_values(live, *, times=1):
     """Wait until values come in one by one, for the first time or again."""
 
     def beats(_):
@@ -125,7 +125,7 @@ def disconnect(live):
 
 def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(drive, start, watched):
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     said = []
     for number in range(4):
         robot.publish(number)
@@ -146,7 +146,7 @@ def test_a_constant_voltage_is_held_and_the_gains_are_those_of_the_kept_file(dri
 
 def test_a_step_alone_is_found_by_the_voltage_that_was_there_before_it(start, watched):
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     robot.publish(2)
     update = wait_for(lambda one: one, watched.poll)
 
@@ -159,7 +159,7 @@ def test_a_step_alone_is_found_by_the_voltage_that_was_there_before_it(start, wa
 
 def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(start, watched):
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     robot.publish(0)
     wait_for(lambda one: one, watched.poll)
     robot.publish(1, share=0.5, ends=False)
@@ -168,7 +168,7 @@ def test_a_robot_that_starts_again_loses_the_test_that_was_running_and_no_other(
     robot.stop()
     disconnect(watched)
     robot = start()
-    connect(watched, times=2)
+    wait_for_values(watched, times=2)
     for number in (1, 2, 3):
         robot.publish(number)
         update = wait_for(lambda one: one, watched.poll)
@@ -188,7 +188,7 @@ def test_a_test_whose_begin_nobody_saw_does_not_count(start, port, tmp_path):
     robot.publish(0, share=0.5, ends=False)
     source = NetworkTablesSource(f"127.0.0.1:{port}", folder=tmp_path / "late")
     live = LiveFit(source, READ)
-    connect(live)
+    wait_for_values(live)
     robot.clock = 60.0
     robot.publish(1)
     update = wait_for(lambda one: one, live.poll)
@@ -208,7 +208,7 @@ def test_a_recording_never_replaces_a_file(start, watched, tmp_path):
     kept = tmp_path / "kept" / "networktables-1.wpilog"
     kept.write_text("mine", encoding="utf-8")
     robot = start()
-    connect(watched)
+    wait_for_values(watched)
     robot.publish(0)
     update = wait_for(lambda one: one, watched.poll)
 

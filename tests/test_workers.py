@@ -54,7 +54,7 @@ def hand_in(place, **does):
     return place
 
 
-def graded(course, there, out, *, seconds):
+def grade_answer(course, there, out, *, seconds):
     """Student -> score and reason, and who was graded in this run."""
     work = GradedClass(
         find_submissions(there, list_exercises(course)), list_exercises(course), course
@@ -72,7 +72,7 @@ def graded(course, there, out, *, seconds):
 
 def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_path):
     there = hand_in(tmp_path / "in", ann="", ben="hang", cat="die", dan="eat", eve="", fay="")
-    results, _ = graded(course, there, tmp_path / "out", seconds=4.0)
+    results, _ = grade_answer(course, there, tmp_path / "out", seconds=4.0)
 
     assert {name: score for name, (score, _) in results.items()} == {
         "ann": 3.0, "ben": 0.0, "cat": 0.0, "dan": 0.0, "eve": 3.0, "fay": 3.0,
@@ -81,7 +81,7 @@ def test_what_hangs_dies_or_eats_memory_is_named_and_stops_nobody(course, tmp_pa
     assert results["cat"][1] == workers.ENDED
     assert results["dan"][1] == "grading it needed more memory than this computer has"
     assert multiprocessing.active_children() == []
-    _, again = graded(course, there, tmp_path / "out", seconds=4.0)
+    _, again = grade_answer(course, there, tmp_path / "out", seconds=4.0)
     assert again == []  # what hung is not tried again
 
 

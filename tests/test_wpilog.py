@@ -226,14 +226,15 @@ def test_dashes_in_names_are_split_by_the_mechanism(
     assert log.runs_of_test("dynamic-forward")[0].voltage[0] == 7.0 * sign
 
 
-def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path) -> None:
+def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path, reads) -> None:
     logger = Logger()
     routine(logger, Motor("a"), mechanism="Arm")
     routine(logger, Motor("b"), mechanism="Wrist", begin=10**9)
     path = logger.save(tmp_path / "log.wpilog")
 
-    with pytest.raises(BadRequest, match=r"1 'Arm', 2 'Wrist'.*--state .*one routine per log"):
+    with pytest.raises(BadRequest) as refused:
         sim.read(path)
+    reads(refused.value)
     assert sim.read(path, motor="b").mechanism == "Wrist"
     assert sim.read(path, entries={"state": "sysid-test-state-Arm"}).mechanism == "Arm"
 
@@ -241,7 +242,7 @@ def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path) -> None:
 LEFT, RIGHT = Motor("drive-left"), Motor("drive-right", sign=0.5)
 
 
-def test_two_motors_count_as_their_mean(tmp_path: Path) -> None:
+def test_two_motors_count_as_their_mean(tmp_path: Path, reads) -> None:
     log = sim.read(saved(tmp_path, LEFT, RIGHT))
 
     u, x, v = expected("dynamic-forward", range(39))
@@ -250,7 +251,7 @@ def test_two_motors_count_as_their_mean(tmp_path: Path) -> None:
     np.testing.assert_allclose(run.position, 0.75 * x)
     np.testing.assert_allclose(run.velocity, 0.75 * v)
     assert codes(log) == ["several-motors"]
-    assert "'drive-left', 'drive-right'" in log.doubts[0].message
+    reads(log.doubts[0].message)
     assert "--motor NAME" in log.doubts[0].message
 
 
@@ -263,28 +264,30 @@ def test_a_motor_is_chosen_by_its_name_or_its_end(tmp_path: Path, name: str) -> 
 
 
 @pytest.mark.parametrize(
-    ("name", "what"),
+    "name",
     [
-        pytest.param("middle", "is not a motor here of 'Arm'", id="no such motor"),
-        pytest.param("t", "fits several motors", id="an end that two have"),
+        pytest.param("middle", id="no such motor"),
+        pytest.param("t", id="an end that two have"),
     ],
 )
-def test_a_motor_that_cannot_be_told_is_refused(tmp_path: Path, name: str, what: str) -> None:
-    with pytest.raises(BadRequest, match=f"{what}.*drive-left, drive-right"):
+def test_a_motor_that_cannot_be_told_is_refused(tmp_path: Path, name: str, reads) -> None:
+    with pytest.raises(BadRequest) as refused:
         sim.read(saved(tmp_path, LEFT, RIGHT), motor=name)
+    reads(refused.value)
 
 
-def test_motors_against_each_other_are_not_averaged(tmp_path: Path) -> None:
+def test_motors_against_each_other_are_not_averaged(tmp_path: Path, reads) -> None:
     path = saved(tmp_path, LEFT, Motor("drive-right", sign=-1))
 
-    with pytest.raises(BadRequest, match=r"'drive-left' and 'drive-right'.*--motor drive-left"):
+    with pytest.raises(BadRequest) as refused:
         sim.read(path)
+    reads(refused.value)
     assert sim.read(path, motor="right").runs_of_test("dynamic-forward")[0].voltage[0] == -7.0
 
 
-def test_a_motor_that_lacks_a_signal_is_left_out_with_a_word(tmp_path: Path) -> None:
+def test_a_motor_that_lacks_a_signal_is_left_out_with_a_word(tmp_path: Path, reads) -> None:
     log = sim.read(saved(tmp_path, LEFT, Motor("follower", leave_out=("velocity",))))
 
     assert codes(log) == ["incomplete-motor"]
-    assert "'follower' has no velocity" in log.doubts[0].message
+    reads(log.doubts[0].message)
     assert log.runs_of_test("dynamic-forward")[0].voltage[0] == 7.0

@@ -120,7 +120,7 @@ def test_zeros_that_a_lost_power_supply_leaves_count_as_cut_off(tmp_path: Path) 
     assert [doubt.code for doubt in log.doubts] == ["truncated"]
 
 
-def test_damage_behind_a_whole_run_is_doubted_loudly(tmp_path: Path) -> None:
+def test_damage_behind_a_whole_run_is_doubted_loudly(tmp_path: Path, reads) -> None:
     path = tmp_path / "log.wpilog"
     middle = whole_until(len(SOUND.parts) * 2 // 3)
     path.write_bytes(CONTENT[:middle] + record(77, 5, b"?") + CONTENT[middle:])
@@ -129,13 +129,10 @@ def test_damage_behind_a_whole_run_is_doubted_loudly(tmp_path: Path) -> None:
 
     assert [run.test for run in log.runs] == list(FOUR[:3])
     assert [doubt.code for doubt in log.doubts] == ["damaged"]
-    assert (
-        f"THE FILE IS DAMAGED: a record of entry 77, which was never started at byte {middle}"
-        in (log.doubts[0].message)
-    )
+    reads(log.doubts[0].message)
 
 
-def test_damage_before_the_first_whole_run_is_refused(tmp_path: Path) -> None:
+def test_damage_before_the_first_whole_run_is_refused(tmp_path: Path, reads) -> None:
     path = tmp_path / "log.wpilog"
     early = whole_until(20)
     path.write_bytes(CONTENT[:early] + b"\x0c\x01\xff\xff\xff\x7f\x00" + CONTENT[early:])
@@ -144,7 +141,7 @@ def test_damage_before_the_first_whole_run_is_refused(tmp_path: Path) -> None:
 
     assert said.where == f"{path}, byte {early}"
     assert said.what.startswith("the file is damaged")
-    assert "record the tests again" in said.advice
+    reads(said.advice)
 
 
 def read_or_refuse(path: Path) -> Log | Refusal:

@@ -22,7 +22,7 @@ METERS = ("volt", "meter", "meters_per_second")
     ids=["all at one time", "each value at a time of its own"],
 )
 def test_a_log_of_changes_only_reads_as_the_whole_one(
-    tmp_path: Path, late: tuple[int, int, int], state_late: int
+    tmp_path: Path, late: tuple[int, int, int], state_late: int, reads
 ) -> None:
     """A step's voltage is logged once there, so SysId's own rule would leave one sample."""
     motor = Motor("main", late=late)
@@ -30,7 +30,7 @@ def test_a_log_of_changes_only_reads_as_the_whole_one(
     changes = sim.read(saved(tmp_path, motor, changes_only=True, state_late=state_late))
 
     assert codes(changes) == ["change-only"]
-    assert "a step has a single voltage" in changes.doubts[0].message
+    reads(changes.doubts[0].message)
     assert [run.test for run in changes.runs] == list(FOUR)
     for ours, theirs in zip(changes.runs, whole.runs, strict=True):
         np.testing.assert_allclose(ours.time, theirs.time + late[2] / 1e6, atol=1e-9)
@@ -38,13 +38,13 @@ def test_a_log_of_changes_only_reads_as_the_whole_one(
         assert np.array_equal(ours.velocity, theirs.velocity)
 
 
-def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path) -> None:
+def test_a_slow_sensor_is_no_log_of_changes_only(tmp_path: Path, reads) -> None:
     slow = Motor("main", units=METERS, every=(1, 1, 5))
     log = sim.read(saved(tmp_path, slow, tests=("quasistatic-forward",)))
 
     (run,) = log.runs
     assert codes(log) == ["uneven-rates"]
-    assert "39 of voltage, 39 of position, 8 of velocity" in log.doubts[0].message
+    reads(log.doubts[0].message)
     v = [motion("quasistatic-forward", loop)[1] for loop in (0, 5)]
     assert run.velocity[2] == pytest.approx(v[0] + (v[1] - v[0]) * 2 / 5)
     assert run.time[-1] == pytest.approx(1.0 + 0.02 * 38)  # the line reaches a little further
@@ -85,7 +85,7 @@ def test_what_lies_beyond_a_signal_is_not_made_up(tmp_path: Path) -> None:
     ],
 )
 def test_a_missing_entry_is_named(
-    tmp_path: Path, leave_out: tuple[str, ...], expected: str, missing: str
+    tmp_path: Path, leave_out: tuple[str, ...], expected: str, missing: str, reads
 ) -> None:
     logger = Logger()
     logger.start("/Arm/AppliedVolts")
@@ -103,31 +103,34 @@ def test_a_missing_entry_is_named(
     assert missing in caught.value.what
     assert "'/Arm/AppliedVolts'" in caught.value.what
     assert f"Log the {'applied ' * (signal == 'voltage')}{signal}" in caught.value.advice
-    assert "--voltage ENTRY --position ENTRY --velocity ENTRY" in caught.value.advice
+    reads(caught.value.advice)
 
 
-def test_an_entry_of_a_type_that_is_no_number_is_named(tmp_path: Path) -> None:
+def test_an_entry_of_a_type_that_is_no_number_is_named(tmp_path: Path, reads) -> None:
     logger = Logger()
     routine(logger, Motor("main", leave_out=("voltage",)))
     logger.start("voltage-main-Arm", "struct:Voltage")
 
-    with pytest.raises(MissingSignal, match="'voltage-main-Arm' is of type struct:Voltage"):
+    with pytest.raises(MissingSignal) as refused:
         sim.read(logger.save(tmp_path / "log.wpilog"))
+    reads(refused.value)
 
 
-def test_a_log_without_tests_says_how_to_get_some(tmp_path: Path) -> None:
+def test_a_log_without_tests_says_how_to_get_some(tmp_path: Path, reads) -> None:
     logger = Logger()
     logger.start("voltage-main-Arm")
     logger.put("voltage-main-Arm", 1, 1.0)
     path = logger.save(tmp_path / "log.wpilog")
 
-    with pytest.raises(MissingSignal, match=r"'sysid-test-state-<mechanism>'.*robot enabled"):
+    with pytest.raises(MissingSignal) as refused:
         sim.read(path)
+    reads(refused.value)
 
 
-def test_a_state_that_names_no_test_is_quoted(tmp_path: Path) -> None:
-    with pytest.raises(MissingSignal, match=r"'sysid-test-state-Arm' says only 'warming up'"):
+def test_a_state_that_names_no_test_is_quoted(tmp_path: Path, reads) -> None:
+    with pytest.raises(MissingSignal) as refused:
         sim.read(saved(tmp_path, tests=("warming up",)))
+    reads(refused.value)
 
 
 def foreign(tmp_path: Path) -> Path:
@@ -163,14 +166,15 @@ def test_entries_of_any_name_can_be_given(tmp_path: Path) -> None:
     assert log.doubts == ()
 
 
-def test_an_entry_that_names_tests_is_taken_whatever_its_name(tmp_path: Path) -> None:
+def test_an_entry_that_names_tests_is_taken_whatever_its_name(tmp_path: Path, reads) -> None:
     named = {signal: name for signal, name in ENTRIES.items() if signal != "state"}
 
     log = sim.read(foreign(tmp_path), entries=named)
 
     assert [run.test for run in log.runs] == list(FOUR)
-    with pytest.raises(MissingSignal, match="no motor with all three.*--voltage ENTRY"):
+    with pytest.raises(MissingSignal) as refused:
         sim.read(foreign(tmp_path))
+    reads(refused.value)
 
 
 def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
@@ -189,21 +193,21 @@ def test_an_entry_given_wins_over_one_found(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("signal", "name", "what"),
+    ("signal", "name"),
     [
-        pytest.param("voltage", "/Arm/Applied", "Did you mean '/Arm/AppliedVolt'", id="nearly"),
-        pytest.param("velocity", "??", "as AdvantageScope shows it", id="not at all"),
-        pytest.param("position", "/RealOutputs/Arm/Sys", "of type string", id="of another type"),
-        pytest.param("state", "/Arm/AppliedVolt", "of type string with --state", id="no string"),
+        pytest.param("voltage", "/Arm/Applied", id="nearly"),
+        pytest.param("velocity", "??", id="not at all"),
+        pytest.param("position", "/RealOutputs/Arm/Sys", id="of another type"),
+        pytest.param("state", "/Arm/AppliedVolt", id="no string"),
     ],
 )
 def test_an_entry_that_cannot_be_used_is_refused(
-    tmp_path: Path, signal: str, name: str, what: str
+    tmp_path: Path, signal: str, name: str, reads
 ) -> None:
     with pytest.raises(MissingSignal) as caught:
         sim.read(foreign(tmp_path), entries=ENTRIES | {signal: name})
 
-    assert what in str(caught.value)
+    reads(str(caught.value))
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 1e300], ids=str)
@@ -226,7 +230,7 @@ def test_a_value_that_is_no_measurement_is_refused(
 
 
 @pytest.mark.shared
-def test_the_pivot_without_a_voltage_is_refused_by_name(shared: Path) -> None:
+def test_the_pivot_without_a_voltage_is_refused_by_name(shared: Path, reads) -> None:
     path = shared / "data" / "real" / "sciborgs-2024-pivot-no-voltage.wpilog"
 
     with pytest.raises(MissingSignal) as caught:
@@ -236,4 +240,4 @@ def test_the_pivot_without_a_voltage_is_refused_by_name(shared: Path) -> None:
     expected = "no voltage entry: expected 'voltage-<motor>-Pivot' (double)"
     assert caught.value.what.startswith(expected)
     assert "'/Robot/pivot/hardware/getPosition'" in caught.value.what
-    assert "Log the applied voltage" in caught.value.advice
+    reads(caught.value.advice)

@@ -123,8 +123,8 @@ def _voltage(name: str, answers: Answers) -> None:
     if found and len(found[0]) > 1:
         hint = f"maybe there are two mistakes: {hint}"
     if not hint:
-        size = "just" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "far"
-        hint = f"{size} outside the accepted ±2 %. Write down the three terms one by one"
+        far = "" if abs(value - asked.expected) <= LITTLE * abs(asked.expected) else "far "
+        hint = f"{far}outside the accepted ±2 %. Write down the three terms one by one"
     if abs(value) > BATTERY:
         hint = f"no battery of a robot has more than {BATTERY:g} V: {hint}"
     raise WrongAnswer(
@@ -183,11 +183,9 @@ def largest(answers: Answers) -> None:
         raise WrongAnswer(f'"{raw}", which is none of the terms', hint=listed)
     if word == variant.largest:
         return
-    hint = (
-        f"compare volts: compute all three terms at {variant.largest_at}, and compare their sizes"
-    )
+    hint = f"compute all three terms at {variant.largest_at}, in volts, and compare their sizes"
     if variant.gains[word] == max(variant.gains.values()):
-        hint = f"{word} is the largest gain, but a gain is not a voltage yet: {hint}"
+        hint = f"{word} is the largest gain, but a gain is not a voltage yet. So {hint}"
     elif variant.largest == "kA" and variant.largest_at == "braking":
-        hint = f"a negative term may be large, too: {hint}"
+        hint = f"a negative term may be large, too. So {hint}"
     raise WrongAnswer(f"{word}, at {variant.largest_at}", hint=hint)

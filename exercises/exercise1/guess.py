@@ -135,7 +135,7 @@ def _wholes(variant: Variant, name: str) -> list[Guess]:
     for other in MOMENTS:
         if other != name:
             says = f"that would be right for {other}. Did you swap two answers?"
-            found.append((sum(variant.terms(other)), WrongNumber("swapped", says, "M-ARGORDER")))
+            found.append((sum(variant.terms(other)), WrongNumber("swapped", says)))
     return [Guess(value, (slip,)) for value, slip in found]
 
 

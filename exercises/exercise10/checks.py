@@ -14,7 +14,7 @@ from grader.sysid_routine_checks import READ as READ_ONLY
 from grader.sysid_routine_checks import check_compiles
 from sim.core.errors import UnreadableFile
 
-from .comment_units import judge_comment
+from .comment_units import find_commented_units, judge_comment
 from .drawn import draw
 from .handed import check_choices, check_one_place, check_order, feedforward_of, place_of
 from .key import FEED_FORWARD, FULL, PLACES, SLOT0, Variant, near
@@ -212,6 +212,13 @@ def units(code: Code) -> None:
     for one in found:
         verdict = _unit_told(one, code)
         shown = f'"{one.comment[:50]}" next to {one.name}' if one.comment else f"{one.name} alone"
+        if verdict is False and any(find_commented_units(one.comment)):
+            raise WrongAnswer(
+                f"{shown}, line {one.line}",
+                hint=f"That is a unit of something else than {one.name}. Each gain times what it "
+                "is multiplied by gives volts.",
+                misconception="M-UNITS",
+            )
         if verdict is False:
             raise WrongAnswer(
                 f"no unit of {one.name} in line {one.line}: {shown}",

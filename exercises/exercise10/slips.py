@@ -56,11 +56,16 @@ def _in_rotations(gain: str, variant: Variant) -> list[Way]:
     )
     ways = [
         ((needed / TURN,), WrongNumber("radians", radians, "M-UNITS")),
-        ((needed / ratio,), WrongNumber("rotor", rotor, "M-UNITS")),
-        ((needed * ratio,), WrongNumber("geared-twice", turned, "M-UNITS")),
+        ((needed / ratio,), WrongNumber("rotor", rotor, "M-GEARING")),
+        ((needed * ratio,), WrongNumber("geared-twice", turned, "M-GEARING")),
     ]
     if variant.radius:
-        ways.append(((2.0 * needed, 2.0 * variant.coded(gain)), WrongNumber("diameter", diameter)))
+        ways.append(
+            (
+                (2.0 * needed, 2.0 * variant.coded(gain)),
+                WrongNumber("diameter", diameter, "M-GEARING"),
+            )
+        )
     return ways
 
 
@@ -69,7 +74,7 @@ def _others(gain: str, variant: Variant) -> list[Way]:
     return [
         (
             (variant.shown[other], variant.needed(other)),
-            WrongNumber("other-gain", f"that is the analyzer's {other}", "M-ARGORDER"),
+            WrongNumber("other-gain", f"that is the analyzer's {other}. Copy its {gain}"),
         )
         for other in variant.shown
         if other not in {gain, "kP"}

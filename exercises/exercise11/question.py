@@ -52,7 +52,7 @@ class Question:
         Raises:
             WrongAnswer: nothing was given, or nothing that means one of them.
         """
-        ask = f"Write one letter, {', '.join(letters)}: as in your questions.md."
+        ask = f"Write one letter of your questions.md: {', '.join(letters)}."
         if raw is None or raw == "":
             raise WrongAnswer("nothing yet", hint=ask)
         if not isinstance(raw, str):

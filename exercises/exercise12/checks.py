@@ -181,9 +181,9 @@ def all_effects(answers: Answers) -> None:
         )
     elif not named < hidden:
         hint = (
-            "not all of these are right. An effect that helps a little may stand in for "
-            "another one that looks like it: try the effects that look like it, and keep the "
-            "one with the smallest gap of the validation"
+            "not all of these are right. Two effects can look alike, and then the wrong one "
+            "helps a little, too. Try the effects that look like yours, and keep the one with "
+            "the smallest gap of the validation"
         )
     some = named > hidden or named < hidden
     raise WrongAnswer(", ".join(answers.names), hint=hint, earned=1.0 if some else 0.0)
@@ -221,11 +221,12 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
         What the grader measured; and for a gap that is right but another number, why.
     """
     others = []
-    for name, expected, bounds in (("gap_before", before, BASE), ("gap_after", after, SAME)):
+    rows = (("gap_before", before, after, BASE), ("gap_after", after, before, SAME))
+    for name, expected, other, bounds in rows:
         asked = AskedNumber(name, expected, "", Band(0.0, 0.0))
         try:
             value = read_answer_number(answers.given.get(name), asked)
-            _check_near(value, expected, bounds)
+            _check_near(value, expected, bounds, other=other)
         except WrongAnswer as wrong:
             wrong.seen, wrong.earned = f"{name}: {wrong.seen}", 3.0 - REPORTED
             raise
@@ -234,9 +235,16 @@ def _reported(answers: Answers, *, before: float, after: float, seen: str) -> st
     return ". ".join([seen, *others, *([OTHER_FIT] if others else [])])
 
 
-def _check_near(value: float, expected: float, bounds: tuple[float, float]) -> None:
+def _check_near(
+    value: float, expected: float, bounds: tuple[float, float], *, other: float
+) -> None:
     if not bounds[0] * expected <= value <= bounds[1] * expected:
-        hint = "this is not the gap of your model on the held-out log, in times the noise"
+        hint = (
+            "this is not the gap of your model on the held-out log, in times the noise. Write "
+            "what try_it.py prints with --held-out"
+        )
+        if SAME[0] * other <= value <= SAME[1] * other:
+            hint = "this is the other gap: gap_before is with gains alone, gap_after with effects"
         raise WrongAnswer(f"{value:g}", hint=hint)
 
 
@@ -246,7 +254,7 @@ def justified(answers: Answers) -> None:
     try:
         parts = answers.parts
     except WrongAnswer:
-        raise NotReachedError("it takes effects and their parameters") from None
+        raise NotReachedError("checked after you write effects and their parameters") from None
     for part in parts:
         if stuck := on_a_bound(part):
             raise WrongAnswer(
@@ -262,8 +270,8 @@ def justified(answers: Answers) -> None:
             raise WrongAnswer(
                 part.effect,
                 hint=f"without it, the gap of the validation is {without / whole:.3g} times as "
-                "large. So it does not help: more effects always fit the fitted log "
-                "better, but predict other runs worse",
+                "large. So it does not help, or its parameters are not those of your log. More "
+                "effects always fit the fitted log better, but may predict other runs worse",
             )
 
 

@@ -5,16 +5,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import AnswerKey, judge_number
-from grader.check import check
+from grader.answer import AnswerKey, judge_number, number_check, read_answer_number
+from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import Made, write_student_files
 from grader.submission import read_answers
-from grader.wrong_number import Scene
+from grader.wrong_number import ALIKE, Scene
 
 from .drawn import draw
-from .drive import MODULES, Variant
-from .slips import lookalikes
+from .drive import BATTERY, MODULES, Variant
+from .slips import lookalikes, rarer
 
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent
@@ -123,26 +123,19 @@ def read(path: Path, *, student: str) -> Answers:
     given = {name.lower(): value for name, value in read_answers(path).items()}
     variant = draw(student)
     named = {name: given.get(name.lower()) for name in variant.asked}
-    scene = Scene(ratio=variant.ratio, motors=4, ramp=RAMP, lookalikes=lookalikes(variant))
+    scene = Scene(
+        ratio=variant.ratio,
+        motors=4,
+        ramp=RAMP,
+        lookalikes=lookalikes(variant),
+        rarer=rarer(variant),
+    )
     return Answers({**given, **named}, AnswerKey(variant.asked, scene), variant)
 
 
-@check(points=1)
-def ks(answers: Answers) -> str | None:
-    """The kS of going straight, the voltage that friction takes."""
-    return judge_number("kS", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def kv(answers: Answers) -> str | None:
-    """The kV of going straight, in V·s/m."""
-    return judge_number("kV", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def ka(answers: Answers) -> str | None:
-    """The kA of going straight, in V·s²/m."""
-    return judge_number("kA", answers.given, answers.key, points=1)
+ks = number_check("kS", "The kS of going straight, the voltage that friction takes.", points=1)
+kv = number_check("kV", "The kV of going straight, in V·s/m.", points=1)
+ka = number_check("kA", "The kA of going straight, in V·s²/m.", points=1)
 
 
 @check(points=2)
@@ -158,16 +151,12 @@ def worn(answers: Answers) -> None:
     check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
 
 
-@check(points=2)
-def worn_radius(answers: Answers) -> str | None:
-    """The radius of the worn wheel, from the slow spin."""
-    return judge_number("worn_radius", answers.given, answers.key, points=2)
-
-
-@check(points=1)
-def lever(answers: Answers) -> str | None:
-    """The lever: how far the push of a wheel passes from the middle."""
-    return judge_number("lever", answers.given, answers.key, points=1)
+worn_radius = number_check(
+    "worn_radius", "The radius of the worn wheel, from the slow spin.", points=2
+)
+lever = number_check(
+    "lever", "The lever: how far the push of a wheel passes from the middle.", points=1
+)
 
 
 @check(points=1)
@@ -189,31 +178,67 @@ def rate_unit(answers: Answers) -> None:
     check_choice(answers.given.get("rate_unit"), RATES[1], RATES, why=why, also=also)
 
 
-@check(points=2)
-def ka_turning(answers: Answers) -> str | None:
-    """The kA of turning on the spot, in V·s²/rad."""
-    return judge_number("kA_turning", answers.given, answers.key, points=2)
+ka_turning = number_check("kA_turning", "The kA of turning on the spot, in V·s²/rad.", points=2)
 
 
 @check(points=2)
 def inertia(answers: Answers) -> str | None:
     """The moment of inertia."""
-    return judge_number("inertia", answers.given, answers.key, points=2)
+    return _computed("inertia", answers, points=2)
 
 
-@check(points=1)
-def slip_current(answers: Answers) -> str | None:
-    """The current of one motor at which the wheels begin to slip."""
-    return judge_number("slip_current", answers.given, answers.key, points=1)
+slip_current = number_check(
+    "slip_current", "The current of one motor at which the wheels begin to slip.", points=1
+)
 
 
 @check(points=1)
 def top_speed(answers: Answers) -> str | None:
     """PathPlanner's true max drive speed, at 12 V."""
-    return judge_number("top_speed", answers.given, answers.key, points=1)
+    return _computed("top_speed", answers, points=1)
 
 
 @check(points=1)
 def max_torque(answers: Answers) -> str | None:
     """Choreo's motor max torque: what one motor gives at the slip current."""
-    return judge_number("max_torque", answers.given, answers.key, points=1)
+    return _computed("max_torque", answers, points=1)
+
+
+def _computed(name: str, answers: Answers, *, points: float) -> str | None:
+    """Judge a number that is computed from others; say so where only those are wrong."""
+    try:
+        return judge_number(name, answers.given, answers.key, points=points)
+    except WrongAnswer as wrong:
+        if of := _cause(name, answers):
+            wrong.hint = f"it follows from your {of}, and that is not right yet"
+            wrong.misconception = ""
+        raise
+
+
+def _cause(name: str, answers: Answers) -> str:
+    """The wrong answer that a wrong number follows from; empty if it follows from none."""
+    variant = answers.variant
+    ways: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
+        "inertia": (
+            ("lever", "kA_turning", "kA"),
+            lambda lever, turning, straight: variant.mass * lever * turning / straight,
+        ),
+        "top_speed": (("kV", "kS"), lambda kv, ks: (BATTERY - ks) / kv),
+        "max_torque": (
+            ("slip_current",),
+            lambda current: variant.drive.motor.torque_constant * current,
+        ),
+    }
+    sources, compute = ways[name]
+    try:
+        value, *theirs = (
+            read_answer_number(answers.given.get(one), variant.asked[one])
+            for one in (name, *sources)
+        )
+        follows = compute(*theirs)
+    except (WrongAnswer, ZeroDivisionError, OverflowError):
+        return ""
+    if not abs(value - follows) <= ALIKE * abs(follows):
+        return ""
+    pairs = zip(sources, theirs, strict=True)
+    return next((one for one, given in pairs if not variant.asked[one].is_right(given)), "")

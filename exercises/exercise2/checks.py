@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from grader.answer import AnswerKey, AskedNumber, Band, judge_number, read_answer_number
+from grader.answer import LARGEST, AnswerKey, AskedNumber, Band, judge_number, read_answer_number
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import write_student_files
@@ -13,12 +13,13 @@ from grader.wrong_number import Scene
 
 from .drawn import draw
 from .ranked import judge_list
-from .slips import lookalikes
+from .slips import lookalikes, rarer
 from .team import FLAGS, VERDICTS, Variant
 
 FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
+LARGE = 1000.0  # [%] from here on a difference is shown without decimals
 POINT = 1.0  # [%] that a difference may be off, or 1 % of measured over theory if that is more
 
 
@@ -82,7 +83,7 @@ def kv_theory(answers: Answers) -> str | None:
     nearest = min(variant.theories, key=lambda one: abs(one - value))
     key = AnswerKey(
         {"kV_theory": replace(variant.asked, expected=nearest)},
-        Scene(lookalikes={"kV_theory": lookalikes(variant)}),
+        Scene(lookalikes={"kV_theory": lookalikes(variant)}, rarer={"kV_theory": rarer(variant)}),
     )
     return judge_number("kV_theory", {"kV_theory": answers.given["kv_theory"]}, key, points=3)
 
@@ -100,8 +101,14 @@ def difference(answers: Answers) -> None:
         return
     if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
         says = "it follows from your kV_theory, but your kV_theory is not right yet"
-        raise WrongAnswer(f"{value:.4g} %", hint=says, earned=1.0)
-    raise WrongAnswer(f"{value:.4g} %", hint=_about_percent(value, variant))
+        raise WrongAnswer(_shown(value), hint=says, earned=1.0)
+    raise WrongAnswer(_shown(value), hint=_about_percent(value, variant))
+
+
+def _shown(percent: float) -> str:
+    """A percentage with at most one decimal where it is large, and no powers of ten."""
+    size = abs(percent)
+    return f"{percent:.4g} %" if size < LARGE or size > LARGEST else f"{percent:.0f} %"
 
 
 def _percent(answers: Answers) -> float:
@@ -148,7 +155,10 @@ def _about_percent(value: float, variant: Variant) -> str:
     of_measured = 100.0 * (1.0 - variant.parts.theoretical_kv / variant.measured)
     if _near(value, of_measured, variant):
         return "percent of what? Divide by the theoretical kV, not by the measured one"
-    return "outside the accepted ±1 %. Compute measured minus theory, and divide by theory"
+    return (
+        "outside the accepted ±1 %. Compute measured minus theory, divide by theory, and "
+        "multiply by 100"
+    )
 
 
 @check(points=2)

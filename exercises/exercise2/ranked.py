@@ -45,7 +45,7 @@ def judge_list(raw: object, variant: Variant) -> None:
         codes = {code for _, code in found if code}
         raise WrongAnswer(
             ", ".join(causes),
-            hint="; ".join(says for says, _ in found),
+            hint="; ".join(says for says, _ in found).replace("?; name", "? Also name"),
             misconception=codes.pop() if len(codes) == 1 else "",
             earned=3.0 - lost,
         )

@@ -7,7 +7,7 @@ from grader.wrong_number import Lookalike, WrongNumber
 
 from .team import Variant
 
-UNITS = "M-UNITS"
+UNITS, GEARING = "M-UNITS", "M-GEARING"
 
 
 def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
@@ -22,11 +22,11 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
             "60 seconds are a minute. Did you multiply by 60 once too often?",
             UNITS,
         ),
-        (parts.theoretical_kv / parts.ratio, gears, UNITS),
+        (parts.theoretical_kv / parts.ratio, gears, GEARING),
         (
             parts.theoretical_kv / parts.ratio**2,
             "is the gear ratio upside down? The output is slower",
-            UNITS,
+            GEARING,
         ),
     ]
     skipped = [(60.0, "60 seconds are a minute"), (parts.ratio, "the gear ratio")]
@@ -39,8 +39,9 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
                 "12 V divided by a free speed that is not in your unit yet. Still missing: "
                 f"{missing}"
             )
+            code = UNITS if skipped[0] in steps else GEARING
             found.append(
-                (parts.theoretical_kv / math.prod(times for times, _ in steps), says, UNITS)
+                (parts.theoretical_kv / math.prod(times for times, _ in steps), says, code)
             )
     coded = float(variant.told["code"]["ratio"])
     if coded != parts.ratio:
@@ -50,11 +51,11 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
         radius = "a factor of 2: did you mix up diameter and radius?"
         around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
         still = "that is volts for each turn of the wheel in a second. How far does one turn go?"
-        found += [(parts.theoretical_kv * times, radius, UNITS) for times in (0.5, 2.0)]
+        found += [(parts.theoretical_kv * times, radius, GEARING) for times in (0.5, 2.0)]
         found += [
             (parts.theoretical_kv * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)
         ]
-        found += [(parts.theoretical_kv * math.pi * parts.diameter, still, UNITS)]
+        found += [(parts.theoretical_kv * math.pi * parts.diameter, still, GEARING)]
     else:
         turn = "2π = 6.28. Is this per radian? Write it per rotation"
         found += [
@@ -66,4 +67,31 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
     if parts.motors == 4:
         many = "four motors share the work, but none of them turns faster for it"
         found += [(parts.theoretical_kv * times, many, "") for times in (0.25, 4.0)]
+    return _named(found)
+
+
+def rarer(variant: Variant) -> tuple[Lookalike, ...]:
+    """What rarer slips make of the parts."""
+    parts = variant.parts
+    found = [
+        (
+            12.0 / parts.theoretical_kv,
+            "this is the free speed of your mechanism. kV_theory is 12 V divided by it",
+            "",
+        ),
+        (
+            1.0 / parts.theoretical_kv,
+            "this is upside down: speed for each volt. kV is volts for each unit of speed",
+            "",
+        ),
+    ]
+    if parts.diameter:
+        around = "π = 3.14 is missing: one turn of a wheel or drum goes π times its diameter"
+        found += [
+            (parts.theoretical_kv * times, around, GEARING) for times in (math.pi, 1 / math.pi)
+        ]
+    return _named(found)
+
+
+def _named(found: list[tuple[float, str, str]]) -> tuple[Lookalike, ...]:
     return tuple(Lookalike(value, WrongNumber(says, says, code)) for value, says, code in found)

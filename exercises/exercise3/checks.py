@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import HALF, AnswerKey, judge_number, read_answer_number
+from grader.answer import HALF, AnswerKey, number_check, read_answer_number
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.consequence import Consequence
@@ -83,16 +83,12 @@ def consequence(answers: Answers) -> Consequence | None:
     return outcome(answers.given, answers.variant)
 
 
-@check(points=1)
-def elevator_kg(answers: Answers) -> str | None:
-    """The elevator's kG, the voltage that gravity takes."""
-    return judge_number("elevator_kG", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def elevator_ks(answers: Answers) -> str | None:
-    """The elevator's kS, the voltage that friction takes."""
-    return judge_number("elevator_kS", answers.given, answers.key, points=1)
+elevator_kg = number_check(
+    "elevator_kG", "The elevator's kG, the voltage that gravity takes.", points=1
+)
+elevator_ks = number_check(
+    "elevator_kS", "The elevator's kS, the voltage that friction takes.", points=1
+)
 
 
 @check(points=1)
@@ -107,16 +103,10 @@ def elevator_class(answers: Answers) -> None:
     _word("elevator_class", "ElevatorFeedforward", answers, choices=CLASSES)
 
 
-@check(points=1)
-def arm_kg(answers: Answers) -> str | None:
-    """The arm's kG, the voltage that gravity takes while the arm is horizontal."""
-    return judge_number("arm_kG", answers.given, answers.key, points=1)
-
-
-@check(points=1)
-def arm_ks(answers: Answers) -> str | None:
-    """The arm's kS, the voltage that friction takes."""
-    return judge_number("arm_kS", answers.given, answers.key, points=1)
+arm_kg = number_check(
+    "arm_kG", "The arm's kG, the voltage that gravity takes while the arm is horizontal.", points=1
+)
+arm_ks = number_check("arm_kS", "The arm's kS, the voltage that friction takes.", points=1)
 
 
 @check(points=1)
@@ -146,7 +136,8 @@ def arm_offset(answers: Answers) -> str | None:
     hint = "; ".join(part for part in (hint, close) if part)
     raise WrongAnswer(
         shown,
-        hint=hint or f"outside the accepted {full:g}°. Use two rows whose sine or cosine is 0.",
+        hint=hint
+        or f"outside the accepted {full:g}°. Use the rows with a reading of 0° and of ±90°",
         misconception=code,
         earned=2 * HALF if close else 0.0,
     )

@@ -55,7 +55,21 @@ DEGREES = WrongNumber(
 
 def key_of(variant: Variant, *, offset: float) -> AnswerKey:
     """What is asked for, with what slips would give who uses this offset [deg]."""
-    return AnswerKey(variant.asked, Scene(lookalikes=dict(_lookalikes(variant, offset))))
+    scene = Scene(lookalikes=dict(_lookalikes(variant, offset)), rarer=_of_the_other(variant))
+    return AnswerKey(variant.asked, scene)
+
+
+def _of_the_other(variant: Variant) -> dict[str, tuple[Lookalike, ...]]:
+    """Gain -> the same gain of the other mechanism [V]."""
+    says = "this is the number of your {}. Each of the two has its own"
+    pairs = (("elevator", "arm"), ("arm", "elevator"))
+    return {
+        f"{mine}_{gain}": (
+            Lookalike(variant.found[f"{other}_{gain}"], WrongNumber("other", says.format(other))),
+        )
+        for mine, other in pairs
+        for gain in ("kG", "kS")
+    }
 
 
 def telling(variant: Variant) -> bool:
@@ -125,7 +139,13 @@ def offset_slips(value: float, variant: Variant) -> Iterator[tuple[str, str]]:
         if variant.offset.is_right(turned(undone)):
             yield says, code
     if abs(value) == abs(nearest.reading):
-        yield "the row with the most voltage is only the nearest to horizontal of five", ""
+        yield (
+            (
+                "you took the row with the most voltage for horizontal. It is only the nearest of "
+                "five: compute the offset from two rows"
+            ),
+            "",
+        )
 
 
 def turned(angle: float) -> float:

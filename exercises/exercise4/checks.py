@@ -34,6 +34,7 @@ from grader.sysid_routine_checks import (
     check_spelling,
     check_units,
     explain_doubt,
+    find_test_commands,
     give_no_advice,
 )
 from sim.core.errors import UnreadableFile
@@ -143,10 +144,12 @@ def _when_done(
 @check(points=1, after=routine)
 def ramp(code: Code) -> str | None:
     """The quasistatic test raises the voltage by 0.5 V every second."""
-    return _number(code, RAMP, "the ramp rose by", advice=_about_ramp)
+    return _number(code, RAMP, "the ramp rose by", advice=partial(_about_ramp, code.facts))
 
 
-def _about_ramp(value: float) -> tuple[str, str]:
+def _about_ramp(facts: RoutineFacts, value: float) -> tuple[str, str]:
+    if (value, facts.step.value) == (STEP.value, RAMP.value):
+        return "Ramp and step are swapped: the ramp comes first.", "M-ARGORDER"
     if 0 < value < RAMP.value:
         return "Slower is not safer.", "M-SLOW-SAFE"
     return "", ""
@@ -193,8 +196,9 @@ def _undivided(ran: RunFacts) -> bool:
 
 
 def _drive(facts: RoutineFacts) -> str | None:
-    motors = list(dict.fromkeys([*facts.motors, *(call.motor for call in facts.drive)]))
-    _followed(facts, whole={call.motor for call in facts.drive} >= {*motors} > set())
+    commands = find_test_commands(facts)
+    motors = list(dict.fromkeys([*facts.motors, *(call.motor for call in commands)]))
+    _followed(facts, whole={call.motor for call in commands} >= {*motors} > set())
     if not facts.drive:
         raise WrongAnswer(
             "the drive callback moves no motor" if facts.drive_found else "no drive callback",
@@ -203,7 +207,7 @@ def _drive(facts: RoutineFacts) -> str | None:
     wrong: list[WrongAnswer] = []
     for motor in motors:
         try:
-            check_motor_driven(motor, facts.drive)
+            check_motor_driven(motor, commands)
         except WrongAnswer as why:
             wrong.append(why)
     if wrong:
@@ -230,12 +234,33 @@ def _spelled(facts: RoutineFacts, *, lines: set[int] | None = None, earned: floa
     check_spelling(facts.compile_errors, lines=lines, language=facts.language, earned=earned)
 
 
+def _sent_by_log(facts: RoutineFacts) -> int:
+    """The line in which the log callback sends a voltage; 0 if it does not."""
+    if facts.drive or facts.logged or not (facts.drive_found and facts.log_found):
+        return 0
+    return next(
+        (
+            one.line
+            for one in facts.unread
+            if any(f"{motor}.setVoltage(" in one.message for motor in facts.motors)
+        ),
+        0,
+    )
+
+
 def _followed(facts: RoutineFacts, *, whole: bool) -> None:
-    """Ask, where something is missing that may be in code out of sight."""
+    """Say that the callbacks are swapped, or ask where something may be in code out of sight."""
+    if line := _sent_by_log(facts):
+        raise WrongAnswer(
+            f"line {line}, in the log callback, sends a voltage",
+            hint="Are the two callbacks swapped? The Mechanism takes first the one that gets the "
+            "voltage, then the one that gets the log.",
+            misconception="M-ARGORDER",
+        )
     if facts.unread and not whole:
         first = facts.unread[0]
         raise WrongAnswer(
-            explain_doubt("code that it cannot see", f"line {first.line}: {first.message}"),
+            explain_doubt("all of the callback", f"line {first.line}: {first.message}"),
             hint=(
                 "Write the callback in this class or in this folder, so that the grader can "
                 "read it."
@@ -382,5 +407,5 @@ def _open_loop(facts: RoutineFacts) -> None:
     if not facts.drive:
         raise NotReachedError("checked after the drive callback moves a motor")
     _spelled(facts, lines=_unclear(facts))
-    for call in facts.drive:
+    for call in find_test_commands(facts):
         check_open_loop(call)

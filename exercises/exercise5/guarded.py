@@ -49,11 +49,20 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
             hint="Then the test can start in a match, and in test mode it cannot. Check for "
             "test mode itself, without negate(), ! or not.",
         )
+    if first.trigger.startswith("or("):
+        raise WrongAnswer(
+            f"the trigger in line {first.line} joins two conditions with or",
+            hint="Then each of the two starts the test alone. Both must be true: join them with "
+            "and() (Python: and_()).",
+        )
     guarded = bound - len(open_)
     if guarded:
         lines = ", ".join(str(one.line) for one in open_)
         said = f"{guarded} of {bound} bindings are guarded; not so: line {lines}"
-        hint = "One test without a guard is enough for an accident. Guard all four in the same way."
+        hint = (
+            "One test without a guard is enough for an accident. Guard all four in the same way, "
+            "and with another button than the test's own."
+        )
         raise WrongAnswer(said, hint=hint, earned=points * guarded / max(bound, len(TESTS)))
     used = [one for one in _controllers(first, facts) if one.uses]
     if used and len(facts.controllers) > 1:

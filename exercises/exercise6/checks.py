@@ -169,12 +169,13 @@ def _positive(
         value = read_answer_number(given.get(name), AskedNumber(name, 1.0, unit, Band(0.0, 0.0)))
     except WrongAnswer as wrong:
         wrong.seen = f"{name}: {wrong.seen}"
-        wrong.hint = wrong.hint.partition(", such as")[0] + f" for {name}, in {unit}."
+        if ", such as" in wrong.hint:
+            wrong.hint = f"Write a number for {name}, in {unit}."
         if what == "release":
             wrong.hint += ' Or "timeout", if nobody lets go before it.'
         raise
     if not LEAST < value <= most:
-        hint = f"Choose a number above {LEAST:g}, at most {most:g} {unit}."
+        hint = f"Choose a number above {LEAST:g}, at most {most:.0f} {unit}."
         raise WrongAnswer(f"{name}: {value:g} {unit}", hint=hint)
     return value
 

@@ -93,12 +93,12 @@ def _long_enough(ramp: Test) -> dict[str, Test]:
 def _words(name: str, test: Test, travel: float) -> str:
     symbol = test.machine.symbol
     says = f"The {test.machine.kind}: {name} needs {_size(test.rests)} {symbol}"
-    return f"{says}; there are {travel:g} {symbol}."
+    return f"{says}; you have {travel:g} {symbol}."
 
 
 def _size(run: float) -> str:
-    """Two digits, and no powers of ten."""
-    return f"{run:.2g}" if run < 10.0 else f"{run:.0f}"
+    """Three digits, and no powers of ten."""
+    return f"{run:.3g}" if run < 100.0 else f"{run:.0f}"
 
 
 def _ends(test: Test) -> float:

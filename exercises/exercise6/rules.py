@@ -12,7 +12,9 @@ QUARTER = 0.25  # [share] of the free speed that it has to reach
 GRIP = 0.9  # [share] of the volts at which wheels slip
 SIGNAL = 10.0  # [times] the acceleration is above its scatter
 LESS, MORE = 0.995, 1.005  # [times] a bound: who rounds is not wrong
-BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
+BIG, SLOW, UNITS = "M-BIG-STEP", "M-SLOW-SAFE", "M-UNITS"
+SMALLER = {"m": ("centimeters", 100.0), "rot": ("degrees", 360.0)}  # how many are one of it
+CLEARLY = 10.0  # [travels] a mark beyond the end is less of a slip of the pen than of the unit
 
 
 @dataclass(frozen=True)
@@ -33,9 +35,10 @@ def _safe(machine: Machine, plan: Plan) -> Iterator[Broken]:
         yield Broken(f"a timeout of {plan.timeout:g} s; no test may be longer than {LONGEST:g} s")
     if machine.travel is not None and MORE * machine.travel < plan.release < math.inf:
         room = f"{machine.travel:g} {machine.symbol}"
-        yield Broken(
-            f"your mark is at {plan.release:g} {machine.symbol}; the travel ends at {room}"
-        )
+        says = f"your mark is at {plan.release:g} {machine.symbol}; the travel ends at {room}"
+        named, times = SMALLER[machine.symbol]
+        fits = CLEARLY * machine.travel < plan.release <= MORE * times * machine.travel
+        yield Broken(f"{says}. Is your number in {named}?" if fits else says, UNITS * fits)
     slow = quasistatic(machine, plan)
     asks = plan.ramp * (slow.still + slow.lasts)
     if asks > MORE * BATTERY:
@@ -80,7 +83,8 @@ def _tells(machine: Machine, plan: Plan) -> Iterator[Broken]:
         yield _too_slow(slow, end)
     push = plan.step - machine.hold
     if push <= 0.0:
-        yield Broken("your step does not move it: friction (and gravity) need more voltage")
+        needs = "kS + kG" if machine.kind == "elevator" else "kS"
+        yield Broken(f"your step does not move it: {needs} is {machine.hold:.2f} V")
     elif push / machine.ka < LESS * SIGNAL * machine.scatter:
         times = push / machine.ka / machine.scatter
         says = f"your step's acceleration is {times:.2f} times its noise; at least {SIGNAL:g}"

@@ -152,7 +152,10 @@ def _claim(text: str) -> Claim:
     unknown = [word for word in re.findall(r"[^\W\d_]+", left) if word not in FILLERS]
     shown = f'"{shorten(text)}"'
     if unknown:
-        hint = f"{_listed()} And of: {', '.join(ACTIONS)}. And of: {', '.join(PLACES)}."
+        hint = (
+            f"What is wrong? {_listed()} Where? One of: {', '.join(PLACES)}. What to do? One of: "
+            f"{', '.join(ACTIONS)}."
+        )
         raise WrongAnswer(f'{shown}, in which "{shorten(unknown[0])}" is not known', hint=hint)
     if len(faults) != 1:
         raise WrongAnswer(
@@ -162,7 +165,8 @@ def _claim(text: str) -> Claim:
         raise WrongAnswer(f"{shown}, with {len(actions)} actions", hint="Write only one.")
     if len(times) not in (0, 2):
         hint = "Write two times, the start and the end: 1.20 to 1.66."
-        raise WrongAnswer(f"{shown}, with {len(times)} number(s)", hint=hint)
+        count = "one time" if len(times) == 1 else f"{len(times)} times"
+        raise WrongAnswer(f"{shown}, with {count} in it", hint=hint)
     span = (min(times), max(times)) if times else None
     return Claim(faults[0], tuple(places), span, "".join(actions))
 

@@ -74,7 +74,7 @@ def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]
     share += LABEL
     says = []
     if not placed:
-        says.append(_place(claim, whole=damaged.whole))
+        says.append(_place(claim, whole=damaged.whole, lasts=_lasts(case)))
     if claim.action in ACCEPTED[damaged.fault]:
         share += ACTION
     elif claim.action:
@@ -84,7 +84,17 @@ def _one(claim: Claim | None, damaged: Damaged, case: Case) -> tuple[float, str]
     return share, " ".join(says)
 
 
-def _place(claim: Claim, *, whole: bool) -> str:
+def _lasts(case: Case) -> float:
+    """When the log ends [s]."""
+    return max(float(run.time[-1]) for run in case.log.runs)
+
+
+def _place(claim: Claim, *, whole: bool, lasts: float) -> str:
+    if claim.times is not None and claim.times[0] > lasts:
+        return (
+            f"The fault is right, but the log ends after {lasts:.0f} s. Are your times in "
+            "milliseconds? Write seconds."
+        )
     if not claim.places and claim.times is None:
         return "Where is it? Add the test, and the times when it starts and ends."
     if whole:

@@ -130,7 +130,10 @@ def _gain(name: str, answers: Answers) -> None:
         found = fitted(variant.log, preparation)
     except Refusal as refusal:
         raise WrongAnswer(
-            "no fit", hint=f"{refusal} You cut away too much.", misconception="M-TRIM-PRETTY"
+            "no fit: too little is left of your log",
+            hint="You cut away too much: a part of a test is too short, or the threshold is too "
+            f"high. The fit says: {refusal}",
+            misconception="M-TRIM-PRETTY",
         ) from None
     value, asked = found.gains[name], variant.asked[name]
     score = earned(value, asked)

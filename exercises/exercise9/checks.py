@@ -256,7 +256,7 @@ def _missed(answers: Answers) -> str:
         mine, best = (
             float(np.sqrt(np.mean((voltage - known @ np.array(g)) ** 2))) for g in (gains, good)
         )
-    if not np.isfinite(mine):
+    if not np.isfinite(mine) or mine <= best:  # noise: it says nothing about these gains
         return ""
     return (
         f". With your three gains, the voltage error in the log is {_volts(mine)} (RMS); with a "

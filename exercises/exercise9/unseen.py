@@ -264,7 +264,9 @@ def _judge_log(log: Hidden, answer: "CallResult") -> list[Miss]:
 
 def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
     if name in answer.refused:
-        hint = f"Return one number for {name}: float(...) makes one, if there is one"
+        hint = f"Return one number for {name}: float(...) makes one of a single value"
+        if answer.refused[name] == "None":
+            hint = f"Your function does not find {name} yet: it returns None"
         return Miss(log, WrongAnswer(f"{name} = {answer.refused[name]}", hint=hint))
     one, value, period = log.key.asked[name], answer.numbers.get(name), log.recipe.period
     # a kA of 0.02 s is too large by as much as samples are closer

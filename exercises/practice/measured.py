@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.answer import AnswerKey, AskedNumber, Band, ask_gains, read_answer_number
 from grader.check import NotReachedError, WrongAnswer, shorten
 from grader.choice_answer import normalize_choice
+from grader.wrong_number import Scene
 from sim.core.errors import Refusal
 
 if TYPE_CHECKING:
@@ -97,7 +98,10 @@ def _measured(found: "Fit", units: str, parts: Parts | None, why: str) -> Measur
     suggested = found.feedback().get("velocity")
     if suggested is not None:
         asked["kP"] = AskedNumber("kP", suggested.kp, f"V·s/{symbol}", KP)
-    return Measured(found, AnswerKey(asked), units, parts, why)
+    scene = Scene(angular=units != "Meters")
+    if parts is not None:
+        scene = replace(scene, ratio=parts.ratio, motors=parts.motors)
+    return Measured(found, AnswerKey(asked, scene), units, parts, why)
 
 
 def _parts(given: Mapping[str, object], units: str) -> Parts:

@@ -43,7 +43,7 @@ class _OpenStudent:
     job: GradingJob
     records: dict[str, Record] = field(default_factory=dict)
 
-    def graded(self) -> GradedStudent | None:
+    def results_if_complete(self) -> GradedStudent | None:
         """Their results, once there are all."""
         if len(self.records) < len(self.job.names):
             return None
@@ -93,14 +93,14 @@ def _grade(
     students = {job.student: _OpenStudent(job) for job, _ in tasks}
     waiting, running = iter(tasks), dict[Future[GradedStudent], Task]()
 
-    def hand_out() -> None:
+    def start_tasks() -> None:
         with interrupts_blocked_for_children():
             while len(running) < AHEAD * workers and (task := next(waiting, None)):
                 job, name = task
                 part = replace(job, names=(name,), files=_select_exercise(job, name))
                 running[pool.schedule(grade_student, args=(part,), timeout=seconds)] = task
 
-    hand_out()
+    start_tasks()
     while running:
         done, _ = wait(running, timeout=LOOK, return_when=FIRST_COMPLETED)
         stop_if_asked()
@@ -108,10 +108,10 @@ def _grade(
             job, name = running.pop(future)
             one = students[job.student]
             one.records[name] = _make_record(future, job, name)
-            if (graded := one.graded()) is not None:
+            if (graded := one.results_if_complete()) is not None:
                 del students[job.student]
                 yield graded
-        hand_out()
+        start_tasks()
 
 
 def _make_record(future: Future[GradedStudent], job: GradingJob, name: str) -> Record:

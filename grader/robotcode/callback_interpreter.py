@@ -5,8 +5,9 @@ entry in a log) is for a subclass to say.
 """
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType
 
 from grader.robotcode.abstract_value import Value, join_values
@@ -17,6 +18,7 @@ from grader.robotcode.name_resolution import (
     Method,
     find_called_functions,
     find_class,
+    find_implementing_methods,
     infer_type,
     last_name,
     resolve,
@@ -83,7 +85,7 @@ class CallbackInterpreter(StatementInterpreter):
         said = f"`{node.place.text}` calls code that is not in this file or in the files next to it"
         self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
 
-    def call(self, node: Call, frame: Frame) -> Value:
+    def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
         owner = node.target.owner if isinstance(node.target, Member) else None
         receiver = None if owner is None else self.evaluate(owner, frame)
@@ -113,18 +115,56 @@ class CallbackInterpreter(StatementInterpreter):
         owner = None if receiver is None else (receiver.origin, receiver.scope)
         methods = find_called_functions(call, frame.scope, self.names, owner=owner)
         fresh = next((method for method in methods if method[0] not in frame.around), None)
+        said: Value | None = None
         if fresh is not None:
             before = self.entry_count()
             value = self.follow_call(fresh, args, named, frame, me=self._object(receiver, frame))
             if fresh[0].body or self.entry_count() > before:
                 return value
+            said = self._implemented(fresh, call, (receiver, args, named), frame)
         every = [*args, *named.values()]
-        if fresh is not None or not methods:
+        if said is None and (fresh is not None or not methods):
             said = self.note_call(call, receiver, every, frame.unknown_value(call))
-            if said is not None:
-                return said
+        if said is not None:
+            return said
         self._keep(call, receiver, every, frame)
         return self.flow.apply_library_call(call, receiver, every, frame.unknown_value(call))
+
+    def _implemented(
+        self,
+        method: Method,
+        call: Call,
+        given: tuple[Value | None, list[Value], dict[str, Value]],
+        frame: Frame,
+    ) -> Value | None:
+        """A call of a method without a body: what the class does that implements it.
+
+        Returns:
+            None where no class of these files does, or where several do something else.
+        """
+        receiver, args, named = given
+        me = self._object(receiver, frame)
+        found = [
+            one
+            for one in find_implementing_methods(method, self.names)
+            if one[0] not in frame.around
+        ]
+        if len(found) == 1:
+            return self.follow_call(found[0], args, named, frame, me=me)
+        ways = [partial(self.follow_call, one, args, named, frame, me=me) for one in found]
+        return (
+            self.note_agreed_call(call, receiver, ways, frame.unknown_value(call)) if ways else None
+        )
+
+    def note_agreed_call(
+        self,
+        call: Call,  # noqa: ARG002 - for a subclass that can compare
+        receiver: Value | None,  # noqa: ARG002 - the same
+        ways: Sequence[Callable[[], Value]],  # noqa: ARG002 - the same
+        at: Value,  # noqa: ARG002 - the same
+    ) -> Value | None:
+        """What a call comes to, whichever of several classes it runs in; None if that differs."""
+        return None
 
     def _invoked(self, callee: Value, args: list[Value], frame: Frame) -> Value:
         """A call of a lambda or of a method reference."""

@@ -1,5 +1,7 @@
 """The drive callback: which motors it commands, how, and whether the voltage gets there."""
 
+from collections.abc import Callable, Sequence
+
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.callback_interpreter import CallbackInterpreter
 from grader.robotcode.constant_folding import ConstantFolder
@@ -45,6 +47,36 @@ class DriveTrace(CallbackInterpreter):
     def entry_count(self) -> int:
         """How many commands have been noted."""
         return len(self.calls)
+
+    def note_agreed_call(
+        self, call: Call, receiver: Value | None, ways: Sequence[Callable[[], Value]], at: Value
+    ) -> Value | None:
+        """Note one command where all classes that a call may run in command their motors alike."""
+        before = [*self.calls], dict(self.stored), dict(self.unread)
+        outcomes = []
+        for way in ways:
+            way()
+            outcomes.append({_kind(one) for one in self.calls[len(before[0]) :]})
+            self.calls, self.stored, self.unread = [*before[0]], dict(before[1]), dict(before[2])
+        first = outcomes[0]
+        if len(first) != 1 or any(one != first for one in outcomes):
+            return None
+        output, carries, scaled, negative, condition = next(iter(first))
+        self.calls += [
+            DriveCall(
+                motor=motor,
+                method=last_name(call.target),
+                output=output,
+                uses_parameter=carries,
+                scaled=scaled,
+                text=call.place.text,
+                line=self.line_of(call),
+                negative=negative,
+                condition=condition,
+            )
+            for motor in self._motors(receiver, at)
+        ]
+        return at
 
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
@@ -152,6 +184,11 @@ class DriveTrace(CallbackInterpreter):
             return bool(self.names.find_local(node.name, scope))
         named = last_name(node).lstrip("_")  # in any script: most have no capitals
         return isinstance(node, Call) or (bool(named) and not named[:1].isupper())
+
+
+def _kind(call: DriveCall) -> tuple[Output, bool | None, bool | None, bool, str]:
+    """What a command does, whatever its motor is called."""
+    return call.output, call.uses_parameter, call.scaled, call.negative, call.condition
 
 
 def _mode(value: Value) -> Output | None:

@@ -148,7 +148,6 @@ class RoutineFacts:
         ramp, step, timeout: the Config's three numbers.
         motors: motor controller objects the class owns, without those set to follow another.
         drive_found, log_found: whether each callback was found (``null`` is not one).
-        drive_line, log_line: where they are; 0 if they are not.
         drive: the commands in the drive callback, followed through methods of the same class.
         logged: the values recorded in the log callback, followed likewise.
         log_is_null: the log callback is explicitly null/None (vendors' own loggers do that).
@@ -181,8 +180,6 @@ class RoutineFacts:
     motors: tuple[str, ...] = ()
     drive_found: bool = False
     log_found: bool = False
-    drive_line: int = 0
-    log_line: int = 0
     drive: tuple[DriveCall, ...] = ()
     logged: tuple[LoggedSignal, ...] = ()
     log_is_null: bool = False

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 from grader.robotcode.ir import Module
-from grader.robotcode.source import detect_language, read_source
+from grader.robotcode.source import LARGEST, detect_language, read_source
 from sim.core.errors import UnreadableFile
 
 MOST_FILES = 200  # neighbours looked at; a robot program has about fifty
@@ -52,6 +52,12 @@ class Files:
             else:
                 self._found[key] = self._find_python(parts, level, seen_from)
         return self._found[key]
+
+    def find_by_word(self, word: str) -> list[Module]:
+        """The Java files of the program whose text has a word, in the order of their paths."""
+        paths = sorted(path for several in self._java_files().values() for path in several)
+        found = (self._module(path) for path in paths if _has_word(path, word))
+        return [module for module in found if module is not None]
 
     def _find_java(self, parts: tuple[str, ...], seen_from: Module) -> Found | None:
         start = next((i for i, part in enumerate(parts) if part[:1].isupper()), None)
@@ -112,6 +118,14 @@ class Files:
                 module = None
             self._modules[path] = None if module is None or module.problems else module
         return self._modules[path]
+
+
+def _has_word(path: Path, word: str) -> bool:
+    """Whether a file's text has a word, so that only such files are parsed."""
+    try:
+        return word.encode() in path.read_bytes() if path.stat().st_size <= LARGEST else False
+    except OSError:
+        return False
 
 
 def _is_own_file(path: Path) -> bool:

@@ -21,8 +21,9 @@ from grader.robotcode.ir import (
     Text,
     iter_nodes,
 )
-from grader.robotcode.scope import Definitions, Scope
+from grader.robotcode.scope import Definitions, Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
+from grader.robotcode.vocabulary import STAND_INS
 
 MOST_STEPS = 20  # names followed, one to the next
 MOST_PIECES = 5  # strings joined one into the other
@@ -225,6 +226,43 @@ def find_methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
     """The methods of a name in a class, or in the classes above it if it has none."""
     places = names.list_base_classes(home) if home.classes else [home]
     return next(filter(None, (_methods_in(place, name, names) for place in places)), [])
+
+
+def find_given_setting(node: Node, scope: Scope, names: SymbolTable) -> str:
+    """The constant that the program gives a setting: ``Voltage`` of ``constants.DriveOutput``.
+
+    A library's object holds it; what the program says is ``withDriveOutput(Type.Voltage)``.
+
+    Returns:
+        The constant's name; empty where there is no such call, or where two of them differ.
+    """
+    if not isinstance(node, Member) or scope.module.language != "java":
+        return ""
+    setter = f"with{node.name}"
+    found = {
+        last_name(resolve(inner.args[0], where, names)[0])
+        for module in names.list_modules_with(setter)
+        for inner, where in walk_with_scopes(module.body, Scope(module))
+        if isinstance(inner, Call) and last_name(inner.target) == setter and len(inner.args) == 1
+    }
+    return found.pop() if len(found) == 1 else ""
+
+
+def find_implementing_methods(method: Method, names: SymbolTable) -> list[Method]:
+    """What classes of these files do in a method that a class or interface leaves empty.
+
+    What only stands in for hardware, a simulation or the replay of a log, is not among them.
+    """
+    function, scope = method
+    if function.body or not scope.classes or scope.module.language != "java":
+        return []
+    return [
+        one
+        for home in names.find_implementations(scope.home)
+        if not STAND_INS.search(home.classes[-1].name)
+        for one in _methods_in(home, function.name, names)
+        if one[0].body and len(one[0].parameters) == len(function.parameters)
+    ]
 
 
 def _methods_in(home: Scope, name: str, names: SymbolTable) -> list[Method]:

@@ -257,11 +257,7 @@ def _with_mechanism(
     callback = _callback(given.get(0), scope, names)
     if callback is not None:
         parameter = Value(callback, scope, carries=True)
-        facts = replace(
-            facts,
-            drive_found=drive.run(callback, scope, parameter),
-            drive_line=drive.line_of(callback),
-        )
+        facts = replace(facts, drive_found=drive.run(callback, scope, parameter))
         _in_periodic(drive, scope, names)
         facts = replace(facts, in_periodic=_besides(drive, scope, names, measures))
     commanded = {key for key, value in drive.stored.items() if value.carries is not False}
@@ -270,7 +266,7 @@ def _with_mechanism(
     callback = _callback(given.get(1), scope, names)
     if callback is not None:
         found = log.run(callback, scope, Value(callback, scope, log=MotorLog()))
-        facts = replace(facts, log_found=found, log_line=log.line_of(callback))
+        facts = replace(facts, log_found=found)
     return replace(
         facts,
         drive=tuple(drive.calls),

@@ -29,7 +29,7 @@ from grader.robotcode.ir import (
     Self,
 )
 from grader.robotcode.motors import list_group_members, motor_label
-from grader.robotcode.name_resolution import Method
+from grader.robotcode.name_resolution import Method, find_given_setting, last_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.transfer_functions import TransferFunctions
@@ -38,6 +38,7 @@ MOST_STEPS = 20_000  # expressions looked at in all; a whole subsystem has some 
 DEEPEST = 60  # expressions and statements inside one another
 DECIDES = re.compile(r"(if|elif|while)\b")  # how a statement begins whose first part is a condition
 CONSTANT = re.compile(r"\(?\s*(true|false|0|1)\s*\)?", re.IGNORECASE)
+ARROW = re.compile(r"switch\b[^{]*\{\s*(case\b[^:>]*|default\s*)->")
 LEAVES = re.compile(r"\b(return|break|continue|throw|raise)\b")
 
 
@@ -85,7 +86,7 @@ class StatementInterpreter(ABC):
         self._depth = 0
 
     @abstractmethod
-    def call(self, node: Call, frame: Frame) -> Value:
+    def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call."""
 
     @abstractmethod
@@ -117,7 +118,7 @@ class StatementInterpreter(ABC):
         self._depth += 1
         try:
             if isinstance(node, Call):
-                return self.call(node, frame)
+                return self.evaluate_call(node, frame)
             return self._KINDS.get(type(node), StatementInterpreter._parts)(self, node, frame)
         finally:
             self._depth -= 1
@@ -213,8 +214,10 @@ class StatementInterpreter(ABC):
         before, sure = self.condition, self.sure
         frame.branches += 1
         self.sure = False
-        for number, part in enumerate(node.parts):
+        results = []
+        for number, (part, is_result) in enumerate(self._branch_parts(node, frame)):
             value = self.evaluate(part, frame)
+            results += [value] if is_result else []
             text = part.place.text
             decides = number == 0 and DECIDES.match(node.place.text)
             if decides and (value.carries is not False or CONSTANT.fullmatch(text)):
@@ -223,7 +226,22 @@ class StatementInterpreter(ABC):
         self.sure = sure
         if not LEAVES.search(node.place.text):
             self.condition = before
-        return frame.unknown_value(node)
+        only = results[0] if len(results) == 1 else frame.unknown_value(node)
+        return join_values(results, at=only)
+
+    def _branch_parts(self, node: Branch, frame: Frame) -> list[tuple[Node, bool]]:
+        """The parts of a branch, and whether a part is what a ``case … ->`` of a switch comes to.
+
+        Of a switch over a setting that the program gives once, only the case of its value counts.
+        """
+        if not ARROW.match(node.place.text):
+            return [(part, False) for part in node.parts]
+        decides, *blocks = node.parts
+        cases = [case.parts for block in blocks for case in block.parts if case.parts]
+        given = find_given_setting(decides, frame.scope, self.names)
+        meant = [case for case in cases if given in map(last_name, case[:-1])]
+        several = meant if given and len(meant) == 1 else cases
+        return [(decides, False), *((part, part is case[-1]) for case in several for part in case)]
 
     def _loop(self, node: Loop, frame: Frame) -> Value:
         result = []

@@ -50,6 +50,7 @@ class SymbolTable:
         self._bound: dict[Function | Module, dict[str, Definitions]] = {}
         self._fields: dict[Class, dict[str, Definitions]] = {}
         self._bases: dict[Class, tuple[Scope, ...]] = {}
+        self._below: dict[Class, tuple[Scope, ...]] = {}
         self._tops: dict[tuple[Module, str], Definitions] = {}
         self._classes: dict[tuple[Class | Module, str], Scope | None] = {}
 
@@ -108,6 +109,32 @@ class SymbolTable:
             if len(found) >= MOST_CLASSES:
                 break
         return found[:MOST_CLASSES]
+
+    def find_implementations(self, home: Scope) -> tuple[Scope, ...]:
+        """The classes of these files that say they implement or extend a class, themselves."""
+        owner = home.classes[-1]
+        if owner not in self._below:
+            self._below[owner] = ()
+            self._below[owner] = tuple(
+                place
+                for module in self.list_modules_with(owner.name)
+                for place in self._classes_in(Scope(module))
+                if owner.name in place.classes[-1].bases and home in self._above(place)
+            )
+        return self._below[owner]
+
+    def list_modules_with(self, word: str) -> list[Module]:
+        """The Java files of the program in whose text a word stands."""
+        return self._files.find_by_word(word)
+
+    def _classes_in(self, home: Scope) -> Iterator[Scope]:
+        """The classes of a file, those inside others among them."""
+        for node in self.list_members(home):
+            if isinstance(node, Class):
+                place = home.within(node)
+                yield place
+                if len(place.classes) < MOST_CLASSES:
+                    yield from self._classes_in(place)
 
     def list_members(self, home: Scope) -> tuple[Function | Class, ...]:
         """The methods and classes directly in a class, or in a file."""

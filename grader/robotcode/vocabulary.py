@@ -235,6 +235,7 @@ CONTROLLERS = re.compile(r".*(PID|BangBang|LinearQuadratic|LinearSystemLoop).*",
 LOOPS = frozenset({"forEach"})
 RUNS = frozenset({"accept", "apply", "run", "call"})  # run a lambda that a variable holds
 COLLECTIONS = frozenset({"List", "Set", "Arrays", "Stream"})  # List.of(left, right)
+STAND_INS = re.compile(r"(Sim|Simulated|Simulation|Replay|Mock|Fake|Noop)(?![a-z])")  # ModuleIOSim
 SILENT = re.compile(  # methods that show or keep a value, and move nothing
     r"(get|is|has|with|mut|put|log|record|print|publish|append|report|add|info|equals|to)([A-Z]\w*)?"
     r"|println|printf|calculate\w*|abs|max|min|clamp|in|of|signum|copySign|format|times|div|divide"

@@ -101,11 +101,6 @@ class JupyterServers:
                 server.process.kill()
             shutil.rmtree(server.runtime, ignore_errors=True)
 
-    @property
-    def running_count(self) -> int:
-        """How many run."""
-        return sum(server.is_alive() for server in self._servers.values())
-
 
 def _start_server(student: str, course: Path, *, host: str, account: int | None) -> JupyterServer:
     port, token = _find_free_port(host), secrets.token_hex(16)

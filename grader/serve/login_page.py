@@ -160,7 +160,7 @@ class BasePage(RequestHandler):
             self.set_header(name, value)
 
     def redirect_to_server(self, student: str, start: "asyncio.Task[JupyterServer]") -> None:
-        """To the server that started, or back to the page with the reason."""
+        """Redirect to the server that started, or back to the page with the reason."""
         try:
             room = start.result()
         except Refusal as refusal:
@@ -225,7 +225,7 @@ class WaitingPage(BasePage):
     """Tells a student their place until their server runs."""
 
     def get(self) -> None:
-        """Show the place, or lead in."""
+        """Show the student's place in the queue, or redirect to their server."""
         student = self.queue.tickets.get(self.get_query_argument("ticket", ""))
         start = self.queue.starts.get(student) if student is not None else None
         if student is None or start is None:

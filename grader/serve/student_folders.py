@@ -136,7 +136,7 @@ def _make_code() -> str:
 
 
 def is_code_right(given: str, code: str) -> bool:
-    """Whether this is the code, in capitals or not; how long it takes tells nothing."""
+    """Compare a typed code in constant time, ignoring case."""
     plain = given.strip().upper().encode("utf-8", "replace")
     return hmac.compare_digest(plain, code.encode())
 

@@ -85,7 +85,7 @@ class SwerveDrive:
 
     @property
     def translation(self) -> Mechanism:
-        """It going straight, its wheels locked forward."""
+        """The drive going straight."""
         return Mechanism(
             name="swerve",
             summary="a swerve drive going straight, its wheels locked forward",
@@ -108,7 +108,7 @@ class SwerveDrive:
 
     @property
     def rotation(self) -> Mechanism:
-        """It turning on the spot, its wheels across the diagonals, read by a gyro in degrees."""
+        """The drive turning on the spot, read by a gyro in degrees."""
         volts_per_torque = (
             self.motor.resistance
             * self.wheel_radius

@@ -50,7 +50,11 @@ class InformationMatrix:
         }
 
     def information_on_pair(self, first: str, second: str) -> Array:
-        """(2, 2) what the rows tell of two gains, the others being unknown, too.
+        """(2, 2) information about two gains, the others being unknown, too.
+
+        Args:
+            first: a gain, as ``kV``.
+            second: another one.
 
         Raises:
             BadRequest: no such gain.

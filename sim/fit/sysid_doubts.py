@@ -20,7 +20,7 @@ UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its si
 def sysid_doubts(
     log: Log, prepared: PreparedRows, found: Regression, simulated: tuple[SimulationScore, ...]
 ) -> tuple[Doubt, ...]:
-    """Everything to know before trusting a fit.
+    """All doubts about a fit by SysId's recipe.
 
     Args:
         log: what was fitted.

@@ -72,7 +72,7 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
 
 
 def step_start(run: Run) -> int:
-    """The sample where the voltage comes on and stays; a first sample may be of the test before."""
+    """Index of the sample at which the voltage comes on and stays."""
     size = np.abs(run.voltage)
     on = size > ON * float(size.max(initial=0.0))
     if on.size <= STAYS:

@@ -20,24 +20,20 @@ class RobotController:
     Args:
         name: as on the command line.
         brownout: [V] below which it disables the motors.
-        resume: [V] above which it enables them again.
         source: where the figures are from.
     """
 
     name: str
     brownout: float
-    resume: float
     source: str
 
 
 CONTROLLERS: Mapping[str, RobotController] = {
     found.name: found
     for found in (
-        RobotController("roborio1", 6.3, 7.5, "frc-docs, roboRIO brownouts: fixed"),
-        RobotController("roborio2", 6.75, 7.5, "frc-docs: default of RobotController's setting"),
-        RobotController(
-            "systemcore", 6.75, 7.25, "WPILib 2027's simulation: defaults of both settings"
-        ),
+        RobotController("roborio1", 6.3, "frc-docs, roboRIO brownouts: fixed"),
+        RobotController("roborio2", 6.75, "frc-docs: default of RobotController's setting"),
+        RobotController("systemcore", 6.75, "WPILib 2027's simulation: default of its setting"),
     )
 }
 

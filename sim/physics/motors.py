@@ -3,7 +3,10 @@
     R = 12 V / stall current            Kt = stall torque / stall current
     Ke = (12 V - R·free current) / free speed
 
-Source: WPILib 2026.2.2, ``DCMotor``.
+Source: WPILib 2026.2.2, ``DCMotor``. Its two tables differ in one number, the free current of the
+NEO Vortex: 3.615 A in C++, from which Python's is made, and 3.6 A in Java.
+https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/native/include/frc/system/plant/DCMotor.h
+https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java
 """
 
 import math
@@ -62,7 +65,7 @@ MOTORS: dict[str, Motor] = {
         _motor("falcon500", 4.69, 257, 1.5, 6380),
         _motor("falcon500FOC", 5.84, 304, 1.5, 6080),
         _motor("neo", 2.6, 105, 1.8, 5676),
-        _motor("neoVortex", 3.6, 211, 3.615, 6784),  # C++ and Python; Java's table has 3.6 A free
+        _motor("neoVortex", 3.6, 211, 3.615, 6784),
         _motor("neo550", 0.97, 100, 1.4, 11000),
         _motor("minion", 3.17, 211, 2, 7704),
         _motor("cim", 2.42, 133, 2.7, 5310),

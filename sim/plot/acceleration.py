@@ -63,7 +63,7 @@ def plot_acceleration_velocity(
             MARKERS[index],
             color=COLORS[index],
             markersize=3.0 if test.startswith("quasi") else 5.0,
-            alpha=0.7,
+            alpha=0.7 if test.startswith("quasi") else 1.0,
             label=test,
         )
     if gains is not None:

@@ -1,6 +1,6 @@
 """Numbers to compare: gains against the truth, one number against another, errors of a line."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -120,21 +120,26 @@ def plot_curves(
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.legend(fontsize=8)
-    said = [f"{ylabel} over {xlabel}."]
-    said += [
-        f"“{name}” goes from {to_text(float(y[0]))} at {x[0]:g} to {to_text(float(y[-1]))} at "
-        f"{x[-1]:g}."
-        for name, y in lines.items()
-    ]
-    said += [
-        f"A dashed line marks “{name}”, {to_text(level)}." for name, level in (levels or {}).items()
-    ]
+    said = [f"{ylabel} over {xlabel}.", *_curve_sentences(x, lines, levels or {})]
     if marked is not None:
         said.append(f"A star marks “{mark}”, {to_text(marked[1])} at {marked[0]:g}.")
     rows = tuple(
         _row(f"{x[i]:g}", [float(y[i]) for y in lines.values()]) for i in range(0, len(x), few)
     )
     return Picture(figure, " ".join(said), Table((xlabel, *lines), rows, caption=ylabel))
+
+
+def _curve_sentences(
+    x: Sequence[float] | Array,
+    lines: Mapping[str, Sequence[float] | Array],
+    levels: Mapping[str, float],
+) -> Iterator[str]:
+    """Where each curve begins and ends, and what each dashed line marks."""
+    for name, y in lines.items():
+        first, last = to_text(float(y[0])), to_text(float(y[-1]))
+        yield f"“{name}” goes from {first} at {x[0]:g} to {last} at {x[-1]:g}."
+    for name, level in levels.items():
+        yield f"A dashed line marks “{name}”, {to_text(level)}."
 
 
 def plot_misses(

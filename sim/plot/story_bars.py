@@ -115,7 +115,7 @@ def plot_gap_by_round(story: Story) -> Picture:
     )  # fmt: skip
     axes.set_yticks(range(len(gaps)), names)
     axes.set_ylim(len(gaps) - 0.5, -0.85)
-    axes.set_xlabel("RMS velocity error of the simulation [times the noise]", color=INK)
+    axes.set_xlabel("gap: RMS velocity error of the simulation [times the noise]", color=INK)
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     symbol = find_unit(story.shown.units).symbol

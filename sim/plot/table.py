@@ -15,7 +15,7 @@ LONGEST = 1e5  # a larger number is written with an exponent
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under a header; the first cell of a row names it.
+    """A table: a header, and rows that are named by their first cell.
 
     Args:
         header: what each column holds, with its unit.

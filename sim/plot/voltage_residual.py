@@ -229,7 +229,7 @@ def _draw(axes: Axes, view: ResidualView, *, high: float) -> None:
     inside = np.flatnonzero((view.at >= view.edges[0]) & (view.at <= view.edges[-1]))
     inside = inside[:: max(1, -(-inside.size // MOST))]
     axes.plot(
-        view.at[inside], view.volts[inside], ".", color=COLORS[4], markersize=2.5, alpha=0.9,
+        view.at[inside], view.volts[inside], ".", color=COLORS[0], markersize=3.5, alpha=0.8,
         label="samples",
     )  # fmt: skip
     middle = 0.5 * (view.edges[:-1] + view.edges[1:])

@@ -60,13 +60,15 @@ def fill_gaps(*, left: Signals, columns: Signals, gains: Solved) -> FilledGaps:
     rng = np.random.default_rng(7)
     rows = tuple(rng.standard_normal(SAMPLES) for _ in range(3))
     solved = (-8.0, 3.0, -0.5)
-    first = _judge(lambda: left(*rows), put_acceleration_left(*rows), "Which signal is noisiest?")
-    second = _judge(
+    first = judge_gap(
+        lambda: left(*rows), put_acceleration_left(*rows), "Which signal is noisiest?"
+    )
+    second = judge_gap(
         lambda: columns(*rows),
         make_columns(*rows),
         "What is γ multiplied by in the equation for a? NumPy calls it np.sign(v).",
     )
-    third = _judge(
+    third = judge_gap(
         lambda: _in_order(gains(*solved)),
         list(compute_gains(*solved).values()),
         "Use kV = −α/β and kA = 1/β.",
@@ -89,8 +91,8 @@ def _in_order(gains: object) -> object:
     return [gains[name] for name in ("kS", "kV", "kA")] if isinstance(gains, dict) else gains
 
 
-def _judge(answer: Callable[[], object], expected: object, hint: str) -> str:
-    """What is said to one gap."""
+def judge_gap(answer: Callable[[], object], expected: object, hint: str) -> str:
+    """What is said to one gap of a learner: right, still empty, or not yet with a hint."""
     try:
         found = answer()
         if found is ... or (isinstance(found, list | tuple) and any(one is ... for one in found)):

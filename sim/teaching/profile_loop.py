@@ -116,6 +116,10 @@ class ElevatorFeedforward:
         """[V] that bring the mechanism from one velocity to the next in a period.
 
         kS gets the sign of the current velocity: from rest there is none in the first loop.
+
+        Args:
+            current: [m/s or rad/s] velocity now.
+            following: [m/s or rad/s] velocity after one period.
         """
         if self.kA < MASSLESS:
             return self.kS * _sign(following) + self.kG + self.kV * following
@@ -145,7 +149,12 @@ class PIDController:
         self._total, self._last = 0.0, 0.0
 
     def calculate(self, measurement: float, setpoint: float) -> float:
-        """[V] for the error of one loop: first what is measured, then what is wanted."""
+        """[V] for the error of one loop.
+
+        Args:
+            measurement: [m or rad] measured position.
+            setpoint: [m or rad] wanted position.
+        """
         error = setpoint - measurement
         change = (error - self._last) / self.period  # in the first loop from zero, as WPILib's
         self._last = error

@@ -16,12 +16,12 @@ Terms = Callable[[float, float, float, float], float]
 def volts(name: str, wrong: Terms) -> Callable[[str], str]:
     """Make a wrong voltage of its three terms and of the size of the dashboard's unit."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         (row,) = (row for row in ROW.finditer(text) if row["name"] == name)
         value = wrong(*(float(term) for term in row.groups()[2:]))
         return text.replace(f"{name} = {row['volts']} ", f"{name} = {value:.3f} ")
 
-    return make
+    return edit_text
 
 
 def pushed(text: str) -> float:
@@ -33,11 +33,11 @@ def pushed(text: str) -> float:
 def swapped(one: str, other: str) -> Callable[[str], str]:
     """Exchange two names."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         spare = text.replace(f"\n{one} = ", "\n@ = ").replace(f"\n{other} = ", f"\n{one} = ")
         return spare.replace("\n@ = ", f"\n{other} = ")
 
-    return make
+    return edit_text
 
 
 def other_term(text: str) -> str:
@@ -161,14 +161,13 @@ MISTAKES = (
         swapped("braking", "accelerating"),
         "accelerating",
         "Did you swap two answers?",
-        "M-ARGORDER",
     ),
     Mistake(
         "a number from nowhere",
         ANSWERS,
         volts("forward", lambda s, v, _a, _: 1.08 * (s + v)),
         "forward",
-        "just outside the accepted ±2 %",
+        "outside the accepted ±2 %",
     ),
     Mistake(
         "nothing", ANSWERS, replace_text(("forward = ", 'forward = "" # ')), "forward", "nothing"
@@ -192,7 +191,7 @@ MISTAKES = (
         ANSWERS,
         other_term,
         "largest",
-        "compare volts: compute all three terms at",
+        "in volts, and compare their sizes",
     ),
     Mistake(
         "a word that is no term",

@@ -13,13 +13,13 @@ CONVERTED = " * CONVERSION"
 def changed(pattern: str, new: str | Callable[[re.Match[str]], str]) -> Callable[[str], str]:
     """Make a wrong text by changing whatever a pattern finds."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         wrong = re.sub(pattern, new, text, flags=re.MULTILINE)
         if wrong == text:
             raise ValueError(f"the solution no longer contains {pattern!r}")
         return wrong
 
-    return make
+    return edit_text
 
 
 def valued(gain: str, change: Callable[[str], str]) -> Callable[[str], str]:
@@ -60,7 +60,7 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
         sign: of kS, as Java has it.
     """
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         java = "new SimpleMotor" in text or "new Elevator" in text or "new Arm" in text
         arm = "ArmFeedforward(" in text
         note = re.search(r"times ([\d.]+) in place of CONVERSION. Gears ([\d.]+):1", text)
@@ -80,7 +80,7 @@ def in_slot0(scale: str, *, sign: str = "UseVelocitySign") -> Callable[[str], st
             )
         return _instead(text, f"{'new ' * java}Slot0Configs()." + ".".join(settings))
 
-    return make
+    return edit_text
 
 
 def also_in_slot0(text: str) -> str:
@@ -110,11 +110,11 @@ def in_spark(order: dict[str, str]) -> Callable[[str], str]:
         order: setting -> the gain that it gets.
     """
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         chain = ".".join(f"{name}({HELD}{gain})" for name, gain in order.items())
         return _instead(text, f"{'new ' * ('new ' in text)}FeedForwardConfig().{chain}")
 
-    return make
+    return edit_text
 
 
 HELD = "CharacterizationConstants."
@@ -229,7 +229,7 @@ MISTAKES = (
         in_slot0("TURN / GEARS"),
         "conversion",
         "per rotation of the motor's rotor",
-        "M-UNITS",
+        "M-GEARING",
     ),
     Mistake(
         "Slot0Configs with gains per radian",
@@ -267,6 +267,14 @@ MISTAKES = (
         "order",
         "kA is where FeedForwardConfig expects kV",
         "M-ARGORDER",
+    ),
+    Mistake(
+        "kV in volts",
+        JAVA,
+        changed(r"(?<=// V)·s/.*$", ""),
+        "units",
+        "a unit of something else than kV",
+        "M-UNITS",
     ),
     Mistake("no units", JAVA, changed(r" // V.*$", ""), "units", "no unit of kS"),
     Mistake("no units, Python", PYTHON, changed(r"  # V·s/.*$", ""), "units", "no unit of kV"),

@@ -15,7 +15,11 @@ MISTAKES = (
     Mistake("nothing chosen", ANSWERS, set_answer("KC1_answer", '""'), "kc1-answer", "nothing yet"),
     Mistake("a number", ANSWERS, set_answer("KC1_answer", "1"), "kc1-answer", "not a letter"),
     Mistake(
-        "a letter too far", ANSWERS, set_answer("KC1_answer", '"z"'), "kc1-answer", "one letter, a"
+        "a letter too far",
+        ANSWERS,
+        set_answer("KC1_answer", '"z"'),
+        "kc1-answer",
+        "of your questions.md: a",
     ),
     chose(
         "Q0_guess", "Which model of the physics", "This question needs recorded tests. Somebody who"

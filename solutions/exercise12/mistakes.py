@@ -12,24 +12,35 @@ LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILI
 def named(change: Callable[[str], str], lines: str = "") -> Callable[[str], str]:
     """Change the list of names, and add lines with parameters."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = re.search(r"^effects = \[(.*?)\]", text, re.MULTILINE)
         if found is None:
             raise ValueError("the solution names no effects")
         return text.replace(found[0], f"effects = [{change(found[1])}]") + lines
 
-    return make
+    return edit_text
 
 
 def first_line(change: Callable[[str, float], str]) -> Callable[[str], str]:
     """Change the first parameter."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         if not LINE.search(text):
             raise ValueError("the solution has no parameters")
         return LINE.sub(lambda one: change(one["name"], float(one["value"])), text, count=1)
 
-    return make
+    return edit_text
+
+
+def gaps_swapped(text: str) -> str:
+    """Each gap in the place of the other."""
+    before, after = (
+        re.search(rf"^{name} = ([\d.]+)", text, re.MULTILINE)
+        for name in ("gap_before", "gap_after")
+    )
+    if before is None or after is None:
+        raise ValueError("the solution has no gaps")
+    return set_answer("gap_before", after[1])(set_answer("gap_after", before[1])(text))
 
 
 MISTAKES = (
@@ -87,7 +98,7 @@ MISTAKES = (
         ANSWERS,
         named(lambda _: '"delay"', "delay.lag = 0.04\n"),
         "all-effects",
-        "not all of these are right. An",
+        "not all of these are right. Two effects",
     ),
     Mistake(
         "an effect of nothing",
@@ -124,6 +135,13 @@ MISTAKES = (
         set_answer("gap_after", '""'),
         "held-out",
         "gap_after: nothing",
+    ),
+    Mistake(
+        "the two gaps swapped",
+        ANSWERS,
+        gaps_swapped,
+        "held-out",
+        "this is the other gap",
     ),
     Mistake(
         "a gap below what noise allows",

@@ -66,6 +66,20 @@ MISTAKES = (
         "M-DUTY",
     ),
     Mistake(
+        "the free speed itself",
+        ANSWERS,
+        change_number("kV_theory", lambda right: 12.0 / right["kV_theory"]),
+        "kv-theory",
+        "this is the free speed of your mechanism",
+    ),
+    Mistake(
+        "speed for each volt",
+        ANSWERS,
+        change_number("kV_theory", lambda right: 1.0 / right["kV_theory"]),
+        "kv-theory",
+        "this is upside down",
+    ),
+    Mistake(
         "the measured kV",
         ANSWERS,
         lambda text: change_number("kV_theory", lambda right: right["kV_theory"] * measured(text))(

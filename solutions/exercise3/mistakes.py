@@ -85,7 +85,13 @@ MISTAKES = (
         exchange_numbers("elevator_kG", "elevator_kS"),
         "elevator-kg",
         "did you swap them?",
-        "M-ARGORDER",
+    ),
+    Mistake(
+        "the arm's kG for the elevator",
+        ANSWERS,
+        change_number("elevator_kG", lambda right: right["arm_kG"]),
+        "elevator-kg",
+        "this is the number of your arm",
     ),
     Mistake(
         "an edge for the arm's kG",

@@ -325,6 +325,57 @@ MISTAKES = (
         "M-ARGORDER",
     ),
     Mistake(
+        "the two callbacks swapped",
+        JAVA,
+        replace_text(("this::drive, this::record", "this::record, this::drive")),
+        "drive",
+        "Are the two callbacks swapped?",
+        "M-ARGORDER",
+    ),
+    Mistake(
+        "the two callbacks swapped, Python",
+        PYTHON,
+        replace_text(("self.drive, self.record", "self.record, self.drive")),
+        "log",
+        "Are the two callbacks swapped?",
+        "M-ARGORDER",
+    ),
+    Mistake(
+        "ramp and step swapped",
+        JAVA,
+        replace_text(
+            (
+                "Volts.of(0.5).per(Second), Volts.of(3.5)",
+                "Volts.of(3.5), Volts.of(0.5).per(Second)",
+            )
+        ),
+        "ramp",
+        "Config takes the ramp first",
+        "M-ARGORDER",
+    ),
+    Mistake(
+        "ramp and step swapped, Python",
+        PYTHON,
+        replace_text(("rampRate=0.5, stepVoltage=3.5", "rampRate=3.5, stepVoltage=0.5")),
+        "ramp",
+        "Ramp and step are swapped",
+        "M-ARGORDER",
+    ),
+    Mistake(
+        "a decimal comma",
+        JAVA,
+        replace_text(("Volts.of(0.5)", "Volts.of(0,5)")),
+        "ramp",
+        "has a point, not a comma",
+    ),
+    Mistake(
+        "the voltage of the battery in the log",
+        JAVA,
+        replace_text(("m_left.getMotorVoltage()", "m_left.getSupplyVoltage()")),
+        "log",
+        "the voltage of the battery",
+    ),
+    Mistake(
         "the subsystem forgotten",
         JAVA,
         replace_text((", this))", ", null))")),

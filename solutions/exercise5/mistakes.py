@@ -16,13 +16,13 @@ FACTORY = (
 def without(pattern: str) -> Callable[[str], str]:
     """Make a wrong text by leaving out every line that a pattern finds."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         left = re.sub(rf"^.*(?:{pattern}).*\n", "", text, flags=re.MULTILINE)
         if left == text:
             raise ValueError(f"the solution no longer contains {pattern!r}")
         return left
 
-    return make
+    return edit_text
 
 
 MISTAKES = (
@@ -78,6 +78,13 @@ MISTAKES = (
         replace_text(("return m_routine.", "return SysIdRoutine.")),
         "held",
         "SysIdRoutine is the class, and it has no motors: write m_routine.quasistatic(...)",
+    ),
+    Mistake(
+        "the guard or the button",
+        JAVA,
+        replace_text((".and(testing)", ".or(testing)")),
+        "guard",
+        "Both must be true",
     ),
     Mistake(
         "two tests on one button",

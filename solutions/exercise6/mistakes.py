@@ -12,25 +12,25 @@ BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
 def puts(**values: str) -> Callable[[str], str]:
     """Give several lines other values, as TOML."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for name, value in values.items():
             text = set_answer(name, value)(text)
         return text
 
-    return make
+    return edit_text
 
 
 def turn_around(item: str) -> Callable[[str], str]:
     """Decide the other way about one thing of the morning."""
     other = {"go": "no-go", "no-go": "go"}
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = re.search(rf'^check_{item} = "(.*)"$', text, re.MULTILINE)
         if found is None:
             raise ValueError(f"the solution decides nothing about {item}")
         return set_answer(f"check_{item}", f'"{other[found[1]]}"')(text)
 
-    return make
+    return edit_text
 
 
 MORNING = ("travel", "battery", "encoder", "log", "guard", "driver_station")
@@ -57,6 +57,14 @@ MISTAKES = (
         puts(turret_ramp="0.5", turret_timeout="10", turret_release='"timeout"'),
         "turret",
         "It hits the end at",
+    ),
+    Mistake(
+        "a mark in degrees",
+        ANSWERS,
+        scale_numbers(360.0, "turret_release"),
+        "turret",
+        "Is your number in degrees?",
+        "M-UNITS",
     ),
     Mistake(
         "a step that burns rubber",

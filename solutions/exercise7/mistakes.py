@@ -26,7 +26,7 @@ OTHER_WAY = {"forward": "reverse", "reverse": "forward"}
 def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
     """Make another line of the first, out of its parts: some of them changed."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         found = FIRST.search(text)
         if found is None:
             raise ValueError("the first line of the solution is not what it was")
@@ -34,7 +34,12 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
         parts |= {name: change(parts[name]) for name, change in changes.items()}
         return set_answer("log01", f'"{line.format(**parts)}"')(text)
 
-    return make
+    return edit_text
+
+
+def milli(seconds: str) -> str:
+    """A time in milliseconds."""
+    return f"{1000 * float(seconds):.0f}"
 
 
 WHOLE = "{fault}, {kind}-{way}, {begin} to {end}, {action}"
@@ -58,6 +63,13 @@ MISTAKES = (
     ),
     Mistake(
         "the other way", ANSWERS, first(WHOLE, way=OTHER_WAY.__getitem__), "log01", "the place"
+    ),
+    Mistake(
+        "milliseconds",
+        ANSWERS,
+        first(WHOLE, begin=milli, end=milli),
+        "log01",
+        "Are your times in milliseconds?",
     ),
     Mistake("no place", ANSWERS, first("{fault}, {action}"), "log01", "Where is it?"),
     Mistake(

@@ -12,23 +12,23 @@ STEPS = ("dynamic_forward", "dynamic_reverse")
 def windows(span: str, *names: str) -> Callable[[str], str]:
     """Keep the same of some tests."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for name in names:
             text = set_answer(name, f'"{span}"')(text)
         return text
 
-    return make
+    return edit_text
 
 
 def both(*changes: Callable[[str], str]) -> Callable[[str], str]:
     """Make several changes."""
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         for change in changes:
             text = change(text)
         return text
 
-    return make
+    return edit_text
 
 
 MISTAKES = (

@@ -4,7 +4,14 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, change_number, exchange_numbers, replace_text, scale_numbers
+from grader.mistake import (
+    Mistake,
+    change_number,
+    exchange_numbers,
+    replace_text,
+    scale_numbers,
+    set_answer,
+)
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
 RAMP, PERIOD = 0.5, 0.02  # [V/s], [s] of the learner's log
@@ -14,10 +21,10 @@ def fitting(code: str) -> Callable[[str], str]:
     """Make a wrong text by putting other lines in the place of the function's answer."""
     lines = "".join(f"    {line}\n" for line in code.strip().splitlines())
 
-    def make(text: str) -> str:
+    def edit_text(text: str) -> str:
         return re.sub(r" +# --- answer:.*?# --- end\n", lambda _: lines, text, flags=re.DOTALL)
 
-    return make
+    return edit_text
 
 
 LINE_THROUGH_THE_RAMPS = """
@@ -65,12 +72,18 @@ MISTAKES = (
         "M-UNITS",
     ),
     Mistake(
+        "a calculation",
+        ANSWERS,
+        set_answer("kS", '"0.1 + 0.05"'),
+        "ks",
+        "which is a calculation",
+    ),
+    Mistake(
         "kS and kV swapped",
         ANSWERS,
         exchange_numbers("kS", "kV"),
         "kv",
         "did you swap them?",
-        "M-ARGORDER",
     ),
     Mistake(
         "kS where the line through the slow ramp crosses zero",

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import psutil
 from bench_grade import loaded, spent
-from class_made import ROOT, SECRET, asked, make
+from class_made import ROOT, SECRET, asked, make_class
 
 from grader.variant import use_class_secret
 from sim.support.work.process_pool import available_cores
@@ -42,7 +42,7 @@ def largest(process: psutil.Process) -> int:
     return max(sizes)
 
 
-def graded(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float, int]:
+def grade_class(handed_in: Path, secret: Path, *, only: Sequence[str]) -> tuple[float, int]:
     """Seconds of one whole run, and the bytes of its largest process.
 
     Raises:
@@ -102,17 +102,19 @@ def main() -> None:
         folder = Path(place)
         secret, handed_in = folder / "secret", folder / "class"
         secret.write_bytes(SECRET)
-        kinds = make(students, course=folder / "course", out=handed_in, processes=available_cores())
+        kinds = make_class(
+            students, course=folder / "course", out=handed_in, processes=available_cores()
+        )
         said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
         print(f"{students} students x 13 exercises on {CORES} cores; {said}")
         names = [one.name for one in asked(ROOT)]
         before = spent()
-        total, most = graded(handed_in, secret, only=names)
+        total, most = grade_class(handed_in, secret, only=names)
         work = spent() - before
         there = sum(1 for _ in handed_in.glob("*/*"))
         results = folder / "class-graded" / "results"
         written = {one: one.stat().st_mtime_ns for one in results.iterdir()}
-        again, _ = graded(handed_in, secret, only=names)
+        again, _ = grade_class(handed_in, secret, only=names)
         anew = sum(one.stat().st_mtime_ns != written.get(one) for one in results.iterdir())
         aim = TARGET * students / 500
         print(f"{'everything':36}{total:8.1f} s   aim {aim:.0f} s, {loaded()}")

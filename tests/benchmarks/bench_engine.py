@@ -20,7 +20,7 @@ from sim.support.work.cache import CACHE
 
 ROUTINE = Routine(ramp=0.5, step=3.5)
 VARIANTS = 1000
-PROGRAM = """
+TIMED_SCRIPT = """
 import numpy as np, sim
 from sim.bench.simulate import simulate
 simulate(sim.MECHANISMS["drivetrain"], sim.Routine(), rng=np.random.default_rng(1))
@@ -75,7 +75,7 @@ def processes() -> None:
         environment = {**os.environ, CACHE: folder}
         for said in ("first, compiling (target: 15 s)", "from the cache (target: 1.5 s)"):
             began = time.perf_counter()
-            subprocess.run([sys.executable, "-c", PROGRAM], env=environment, check=True)
+            subprocess.run([sys.executable, "-c", TIMED_SCRIPT], env=environment, check=True)
             print(f"whole process, {said}: {time.perf_counter() - began:.2f} s")
 
 

@@ -53,17 +53,17 @@ def main() -> None:
         kept.mkdir(parents=True, exist_ok=True)
         mine = ours(folder / "ours", asked)
         print(f"{len(asked.given)} submissions{'':33}{'s':>8}{'CPU s':>8}{'a minute':>10}")
-        show(mine, mine)
+        print_times(mine, mine)
         for package, run in (("otter-grader", otter), ("nbgrader", nbgrader)):
             try:
                 found = run(folder / package, asked, installed(package, kept))
             except RuntimeError as failed:
                 print(f"{package} cannot be installed or run here: {failed}")
                 continue
-            show(found, mine)
+            print_times(found, mine)
 
 
-def show(one: Timed, mine: Timed) -> None:
+def print_times(one: Timed, mine: Timed) -> None:
     """Print one tool's line; that its scores differ from ours is an end to comparing."""
     if one.scores != mine.scores:
         raise SystemExit(f"{one.command}: other scores, {one.scores} and not {mine.scores}")

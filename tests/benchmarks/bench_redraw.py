@@ -78,10 +78,10 @@ def line(moves: list[Move], *, of: str) -> str:
     many = f"{len({move.widget for move in moves}):2} {of}, {len(moves):3} moves"
     middle = median(move.seconds or 0.0 for move in timed)
     slowest = max(timed, key=lambda move: move.seconds or 0.0)
-    return f"    {many}: median {middle:4.2f} s, slowest {said(slowest)}"
+    return f"    {many}: median {middle:4.2f} s, slowest {describe_move(slowest)}"
 
 
-def said(move: Move) -> str:
+def describe_move(move: Move) -> str:
     """One move: how long, how much of it the lesson computed, and which."""
     return f"{move.seconds:4.2f} s (computing {move.work:4.2f} s)  {move.widget} → {move.to}"
 
@@ -89,7 +89,7 @@ def said(move: Move) -> str:
 def flaws(turns: list[Move], answers: list[Move]) -> list[str]:
     """What took too long, and what changed nothing that one sees."""
     found = [
-        f"over {AIM:g} s: {said(move)}"
+        f"over {AIM:g} s: {describe_move(move)}"
         for move in [*turns, *answers]
         if move.seconds and move.seconds > AIM
     ]

@@ -58,7 +58,7 @@ def asked(course: Path) -> tuple[Exercise, ...]:
     return tuple(one for one in list_exercises(course) if one.name[-1].isdigit())
 
 
-def make(students: int, *, course: Path, out: Path, processes: int) -> Mapping[str, int]:
+def make_class(students: int, *, course: Path, out: Path, processes: int) -> Mapping[str, int]:
     """Make a class.
 
     Args:
@@ -151,7 +151,7 @@ def _spoiled(one: Exercise, texts: Texts, kind: str, rng: np.random.Generator) -
         if mistake.file not in texts or one.name == SLOW:
             continue
         try:
-            return {**texts, mistake.file: mistake.make(texts[mistake.file])}
+            return {**texts, mistake.file: mistake.edit_text(texts[mistake.file])}
         except ValueError:  # not every mistake can be made of everybody's numbers
             continue
     return texts

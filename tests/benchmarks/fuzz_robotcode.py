@@ -46,11 +46,11 @@ def main(count: int, first: int) -> int:
             found += several
     print(f"{count} mutants of {len(files)} files: {bad} crashed, were slow or gave nonsense")
     for reader in READERS:
-        show(reader, [one for one in found if one.reader == reader])
+        print_readings(reader, [one for one in found if one.reader == reader])
     return min(bad, 1)
 
 
-def show(reader: str, readings: list) -> None:
+def print_readings(reader: str, readings: list) -> None:
     """One reader's outcomes and times."""
     outcomes = Counter(one.outcome for one in readings)
     half, most, all_ = 1e3 * np.quantile([one.seconds for one in readings], [0.5, 0.99, 1.0])

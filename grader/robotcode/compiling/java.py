@@ -334,7 +334,7 @@ def _variable(
     if names.find_local(name, scope) or names.find_definitions(node, scope) or PACKAGE.match(name):
         return
     imported = any(one.name == name for one in scope.module.imports)
-    if imported or name in declared or _is_field(name, scope, names):
+    if imported or name in declared or _is_field(name, scope, names) or _is_case(node):
         return
     wide = any(one.name == "*" and _static(one) for one in scope.module.imports)
     if name in UNITS:
@@ -345,6 +345,12 @@ def _variable(
             yield _undeclared(name, scope, node.place.line)
     elif not wide and _closed(scope, names) and _is_plain(node, scope):
         yield ParseProblem(f"{name} is not declared", node.place.line)
+
+
+def _is_case(node: Name) -> bool:
+    """Whether a name is a constant that a ``case`` of a switch stands for."""
+    source = node.place.source[max(node.place.start - 80, 0) : node.place.start]
+    return bool(re.search(rb"\bcase\s+([\w.]+\s*,\s*)*$", source))
 
 
 def _is_plain(node: Name, scope: Scope) -> bool:
@@ -387,7 +393,8 @@ def _method(
     target = call.target
     line = target.place.line
     if isinstance(target, Member) and not isinstance(target, Reference):
-        if find_called_functions(call, scope, names) or isinstance(target.owner, Self):
+        made = target.name[:1].isupper() and names.find_home(target, scope)  # new Outer.Inner()
+        if find_called_functions(call, scope, names) or isinstance(target.owner, Self) or made:
             return
         home = find_class(target.owner, scope, names)
         if home is not None and home.classes and _closed(home, names):

@@ -22,6 +22,8 @@ LONGEST = 0.2  # [s of this thread alone: a busy machine must not count] what ga
 SECONDS_PER_BYTE = 3e-6  # and this for its length; Java takes a twentieth
 
 _CLASS = re.compile(r"\b(class|interface|enum|record)\s+\w+[^;:]*\{")
+_DECIMAL_COMMA = re.compile(r"(?<=[=(*/+-])\s*\d+,\d+\b")
+_POINT = "a decimal number has a point in Java, not a comma:{}"
 _LANGUAGE = Language(tree_sitter_java.language())
 
 
@@ -101,9 +103,10 @@ def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[ParseProblem,
         elif tree.is_error and bracket is not None and _around(tree, bracket):
             continue  # what the parser made of it
         elif tree.is_error:
-            found.append(
-                ParseProblem(_misread(lowering.source_text(tree)), tree.start_point[0] + 1)
-            )
+            row = tree.start_point[0]
+            comma = _DECIMAL_COMMA.search(text.split("\n")[row])
+            said = _POINT.format(comma[0]) if comma else _misread(lowering.source_text(tree))
+            found.append(ParseProblem(said, row + 1))
         elif tree.has_error:
             waiting.extend(reversed(tree.children))
     return tuple(dict.fromkeys(found))

@@ -85,7 +85,7 @@ def file_digest(path: Path) -> str:
 
 
 def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
-    """Log files in the folder that are none of those known."""
+    """Log files in the folder that do not belong to the dataset."""
     mine = set(known)
     endings = {Path(file).suffix for file in mine}
     found = (
@@ -150,7 +150,7 @@ class DatasetFolder:
                     part.unlink()
 
     def remove_empty_folders(self) -> None:
-        """Remove the folders that were made for nothing."""
+        """Remove folders that were made and stayed empty."""
         for folder in reversed(self._made):
             with suppress(OSError):  # there is a file in it
                 folder.rmdir()

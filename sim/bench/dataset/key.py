@@ -187,7 +187,7 @@ class Journal:
         return entry
 
     def start(self, entries: Iterable[Entry]) -> None:
-        """Start with what is known already; what else was in it goes.
+        """Start the journal anew with entries that are known already.
 
         Raises:
             OSError: it cannot be written.
@@ -226,7 +226,7 @@ class Journal:
                 self.remove()
 
     def remove(self) -> None:
-        """Remove it: everything in it stands in the key."""
+        """Remove the journal, whose entries are in the key by now."""
         with suppress(OSError):  # one that stays is passed over, or read again: both are right
             self.path.unlink()
 

@@ -126,7 +126,7 @@ def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
 
 
 def read_logs(table: TomlTable, *, default: LogSettings) -> LogTable:
-    """One ``[[logs]]``, checked."""
+    """Read and check one ``[[logs]]`` table."""
     settings = read_settings(table, default=default)
     mechanisms = table.read_choices("mechanisms", MECHANISMS)
     effects = table.read_tables("effects", name="logs.effects", known=EFFECT)

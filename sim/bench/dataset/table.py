@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, NoReturn, TypeVar
+from typing import TYPE_CHECKING, NoReturn
 
 from sim.core.errors import BadRequest
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     import numpy as np
 
 SHOWN = 40  # [characters] of a wrong value that a refusal repeats
-Kind = TypeVar("Kind")
 
 
 @dataclass(frozen=True)

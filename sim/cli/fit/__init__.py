@@ -190,7 +190,7 @@ class _FitOutput:
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:
-            self.show()
+            self.print_result()
         return NOT_RIGHT if any(doubt.grave for doubt in self.found.doubts) else DONE
 
     def to_json(self) -> dict[str, object]:
@@ -207,8 +207,8 @@ class _FitOutput:
         said |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
         return said | ({"parts": self.parts} if self.parts else {})
 
-    def show(self) -> None:
-        """Print it."""
+    def print_result(self) -> None:
+        """Print the fit on the terminal."""
         from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - only for people
 
         title = ", ".join(map(str, self.files))

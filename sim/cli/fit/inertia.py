@@ -127,7 +127,7 @@ def add_inertia(
 
 
 def describe_inertia(turned: "MomentOfInertia") -> str:
-    """The moment of inertia in a sentence, and what rotors and wheels have to do with it."""
+    """The moment of inertia in a sentence, with the share of rotors and wheels."""
     least, most = turned.without_rotors
     share = turned.error / turned.value
     error = f"± {turned.error:.2g} kg·m²" if share > FINEST else f"kg·m² (± less than {FINEST:.1%})"

@@ -41,7 +41,7 @@ FACTORS = (
 
 
 def theory_doubts(found: Fit, parts: Parts) -> list[Doubt]:
-    """What the parts have against kV and kA, both in SI.
+    """Doubts where kV and kA contradict motor, gearing and load.
 
     Raises:
         BadRequest: a radius for an angle, or none for a length.

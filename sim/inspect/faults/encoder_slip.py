@@ -46,7 +46,7 @@ AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the sensor read too little, or hop, for a moment."""
+    """Reduce or shift the sensor's readings for a moment."""
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
     left = float(run.time[-1]) - start

@@ -79,7 +79,7 @@ class Device:
         return all(signal in self.signals for signal in NEEDED)
 
     def without_velocity(self) -> "Device":
-        """The same, its position standing where its velocity would."""
+        """The device with its position entry in the place of its velocity."""
         position = self.signals.get("position")
         if position is None:
             return self

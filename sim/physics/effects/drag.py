@@ -2,7 +2,10 @@
 
     V = ... + drag·v·|v|
 
-Nothing near v = 0, more than its share at full speed: the voltage-velocity line bends upward.
+Nothing near v = 0, more than its share at full speed: the voltage-velocity line bends upward. Thick
+grease is another thing: viscous friction is linear in speed, so it is a part of kV, and the dry
+friction of a belt or bearing is a part of kS. WPILib's docs describe both gains so:
+https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst
 """
 
 from collections.abc import Iterator, Mapping

@@ -92,7 +92,12 @@ class State:
 
     @classmethod
     def cold_at(cls, position: float, velocity: float = 0.0) -> "State":
-        """A cold mechanism at a place [m or rad] and a velocity [m/s or rad/s]."""
+        """The state of a cold mechanism.
+
+        Args:
+            position: [m or rad].
+            velocity: [m/s or rad/s].
+        """
         return cls(np.array([position, velocity, position, velocity, 0.0]))
 
 

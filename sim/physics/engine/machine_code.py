@@ -33,7 +33,7 @@ class ObjectCode:
     content: bytes
 
     def to_bytes(self) -> bytes:
-        """All of it, for a file."""
+        """Serialize the object code for a file."""
         head = {"symbol": self.symbol, "needs": self.needs, "sha256": _seal(self.content)}
         return json.dumps(head).encode() + b"\n" + self.content
 
@@ -99,7 +99,7 @@ def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
 
 
 def link_code(code: ObjectCode) -> tuple[int, object] | None:
-    """The address of the function, and what must live as long as it is called.
+    """Link object code: the function's address, and the objects that must outlive its calls.
 
     None where something that it needs is missing: LLVM would end the whole process.
     """

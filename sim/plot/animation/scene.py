@@ -26,7 +26,7 @@ class Gain:
     plus: float = 0.0
 
     def at(self, knobs: Mapping[str, float]) -> float:
-        """Its value with the knobs as they stand."""
+        """The gain's value at these knob positions."""
         return self.plus + self.times * knobs[self.knob]
 
 
@@ -53,7 +53,13 @@ class TestPlan:
     def voltage(
         self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
     ) -> Array:
-        """(n,) [V] at each time, with ``move`` from voltages to positions."""
+        """(n,) [V] of the test.
+
+        Args:
+            time: (n,) [s].
+            knobs: name -> value.
+            move: simulates: (n,) [V] -> (n,) position.
+        """
         volts = find_value(self.step, knobs) + find_value(self.ramp, knobs) * time
         volts = np.where(time < self.timeout, volts, 0.0)
         passed = move(volts) > find_value(self.mark, knobs)
@@ -97,7 +103,13 @@ class Motion:
     turns: bool = False
 
     def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) one of its signals, simulated where it has gains; None where it has no such one."""
+        """(n,) one of its signals, simulated where it has gains; None where it has no such one.
+
+        Args:
+            signal: ``position``, ``velocity``, ``voltage`` or ``error``.
+            scene: which it is in.
+            knobs: name -> value.
+        """
         if signal == "error":
             return self._error(scene, knobs)
         if self.gains is None:

@@ -103,7 +103,7 @@ def make_doubt(code: str, name: str, tests: list[str], *, where: str) -> Doubt:
 
 
 def read_one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Side], list[Doubt]]:
-    """The runs of a mechanism with one side, its voltage with a sign where it had none.
+    """The runs of a mechanism with one side; an unsigned voltage gets the sign of its test.
 
     Any other disagreement of voltage and velocity stays as it is: gravity makes it too.
     """
@@ -120,7 +120,7 @@ def read_one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Si
 def align_signs(
     runs: Mapping[str, Side], name: str, *, mirrored: bool, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
-    """One side of a drivetrain with voltage and velocity of one sign, as no gravity acts on it.
+    """The runs of one drivetrain side, with signs reversed where voltage and velocity disagree.
 
     Args:
         runs: test -> what the side logged in it.

@@ -7,6 +7,8 @@ public final class DriverStation {
 
   public static native boolean isEnabled();
 
+  public static native boolean isDisabled();
+
   public static native boolean isTest();
 
   public static native boolean isTestEnabled();
