@@ -597,7 +597,7 @@ Table(
 # speeds, so the acceleration is noisy. ([SysId's source:
 # FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # The acceleration at the start should be at least ten times as large as this noise. For our robot
-# 2 V is enough and 0.6 V is not: there SysId finds a kA that is far too large.
+# 2 V is enough and 0.6 V is not: with 0.6 V, SysId finds a kA that is far too large.
 
 # %%
 rows = []
