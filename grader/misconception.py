@@ -67,8 +67,8 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Reading the ramp: is the intercept kS?",
     ),
     "M-KG-EDGE": Misconception(
-        "The voltage at which a mechanism just does not fall is not kG: friction helps to hold "
-        "it there, and acts against you where it just begins to rise. kG is the middle of that "
+        "The voltage at which a mechanism no longer falls is not kG: friction helps to hold "
+        "it there, and acts against you where it begins to rise. kG is the middle of that "
         "band, kS is half its width.",
         lesson="02_gravity",
         section="Doing it: hold it still",

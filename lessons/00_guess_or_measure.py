@@ -214,11 +214,11 @@ followed = drive(robot, measured)
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# And here is the result of the race:
+# Here is the result of the race:
 
 # %%
 guessed = {"kS": MY_KS, "kV": MY_KV, "kA": 0.0}
-YOU = "your best try" if (MY_KS, MY_KV) != START else "the sliders untouched"
+YOU = "your best try" if (MY_KS, MY_KV) != START else "the start values"
 
 
 def side_by_side(driven: Mechanism, racers: dict[str, dict[str, float]]) -> Scene:
@@ -232,7 +232,7 @@ animate_mechanism(
     "drivetrain",
     side_by_side(robot, {YOU: guessed, "three lines": measured}),
     panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
-    alt=f"The finish. The robot of {YOU} leaves the dashed target while it speeds up and slows "
+    alt=f"The finish. The robot with {YOU} leaves the dashed target while it speeds up and slows "
     "down. The robot of the three lines stays inside it.",
 )
 
@@ -269,7 +269,7 @@ Table(
 # Look at the second row of the table. The computer tried *every* pair of kS and kV in steps of
 # 0.05, and the best pair still has a large error. The error is large where the robot speeds up and
 # slows down. kS and kV alone do not give the voltage for acceleration. kA does, and only the three
-# lines have a kA. So **nobody could win round one**.
+# lines have a kA. So **you could not win round one**.
 #
 # Was the race fair? Only partly.
 #
@@ -303,8 +303,8 @@ race(KS, KV, KA)
 # %% [markdown]
 # ## 4 A third way: a pencil is enough for kV
 #
-# Now a teammate says: "I do not move sliders. I give the robot 1 V, wait until the speed is steady,
-# and write it down. Then 2 V, and so on. Then I draw a straight line with a ruler."
+# A teammate says: "I do not move sliders. I give the robot 1 V, wait until the speed is steady, and
+# write it down. Then 2 V, and so on. Then I draw a straight line with a ruler."
 #
 # At a steady speed nothing accelerates, so kA does not matter. The formula becomes
 #
@@ -344,7 +344,8 @@ plot_misses(
 )
 
 # %% [markdown]
-# (A *miss* is the vertical distance from a dot to the line. Here the misses are too small to see.)
+# (The *error* of a dot is its vertical distance from the line. Here the errors are too small to
+# see.)
 
 # %%
 pencil = {"kS": float(start), "kV": float(slope), "kA": 0.0}
@@ -368,13 +369,13 @@ Table(
 )
 
 # %% [markdown]
-# For kV both are nearly equal, and for kS often, too. A careful line by hand is *good*. A
-# maintainer of WPILib (a person who develops it) calls it "the better way" to find kS and kV by
-# hand. ([frc-docs issue 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
+# For kV, the pencil is nearly as good as the three lines; often for kS, too. A careful line by hand
+# is *good*. A maintainer of WPILib (a person who develops it) calls it "the better way" to find kS
+# and kV by hand. ([frc-docs issue 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
 #
-# So the race was not "human against computer". Your teammate did *not* move a slider until they
-# liked the result. They **wrote down what the robot did, and fitted a model to these data**. (A
-# *model* is a formula for what the robot does.) This is system identification with a pencil.
+# So the race was not "human against computer". Your teammate did *not* search for a number that
+# looks good. They **wrote down what the robot did, and fitted a model to these data**. (A *model*
+# is a formula for what the robot does.) This is system identification with a pencil.
 #
 # The pencil cannot find kA, because it only looks at steady speeds.
 
@@ -618,7 +619,7 @@ Table(
 # %% [markdown]
 # ## 8 Your tools
 #
-# This course comes with three tools. They all run on your own computer.
+# This course comes with three tools.
 #
 # | tool | what it is for |
 # |---|---|
@@ -626,9 +627,9 @@ Table(
 # | `grade` | checks the exercises, gives hints, says what comes next |
 # | `sysid` | simulates, reads, fits and inspects logs, also those of a real robot |
 #
-# You type the last two in a **terminal**, in the course's folder. If the terminal says "not found",
-# type `python -m` in front, as in `python -m grader`. If that fails too, this line installs
-# everything:
+# You type the last two in a **terminal** (in JupyterLab: *File*, *New*, *Terminal*), in the
+# course's folder. If it says "not found", type `python -m` in front, as in `python -m grader`. If
+# that fails too, this line installs everything:
 #
 # ```
 # python -m grader start
@@ -731,8 +732,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kA grows in proportion to the mass. kV depends on motor, gears and wheels, and kS on friction.
-# Both stay the same. (For an elevator or an arm, kG grows, too.) </details>
+# kA grows in proportion to the mass. kV depends on motor, gears and wheels: it stays the same. kS
+# depends on friction, and hardly changes. (For an elevator or an arm, kG grows, too.) </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?
 #
@@ -781,7 +782,7 @@ quick
 #
 # - Use your neighbor's gains on your robot: `drive(robot, {...})`. Which of the three gains causes
 #   the largest error?
-# - Write another name above, and run the page again: *Run*, *Run All Cells*.
+# - Write another name above, and run the page again (menu: *Run*, *Run All Cells*).
 # </details>
 #
 # **Next:** [Lesson 1, the motor model](01_motor_model.ipynb). Where do kS, kV and kA come from?

@@ -17,7 +17,7 @@
 #
 # **At the end you can**
 #
-# - say what kS, kV and kA pay for, and in which unit;
+# - say what kS, kV and kA mean, and in which unit each is;
 # - split any voltage into its three parts;
 # - compute the kV to expect from the motor, the gears and the wheel, and say what to check when the
 #   measured kV is far above or below it;
@@ -28,8 +28,8 @@
 # %% [markdown]
 # ## 1 Why: a gain is a price
 #
-# In lesson 0, kS and kV were just numbers on a slider. But each gain has a meaning and a unit. You
-# can read a gain as a **price**: kV = 2.5 V·s/m says that each m/s of speed costs 2.5 volts.
+# Each gain has a meaning and a unit. You can read a gain as a **price**: kV = 2.5 V·s/m says that
+# each m/s of speed costs 2.5 volts.
 #
 # "The analyzer (the window of WPILib's SysId) says kV = 0.4." Can that be right? After this lesson
 # you can answer this in a minute, with the motor's data sheet and a calculator.
@@ -112,8 +112,8 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tu
 # While the robot brakes, v is still positive (it still moves forward), but a is negative. So the
 # third term is negative: the robot needs fewer volts.
 #
-# Now a puzzle. A log shows this drivetrain at 2 m/s, with **7 V** on its motors. But the first row
-# of the table says that a steady 2 m/s needs less than 7 V.
+# A log shows this drivetrain at 2 m/s, with **7 V** on its motors. But the first row of the table
+# says that a steady 2 m/s needs less than 7 V.
 #
 # **Predict:**
 
@@ -197,7 +197,8 @@ def spent(which: str, mass: float, friction: float) -> tuple[np.ndarray, dict, n
 
 def budget(which: str) -> Scene:
     """A drive of a robot whose mass and friction the sliders set: kA grows with the mass."""
-    time = np.arange(0.0, DRIVES[which] + 0.005, 0.01)
+    step = FINE if which == "sudden step" else 0.01  # [s] a jump must not look like a slope
+    time = np.arange(0.0, DRIVES[which] + step / 2, step)
     price = {"kS": Gain("kS"), "kV": gains["kV"], "kA": Gain("mass", gains["kA"] / drivetrain.load)}
     return Scene(time, (Motion("robot", gains=price, voltage=voltage(which, time)),))
 
@@ -302,8 +303,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # Look for the mass m. It is only in kA, as you saw in week 3 of lesson 0. (We leave out losses in
 # the gears, and the mass of the spinning parts.)
 #
-# Is the table right? The next cell computes kV and kA from the motor's data, and compares them with
-# a log:
+# The next cell computes kV and kA from the motor's data, and compares them with a log:
 
 # %%
 kraken = drivetrain.motor
@@ -326,7 +326,7 @@ Table(
 # %% [markdown]
 # You cannot compute kS: no data sheet knows your friction. You have to measure it.
 #
-# Now build another robot. **Predict:**
+# **Predict:**
 
 # %%
 guess_gears = Prediction(
@@ -414,7 +414,7 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 # %% [markdown]
 # The next table has the theoretical kV of eight motors without gears. `DCMotor`, WPILib's class for
 # motor data, also subtracts a small voltage that is lost inside the motor, so its kV is a little
-# lower: see the last column.
+# lower: see the last column. (FOC is a mode of the Kraken that needs a paid license.)
 #
 # <details><summary>For mentors: 12 V ÷ free speed, with source</summary>
 #
@@ -425,8 +425,7 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 # > kV is a little lower. ([WPILib's source:
 # > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
-# > **Try it:** the last column says how much lower, for eight motors at 1:1. (FOC is a mode of the
-# > Kraken that needs a paid license. With it, the free speed is different.)
+# > **Try it:** the last column says how much lower, for eight motors at 1:1.
 # </details>
 
 # %%
@@ -469,7 +468,7 @@ guess_cause = Prediction(
     "Which of these can make kV much too large?",
     "10 kg more on the robot",
     "a part that rubs, with the same force at every speed",
-    "a belt that brakes more at higher speed",
+    "thick grease, which brakes more at higher speed",
 )
 guess_cause
 
@@ -505,7 +504,7 @@ STORIES = {
     "no fault": bench(sound, 1),
     "10 kg more": bench(replace(sound, load=sound.load + 10), 2),
     "a part that rubs": bench(replace(sound, friction=0.8), 3),
-    "a belt that is far too tight": bench(replace(sound, drag=0.30), 4),
+    "thick grease in the gears": bench(replace(sound, drag=0.30), 4),
     "code says 8.14, robot has 6.75": seen(bench(sound, 5), factor=6.75 / 8.14),
     "diameter used as radius": seen(bench(sound, 7), factor=2.0),
     "set(volts / 12), logs volts": seen(sagging, asked=True),
@@ -533,10 +532,10 @@ show_interactive(
 # No menu on your screen? Change the name here:
 
 # %%
-verdict("a belt that is far too tight")
+verdict("thick grease in the gears")
 
 # %%
-print(guess_cause.reveal("a belt that brakes more at higher speed"))
+print(guess_cause.reveal("thick grease, which brakes more at higher speed"))
 rows = []
 for story, one in STORIES.items():
     got = found(one)
@@ -548,8 +547,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # ### Explain
 #
 # - **Mass** changes kA. **Constant friction** changes kS. Neither changes kV.
-# - **Friction that grows with speed** adds to kV: a belt or chain that is too tight, a dry bearing,
-#   thick grease.
+# - **Friction that grows with speed** adds to kV: thick grease, a dry bearing, a belt that brakes
+#   more the faster it runs. (A belt that is only too tight adds to kS.)
 # - **Wrong numbers** (ratio, wheel, unit) multiply kV *and* kA by the same factor, and do not
 #   change kS.
 # - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` sets
@@ -561,16 +560,16 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 #
 # 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
 # 2. **Electrical** (in the log): did the logged voltage really reach the motors? Do all motors have
-#    power? If one has none, the others do its work, and kS and kA grow. If the controller of that
-#    motor is in brake mode, kV grows, too.
+#    power? If one has none, the others do its work, and kS and kA grow. If its controller is in
+#    *brake mode* (it brakes a motor that gets no voltage), kV grows, too.
 # 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn the mechanism by hand. Is
 #    some part hot after a test?
 #
 # ### Check somebody else's numbers
 #
 # One published lesson gives a drivetrain with kV = 2.68 V·s/m, a ratio of 8.46, 4 inch wheels and
-# TalonFX motors. A TalonFX is a controller that is built into three kinds of motor. Which of these
-# motors could it be?
+# TalonFX motors. A TalonFX is a controller that is built into three kinds of motor: Falcon 500,
+# Kraken X60 and Kraken X44. Which of the three could it be?
 #
 # <details><summary>For mentors: the source lesson's drivetrain</summary>
 #
@@ -592,7 +591,7 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 lies above by"), tuple(rows))
 
 # %% [markdown]
 # The first two motors would have to turn faster than they can. Either that robot had the third
-# motor, or the ratio is wrong. You found this without touching the robot.
+# motor, or the ratio is wrong.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
@@ -601,10 +600,10 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 lies above by"), tuple(rows))
 # the **time constant**, τ ("tau"). SysId's window calls it *Response Timescale* and shows it in
 # milliseconds.
 #
-# After a step of voltage, the velocity rises fast, then slower and slower. In each τ it covers 63 %
-# of the way that is left to the final speed. (Such a curve is called *exponential*.) After 3 τ it
-# has almost reached the final speed. Below, four mechanisms get the same step of 4 V, in slow
-# motion. Which one has the longest τ?
+# After a step of voltage, the velocity rises fast, then slower and slower. After one τ it has
+# reached 63 % of the final speed; in the next τ it gains 63 % of the rest, and so on. (Such a curve
+# is called *exponential*.) After 3 τ it has almost reached the final speed. Below, four mechanisms
+# get the same step of 4 V, in slow motion. Which one has the longest τ?
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -646,8 +645,8 @@ Table(
 
 # %% [markdown]
 # Look at the third column. A robot program writes one row every 20 ms. If τ is only two or three
-# rows long, the log hardly shows the acceleration, and kA is uncertain. Then write more rows each
-# second. (Lesson 7 counts the rows.)
+# rows long, the log hardly shows the acceleration, and kA is uncertain. Then the robot must write
+# more rows each second.
 
 # %% [markdown]
 # ## 7 kS: when to get a wrench
@@ -656,8 +655,8 @@ Table(
 # shaft, a screw that rubs. Do not just put a high kS into the code: that *hides* the part that is
 # wearing out.
 #
-# But how high is too high? One rule says: stop when kS is much higher than kV × typical velocity.
-# Let us test this rule. How large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
+# How high is too high? One rule says: stop when kS is much higher than kV × typical velocity. How
+# large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
 #
@@ -685,7 +684,7 @@ print(
 # about 4 % of 12 V. (This is our rule of thumb. Some healthy mechanisms with a high gear ratio are
 # above it.)
 #
-# Two warning signs need no limit at all:
+# Two warning signs need no limit:
 #
 # - **kS has grown since last week.** Write it down each time.
 # - **Left and right differ.** They are built the same, so they should have the same friction.
@@ -719,7 +718,7 @@ red_flag(left=0.15, right=0.45, typical=1.0)
 
 # %% [markdown]
 # Here the gauge says *fine* for both sides. But the right side has three times the friction of the
-# left. The gauge looks at one side at a time. You compare them.
+# left. The gauge does not compare the sides: you do.
 
 # %% [markdown]
 # ## 8 Units: per rotation, per radian, per meter
@@ -855,7 +854,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # The intake is nearly up to speed before the log has its second row. The log hardly shows any
-# acceleration, so kA is uncertain. kV is not affected. Write more rows each second.
+# acceleration, so kA is uncertain. kV is not affected. Let the robot write more rows each second.
 # </details>
 
 # %% [markdown]
@@ -878,8 +877,8 @@ quick
 # ```
 #
 # **Exercise 2: kV against theory**
-# ([exercises/exercise2/README.md](../exercises/exercise2/README.md)). You get a team, a log, and
-# perhaps a mistake to find. You need sections 5 and 7.
+# ([exercises/exercise2/README.md](../exercises/exercise2/README.md)). You get the numbers of a team
+# that may have made a mistake. You need sections 5 and 7.
 #
 # ```
 # grade exercise2

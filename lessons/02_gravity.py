@@ -22,7 +22,7 @@
 # - find kG and kS from two voltages, and say which edge of the window a method finds;
 # - do the same for an arm, and correct the zero of its encoder (the sensor that measures position);
 # - choose SysId's analysis type and WPILib's feedforward class, with the arguments in order;
-# - explain why you cannot tell kG from kS if an elevator only drove up.
+# - explain why driving only up cannot separate kG from kS.
 
 # %% [markdown]
 # ## 1 Why: it falls
@@ -94,8 +94,7 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 # direction: +1 up, −1 down.)
 #
 # Compare the first two terms. The kS term changes its sign with the direction, because friction
-# always acts *against* the motion. The kG term does not: gravity always pulls down. Remember this
-# difference; you will need it in every section.
+# always acts *against* the motion. The kG term does not: gravity always pulls down.
 #
 # **Predict:**
 
@@ -124,7 +123,7 @@ Table(
 # steady speed nothing accelerates, so kV does not change. (In our simulation friction does not
 # change either. On a real robot, more weight can press harder on a bearing.)
 #
-# So test an elevator with the load that it will carry. kG and kA need this; kV does not. Change
+# So test an elevator with the load that it will carry: otherwise kG and kA are wrong. Change
 # `TIMES` above to 3. Which rows change?
 #
 # <details><summary>For mentors: does kV change with the load?</summary>
@@ -157,8 +156,8 @@ print(
 #
 # - In a **cascade**, a lower stage moves, too, at half the speed: kG/kA is between g and 2·g. (g is
 #   the acceleration of gravity.)
-# - A **counterweight** on the other end of the rope adds inertia and takes away weight: kG/kA is
-#   below g.
+# - A **counterweight** on the other end of the rope adds inertia and takes away weight: the motor
+#   accelerates more mass, but lifts less weight. So kG/kA is below g.
 #
 # <details><summary>Want to know why?</summary>
 #
@@ -206,7 +205,8 @@ print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_le
 # rises only if your voltage is more than kS above kG.
 #
 # So there is a **window** of voltages, from kG − kS to kG + kS, in which nothing moves. Two common
-# methods for kG raise the voltage in small steps and stop at some moment. Which moment is right?
+# methods for kG raise the voltage in small steps. One stops when the carriage no longer drops, the
+# other just before it rises. Which is right?
 
 # %%
 steps = np.arange(0.0, 4.0, 0.01)
@@ -231,7 +231,7 @@ animate_mechanism(
     ),
     panels=(
         Panel("position", "height [m]", low=0.0, high=1.2),
-        Panel("velocity", "velocity [m/s]", low=-0.6, high=0.6),
+        Panel("velocity", "velocity [m/s]", low=-0.2, high=0.2),
     ),
     knobs=(Knob("volts", "voltage [V]", low=1.2, high=3.0, step=0.01, value=1.5),),
     span=(0.0, 1.2),
@@ -255,9 +255,9 @@ plot_hold_window(
 )
 
 # %% [markdown]
-# **Myth check.** "Raise the voltage until the elevator just does not drop: that is kG." *Not
-# quite:* that is the lower edge, kG − kS. Another method says: "as much as you can without the
-# elevator moving upward". That is the upper edge, kG + kS. The two are equal only without friction.
+# **Myth check.** "Raise the voltage until the elevator no longer drops: that is kG." *Not quite:*
+# that is the lower edge, kG − kS. Another method says: "as much as you can without the elevator
+# moving upward". That is the upper edge, kG + kS. The two are equal only without friction.
 #
 # <details><summary>For mentors: the two methods, and their sources</summary>
 #
@@ -371,7 +371,7 @@ def let_go_at(degrees: int) -> Scene:
     return Scene(np.arange(0.0, 1.01, 0.02), (held,))
 
 
-ANGLES = {f"{degrees}°": let_go_at(degrees) for degrees in (-30, 0, 30, 60, 85)}
+ANGLES = {f"{degrees}°".replace("-", "−"): let_go_at(degrees) for degrees in (-30, 0, 30, 60, 85)}
 animate_mechanism(
     "arm",
     {(name,): scene for name, scene in ANGLES.items()},
@@ -534,8 +534,8 @@ Table(
 
 # %% [markdown]
 # With the right type, the gains are close to the truth. With the type Simple, the elevator's gains
-# are nonsense: kV is negative. This model has no term that is the same up and down, so the fit
-# makes the other terms wrong. (`sysid fit` warns about such gains.)
+# are nonsense: kV is negative. Gravity pulls the same way in every row, but this model has no term
+# for that, so the fit makes the other terms wrong. (`sysid fit` warns about such gains.)
 #
 # It is more dangerous to fit the arm with the type Elevator: every gain is positive and looks
 # plausible, but every gain is wrong. The last row is harmless: a drivetrain with the type Elevator
@@ -558,10 +558,10 @@ Table(
 # > **Try it:** you just did. Compare kG in the second row with the truth.
 # </details>
 #
-# **Where to choose it.** The menu for the analysis type is in SysId's Data Selector. It starts on
+# **Where to choose the type.** The menu for it is in SysId's Data Selector. It starts on
 # *Elevator*, whatever you load ([SysId's source:
 # DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
-# Check it every time. In this course: `sysid fit log.wpilog --type elevator`.
+# In this course: `sysid fit log.wpilog --type elevator`.
 #
 # **Why does an arm's log need the position?** Gravity on an arm depends on the angle, so the fit
 # needs the angle of every row. The other types need only velocity and voltage.
@@ -598,10 +598,10 @@ except sim.Refusal as refusal:
 # kG and kS are always together in a sum. If you take 1 V from kG and add it to kS, every row fits
 # as well as before. Even a thousand rows do not help, because all of them show only the sum.
 #
-# The next picture shows this. Every sensor has *noise*: small random errors. If you repeated the
-# tests many times, noise would change the fitted pair (kS, kG) a little each time. The shaded
-# region contains 95 of 100 such fits: it is called a *confidence ellipse*. A small ellipse means
-# that you know both gains well. The slider adds rows from the way down.
+# Every sensor has *noise*: small random errors. If you repeated the tests many times, noise would
+# change the fitted pair (kS, kG) a little each time. In the next picture, the shaded region
+# contains 95 of 100 such fits: it is called a *confidence ellipse*. A small ellipse means that you
+# know both gains well. The slider adds rows from the way down.
 #
 # (You may skip the code. It computes how far noise could move a fit.)
 
@@ -657,9 +657,9 @@ up_and(0)
 # Without rows from the way down, the ellipse is an endless band. Everywhere in this band the sum
 # kG + kS is nearly the same. A single row from the way down makes it a closed ellipse.
 #
-# An arm is easier. On the way up, its cosine changes and kS does not. So the fit can tell kG from
-# kS, but not precisely. The next table shows how far noise moves a fit; the *standard error* is the
-# typical distance from the truth:
+# An arm is easier. On the way up, its cosine changes and kS does not. So the fit can separate kG
+# from kS, but not precisely. The next table shows how far noise moves a fit; the *standard error*
+# is the typical distance from the truth:
 
 # %%
 rows = []
@@ -750,7 +750,7 @@ print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", 
 print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %% [markdown]
-# So check the order in your robot's code today: kG is the second argument.
+# So check the order in your robot's code today.
 #
 # <details><summary>For mentors: kG in WPILib's classes, with source</summary>
 #
@@ -784,19 +784,19 @@ print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "You raise the voltage until the elevator just does not drop. Which edge is that?",
+    "You raise the voltage until the elevator no longer drops. Which edge is that?",
     {
         "kG − kS": "Friction helps you hold it, so less than kG is enough.",
         "kG": "That is the middle. But friction helps you to hold it.",
-        "kG + kS": "There it just begins to rise, and friction is against you.",
+        "kG + kS": "There it begins to rise, and friction is against you.",
     },
     right="kG − kS",
 )
 quick
 
 # %% [markdown]
-# **1.** An elevator just does not fall at 1.2 V and just begins to rise at 1.8 V. What are kG and
-# kS?
+# **1.** You raise the voltage slowly. At 1.2 V an elevator no longer falls, at 1.8 V it begins to
+# rise. What are kG and kS?
 #
 # <details><summary>Answer</summary>
 #
@@ -808,8 +808,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# "Until it just does not drop" stops at the lower edge, kG − kS: friction helps you hold. "As much
-# as you can without it moving upward" stops at the upper edge, kG + kS: friction is in your way.
+# "Until it no longer drops" stops at the lower edge, kG − kS: friction helps you hold. "As much as
+# you can without it moving upward" stops at the upper edge, kG + kS: friction is in your way.
 # </details>
 #
 # **3.** You hold an arm straight up. What do the two edges tell you?
@@ -846,13 +846,13 @@ quick
 # grade exercise3
 # ```
 #
-# The first time, this makes your numbers. Later it checks `exercises/exercise3/answers.toml`.
-# (`grade watch exercise3` checks each time you save that file.) You may also answer from a
-# notebook:
+# The first time, this command makes your numbers. Later it checks
+# `exercises/exercise3/answers.toml`. (`grade watch exercise3` checks each time you save that file.)
+# You may also answer from a notebook:
 #
 # ```python
 # from grader import submit
-# submit("exercise3", elevator_kG=1.5, elevator_kS=0.3, elevator_type="Elevator")
+# submit("exercise3", elevator_kG=..., elevator_kS=..., elevator_type="...")
 # ```
 #
 # You need section 3 for the elevator, section 4 for the arm and its offset, and sections 5 and 7

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 35 minutes. You need lessons 1 and 2. You need no robot today: you plan its tests.*
+# *About 35 minutes. You need lessons 1 and 2. You need no robot today.*
 #
 # **At the end you can**
 #
@@ -109,8 +109,8 @@ log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# These are the four runs. (The picture shows only the first second of each step.) Now look at the
-# rise after the step more closely:
+# The picture shows only the first second of each step. Now look at the rise after the step more
+# closely:
 
 # %%
 since = np.round(np.arange(0.0, 0.5, 0.005), 3)
@@ -141,12 +141,13 @@ plot_curves(
 # The faster the robot goes, the more volts kV·v takes, and the fewer are left for acceleration. So
 # the curve is steep at first and gets flatter: the speed approaches its final value
 # *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how fast: after τ the speed has
-# covered about two thirds of the way, after 3τ nearly all.
+# reached about two thirds of its final value, after 3τ nearly all of it.
 #
 # **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
-# *False:* that would be the dashed line. WPILib describes a good test as "an approximately
-# exponential approach of the steady-speed". If *your* data look like the dashed line, ask why: a
-# current limit and slipping wheels both keep the acceleration constant.
+# *False:* that would be the dashed line with squares. WPILib describes a good test as "an
+# approximately exponential approach of the steady-speed". If *your* data look like the line with
+# squares, ask why: a current limit and slipping wheels both keep the acceleration constant (section
+# 7).
 #
 # <details><summary>For mentors: the rise of a dynamic test, with source</summary>
 #
@@ -157,8 +158,8 @@ plot_curves(
 # > the steady-speed".
 # > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
-# > **Try it:** the dashed line above is constant acceleration. If *your* data look like that, ask
-# > why: a current limit and slipping wheels both hold the acceleration at one value.
+# > **Try it:** the line with squares above is constant acceleration. If *your* data look like that,
+# > ask why: a current limit and slipping wheels both hold the acceleration at one value.
 # </details>
 
 # %% [markdown]
@@ -293,14 +294,14 @@ Table(
 # %% [markdown]
 # ## 4 The information map: what each run adds
 #
-# Every row of a log is one equation: this velocity v and this acceleration a needed this voltage.
-# The left picture shows each row as a dot, v to the right and a upward. If the dots spread over the
-# picture, the equations differ, and the fit can separate the gains. If all dots are on one line,
-# the fit cannot separate them.
+# Every row of a log gives one equation: the model, with the V, v and a of this row. The left
+# picture shows each row as a dot, v to the right and a upward. If the dots spread over the picture,
+# the equations differ, and the fit can separate the gains. If all dots are on one line, the fit
+# cannot separate them.
 #
 # The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
 # noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means that both
-# gains are unknown.
+# gains are unknown, even where it looks level.
 #
 # **Predict** before you choose runs in the menu:
 
@@ -381,7 +382,7 @@ map_picture("all four", "kS and kA")
 # %% [markdown]
 # Add runs one by one: use the first four lines of the menu. With one ramp, the ellipse of kS and kA
 # is long: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts. A single
-# step separates the two parts. Here are all the choices in numbers:
+# step separates the two parts. All choices in numbers:
 
 # %%
 rows = []
@@ -419,7 +420,7 @@ except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
-# So you need ramps and steps. Neither can replace the other.
+# So you need ramps and steps.
 #
 # <details><summary>For mentors: one test alone, with source</summary>
 #
@@ -475,8 +476,7 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # %% [markdown]
 # Each direction alone gives a good fit. Both together do not, because the model has only one kS for
 # both, and the error goes into kA. The simulated velocity R² (SysId's score; 1 is perfect, lesson
-# 7) stays high. So compare the gains of one direction with those of the other: that shows more than
-# any score.
+# 7) stays high. So compare the gains of one direction with those of the other.
 #
 # Without the reverse runs you would know only the first row. In reverse, your feedforward would
 # give a third of the voltage that friction needs.
@@ -585,9 +585,9 @@ Table(
 #    they slip above `V_slip = kS + kA·μ·g`. The grip μ is about 1.1 on carpet (measure yours), and
 #    g is 9.81 m/s². When wheels spin, the encoder counts meters that the robot does not move.
 # 2. **Current.** At standstill a motor draws `stall_current · step / 12 V`. (The *stall current* is
-#    on its data sheet: what it draws at 12 V when it cannot turn.) Above its current limit the
-#    controller reduces the voltage, and the rise begins as a straight line. (Phoenix 6 limits the
-#    current in a motor to 120 A unless you change it.)
+#    on its data sheet: what it draws at 12 V when it cannot turn.) To keep the current below its
+#    limit, the controller reduces the voltage, and at first the speed rises in a straight line.
+#    (Phoenix 6, the library for the TalonFX, sets a limit of 120 A unless you change it.)
 # 3. **Room.** The top speed is (step − kS)/kV, and you need time to let go of the button.
 #
 # (For the limit see `CurrentLimitsConfigs` in
@@ -597,7 +597,7 @@ Table(
 # speeds, so the acceleration is noisy. ([SysId's source:
 # FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # The acceleration at the start should be at least ten times as large as this noise. For our robot
-# 2 V is enough and 0.6 V is not: there SysId finds a kA that is far too large.
+# 2 V is enough and 0.6 V is not: with 0.6 V, SysId finds a kA that is far too large.
 
 # %%
 rows = []
@@ -614,16 +614,16 @@ Table(
         "motors",
         "kA [V·s²/m]",
         "smallest step [V]",
-        "slips from [V]",
+        "wheels slip above [V]",
         "120 A limit acts from [V]",
     ),
     tuple(rows),
 )
 
 # %% [markdown]
-# Both robots have 60 kg and a ratio of 6.75. With a step of 3.5 V, the wheels of one robot spin,
-# and those of the other do not. Stay at 90 % of V_slip or less. For that you need kA *before* the
-# test: compute kA from mass and motors (lesson 1), or start with a small step.
+# Both robots weigh 60 kg and have a ratio of 6.75. With a step of 3.5 V, the wheels of one robot
+# spin, and those of the other do not. Stay at 90 % of V_slip or less. For that you need kA *before*
+# the test: compute kA from mass and motors (lesson 1), or start with a small step.
 #
 # <details><summary>For mentors: typical steps and the default of 7 V</summary>
 #
@@ -724,7 +724,7 @@ animate_mechanism(
             Motion("step", gains=truth, plan=TestPlan(step=Gain("step"), **test_ends)),
         ),
     ),
-    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=3.0),),
+    panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=4.0),),
     knobs=(
         Knob("ramp", "ramp [V/s]", low=0.2, high=2.0, step=0.05, value=0.5),
         Knob("step", "step [V]", low=0.5, high=7.0, step=0.1, value=3.5),
@@ -768,8 +768,8 @@ animate_mechanism(
 # - [ ] You computed how far the ramp goes, `kV·v²/(2·ramp)`, and the room is longer than that.
 # - [ ] The step is below 90 % of V_slip, and below the current limit.
 # - [ ] The mark is on the floor, with room behind it for your reaction time. The timeout is set.
-# - [ ] Four runs are planned: ramp and step, forward and reverse, each reverse right after its
-#   forward.
+# - [ ] Four runs are planned: ramp and step, forward and reverse, each reverse run right after its
+#   forward run.
 # - [ ] The robot stands on the carpet it will drive on, not on blocks.
 #
 # ## 11 Knowledge check
@@ -805,7 +805,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # The distance to a speed is kV·v²/(2·ramp): half the ramp, twice the distance. In 3 m a very slow
-# ramp hardly reaches any speed. Use a steeper ramp, a mark and a ready thumb.
+# ramp hardly reaches any speed. Use a steeper ramp and a mark, and let go of the button quickly.
 # </details>
 #
 # **3.** In the information map the dots of each direction lie on one slanted line. Which runs are
@@ -856,7 +856,7 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# - Draw section 3's picture for `MECHANISMS["turret"]`.
+# - Draw section 3's picture for a turret: add `"turret": MECHANISMS["turret"]` to `SHOWN`.
 # - Make `lean` smaller. How small must it be until the error of kA is below 10 %?
 # - Plan the ramp of your own robot for the longest hallway of your school. Then measure the
 #   hallway.

@@ -265,9 +265,9 @@ for mass in (60.0, 30.0):
 # Once per loop, write down for each motor group: **applied voltage, position, velocity**.
 #
 # - **Applied** voltage is what reached the motor. A TalonFX reports it as `getMotorVoltage()`. For
-#   a simple PWM controller it is `get()` times the battery voltage. It is *not* the voltage that
-#   the routine commanded: in a brownout (the battery voltage gets too low), the applied voltage
-#   drops to 0 and comes back, again and again (lesson 6).
+#   a simple controller on a PWM port it is `get()` times the battery voltage. It is *not* the
+#   voltage that the routine commanded: in a brownout (the battery voltage gets too low), the
+#   applied voltage drops to 0 and comes back, again and again (lesson 6).
 # - **Units.** A drivetrain or an elevator moves along a line: meters and meters per second, after
 #   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
 #   the *output*, after the gear ratio.
@@ -673,9 +673,9 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 # - **Share of the battery.** At the start of the step the current is large, the battery voltage
 #   drops, and the motors get less than the log says. The robot looks heavier than it is: **kA** has
 #   the largest error. At a steady speed the current is small, so kV is hardly wrong.
-# - **Logging the applied volts repairs it.** The robot drove as before; only the log differs. *Log
-#   the applied voltage*: it costs nothing. (With `setVoltage`, commanded and applied voltage also
-#   differ when a current limit, an empty battery or a brownout acts.)
+# - **…but logs applied volts.** The gains are right again. The robot drove as before; only the log
+#   differs. *Log the applied voltage*: it costs nothing. (With `setVoltage`, commanded and applied
+#   voltage also differ when a current limit, an empty battery or a brownout acts.)
 # - **Wrong units** multiply kV and kA by the same factor, and do not change kS, because kS has no
 #   distance in its unit. You can recognize the factor: 2π, a circumference, a gear ratio.
 # - **Encoder inverted** makes every gain negative. No real robot has a negative kV.
@@ -683,14 +683,11 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #   double, because each volt now gives half the force. kV stays.
 # - **R² shows none of this.** With a wrong unit or sign it cannot: the log is a perfect log of
 #   another robot.
-#
-# One more mistake is not in the list: a PID controller in the drive callback. Then the fit measures
-# the controller, too.
 
 # %% [markdown]
 # ## 5 From your robot to your computer
 #
-# 1. Call `DataLogManager.start()` when the robot program starts, if it does not already.
+# 1. Call `DataLogManager.start()` when the robot program starts, if your code does not do it yet.
 # 2. Run the four tests (lesson 5 shows each step). **One routine per log:** switch the robot off
 #    and on before you test another mechanism. WPILib's docs say that analysis fails otherwise.
 #    ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
@@ -824,12 +821,12 @@ quick
 # <details><summary>Answer</summary>
 #
 # A test only bypasses the safety code in your commands. Limits in the motor controller work if you
-# set them up, so do it. And if a limit acts during a test, run that test again: the data after that
-# show the limit, not the motor.
+# set them up, so do it. And if a limit acts during a test, run that test again: from that moment
+# the data show the limit, not the motor.
 # </details>
 #
-# **3.** Two logs of one robot, both with a simulated velocity R² near 0.99. One has twice the kA of
-# the other. Which one is right?
+# **3.** You have two logs of one robot. Both have a simulated velocity R² near 0.99, but one gives
+# twice the kA of the other. Which one is right?
 #
 # <details><summary>Answer</summary>
 #
@@ -872,8 +869,8 @@ quick
 # it grades each time you save the file.
 #
 # **On your own robot:** write the four bindings and the guard, with a comment on each that names
-# the test and what it measures. Then ask somebody who was not here to find the dynamic reverse
-# button.
+# the test and what it measures. Then ask somebody who does not know your code to find the dynamic
+# reverse button.
 #
 # **Next:** [Lesson 5, pre-flight and the first run](05_preflight_and_run.ipynb). Is everything
 # ready?

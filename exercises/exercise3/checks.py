@@ -54,7 +54,7 @@ just_begins_to_rise = {variant.elevator.upper:.2f}  # [V] with a little more, it
 
 [arm]
 # A negative voltage pushes the arm down. The reading is the encoder's; it has an offset.
-# reading [deg], just does not fall [V], just begins to rise [V]
+# reading [deg], no longer falls [V], begins to rise [V]
 hold = [
 {rows}]
 """

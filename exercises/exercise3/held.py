@@ -9,7 +9,7 @@ from grader.answer import AskedNumber
 
 @dataclass(frozen=True)
 class Hold:
-    """Two voltages: it just does not fall, it just begins to rise.
+    """Two voltages: it no longer falls, it begins to rise.
 
     Args:
         lower, upper: [V], as read.

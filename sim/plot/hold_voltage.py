@@ -133,7 +133,7 @@ def plot_hold_angles(
     )
     axes.plot(readings, middle, "--", color=COLORS[0], label=words.cosine)
     axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
-    for index, place, name in ((1, 1, "just does not fall"), (2, 2, "just begins to rise")):
+    for index, place, name in ((1, 1, "no longer falls"), (2, 2, "begins to rise")):
         axes.plot(
             ends,
             [hold[place] for hold in holds],
@@ -158,7 +158,7 @@ def plot_hold_angles(
     )
     if here is not None:
         alt += f" A star marks {to_text(at)} V at {to_text(here)} degrees."
-    header = (words.angle, "just does not fall [V]", "just begins to rise [V]", "middle [V]",
+    header = (words.angle, "no longer falls [V]", "begins to rise [V]", "middle [V]",
               "half the width [V]")  # fmt: skip
     rows = tuple(
         (f"{reading:g}".replace("-", "−"), low, high, (low + high) / 2.0, (high - low) / 2.0)

@@ -152,7 +152,7 @@ function drawArm(svg, stage, motions, width) {
   const reach = Math.min(width / 2 - 12, 104);
   const [x, y] = [width / 2, height / 2];
   draw(svg, "line", { x1: x - reach, x2: x + reach, y1: y, y2: y, stroke: "currentColor", "stroke-dasharray": "2 4" });
-  draw(svg, "text", { x: x + reach, y: y + 15, "text-anchor": "end" }, "level");
+  draw(svg, "text", { x: x - reach, y: y + 15 }, "level");
   draw(svg, "rect", { x: x - 7, y, width: 14, height: height - y - 2, fill: "currentColor", opacity: 0.35 });
   const bars = [...ghosts(motions), ...solid(motions)].map((motion) => {
     const bar = draw(svg, "g");
