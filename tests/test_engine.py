@@ -256,7 +256,7 @@ def test_a_search_is_fine_where_friction_fades_while_the_speed_changes_fast():
 
     found = filter_runs(
         model, batch, kalman_gain=NO_CORRECTION, position_offset=still, backlash_phase=still,
-        friction_offset=still,
+        friction_offset=still, lag_offset=still,
     )  # fmt: skip
     exact = simulate_run(model, time=TIME, voltage=volts, state=State(), step=2e-5)
 
