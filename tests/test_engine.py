@@ -426,7 +426,7 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
     given = {
         "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
         "slides": steady(0.0), "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf),
-        "high": np.full(1, math.inf), "rubs": np.zeros(1), "lates": np.zeros(1),
+        "high": np.full(1, math.inf), "rubs": np.zeros(1), "run_lags": np.zeros(1),
         "sessions": np.zeros(1), "c": model_constants(PLAIN), "w": NO_WIRES, "on": on,
         "p": parameters, "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS),
         "began": np.zeros(1), "steps": EXACT, "plain": True,
