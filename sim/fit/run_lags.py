@@ -27,6 +27,7 @@ from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tra
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
 EARLY = 0.2  # [sample periods] by which a lag may seem to be less than none
 UNIFORM = math.sqrt(12.0)  # standard deviations in the width of an even distribution
+JUMP = 0.5  # [V] a step: a velocity averaged over its arrival is interpolated poorly, not compared
 SLOPE_STEP = 1e-4  # [s] to both sides, for the slope of a reading
 SHARED = "delay"
 
@@ -107,6 +108,8 @@ def _at_frame_times(problem: PredictionErrorProblem, point: Estimate) -> Predict
     for record, own, first in zip(problem.records, late, problem.run_edges, strict=False):
         run = record.measurements
         measured = run.measured + slopes[first : first + own.size] * own[:, None]
+        jumps = np.abs(np.diff(run.voltage, prepend=0.0)) > JUMP
+        measured[1:][jumps[:-1], 1] = np.nan  # a mean over a sudden change of slope
         records.append(replace(record, measurements=replace(run, measured=measured)))
     return replace(problem, records=tuple(records))
 
