@@ -19,7 +19,7 @@ class Mistake:
     Args:
         name: what the learner did, in words.
         file: the solution's file it is made from.
-        make: the right text -> the wrong text.
+        edit_text: the right text -> the wrong text.
         check: id of the check that has to fail.
         says: part of what the learner is told.
         misconception: its code, or empty.

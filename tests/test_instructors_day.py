@@ -229,7 +229,7 @@ def test_planted_mistakes_lose_in_a_class_what_they_lose_one_by_one(course, at_h
     for one in list_exercises(course):
         mistake = mistakes_of(one.name)[0]
         file = there / one.name / mistake.file
-        file.write_text(mistake.make(file.read_text(encoding="utf-8")), encoding="utf-8")
+        file.write_text(mistake.edit_text(file.read_text(encoding="utf-8")), encoding="utf-8")
         secret = (course.parent / "class.secret").read_bytes().strip()
         with use_class_secret(secret):
             expected[one.name] = one.grade(there / one.name, student=student.name).score
