@@ -237,8 +237,9 @@ animate_mechanism(
     "drivetrain",
     side_by_side(robot, {YOU: guessed, "three lines": measured}),
     panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
-    alt=f"This is the finish of the race. The robot with {YOU} leaves the dashed target robot while "
-    "the target speeds up and slows down. The robot of the three lines stays with the target.",
+    alt=f"This is the finish of the race. The robot with {YOU} leaves the dashed target robot "
+    "while the target speeds up and slows down. The robot of the three lines stays with the "
+    "target.",
 )
 
 
