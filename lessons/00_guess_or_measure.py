@@ -614,8 +614,8 @@ Table(
 
 # %% [markdown]
 # With good gains the feedback has little work. But you still need feedback: the gains in the last
-# row of the table were right before the bearing got worse. And gains belong to *your* robot:
-# another team's gains describe another machine.
+# row of the table were right before the bearing got worse. And these gains fit only *your* robot:
+# another team's robot has other gains.
 #
 # <details><summary>For mentors: can feedforward hit 4000 rpm exactly, without PID?</summary>
 #

@@ -83,7 +83,7 @@ print(drivetrain.summary)
 # lesson 2.
 #
 # The kS term is the same at any speed; only its sign changes. (Real friction also has a part that
-# grows with speed. This part becomes part of kV.)
+# grows with speed. That part is included in kV.)
 #
 # The next table shows the three terms of our simulated drivetrain in four moments. Cover the last
 # row with your hand and compute it first (2 m/s *backward*).
@@ -279,8 +279,8 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 #
 # An electric motor does three things, and each is a simple product:
 #
-# 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against the one
-#    you apply, proportional to its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
+# 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against your
+#    voltage, proportional to its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
 # 2. **The remaining voltage drives a current** through the winding's resistance R: I = (V − Ke·ω) /
 #    R.
 # 3. **The current makes torque**, a turning force: T = Kt·I.
@@ -460,7 +460,7 @@ Table(
 # | 8 to 20 % above | *watch* | compare again next week |
 # | more than 20 % above | *inspect* | look for the cause before the next test |
 #
-# (These limits are rules of thumb. Data sheets are rounded, so 1 or 2 % below proves nothing.)
+# (These limits are only rough rules. Data sheets are rounded, so 1 or 2 % below proves nothing.)
 #
 # Here are seven robots with the same drivetrain. All except the first have one fault. Which robots
 # have a kV more than 20 % above the theoretical kV?
@@ -659,7 +659,7 @@ Table(
 # shaft, a screw that rubs. Do not just put a high kS into the code: then nobody notices which part
 # is wearing out.
 #
-# How high is too high? One rule says: stop when kS is much higher than kV × typical velocity. How
+# How high is too high? One rule says: stop if kS is much higher than kV × typical velocity. How
 # large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
@@ -683,7 +683,7 @@ print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains[
 
 # %% [markdown]
 # So this rule warns you very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
-# about 4 % of 12 V. (This is our rule of thumb. Some healthy mechanisms with a high gear ratio are
+# about 4 % of 12 V. (This is our own rough rule. Some healthy mechanisms with a high gear ratio are
 # above it.)
 #
 # Two warning signs need no limit:
@@ -785,8 +785,8 @@ print(f"4 inch wheel: kV = 0.8 V·s/rot is the same as {0.8 / (math.pi * wheel):
 # - [ ] Each gain has its **unit** written next to it.
 # - [ ] kV is positive, and 0 to 8 % above the theoretical kV. If it is not, you know why.
 # - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
-# - [ ] kA/kV makes sense for the mechanism: tens of milliseconds if the mechanism is light,
-#   hundreds if it is heavy for its motors.
+# - [ ] kA/kV is tens of milliseconds for a light mechanism, and hundreds of milliseconds for a
+#   mechanism that is heavy for its motors.
 # - [ ] The velocity that you pass to the feedforward has the same length or angle unit as kV.
 #
 # ## 10 Knowledge check

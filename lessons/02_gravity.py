@@ -33,9 +33,9 @@
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# This model says: with 0 V nothing moves. This is right for a drivetrain. But the *carriage* of an
-# elevator (the part that moves up and down) falls when you let go of it. The model has no term for
-# gravity.
+# This model says that nothing moves with 0 V. That is right for a drivetrain. But the *carriage* of
+# an elevator (the part that moves up and down) falls when you let go of it. The model has no term
+# for gravity.
 #
 # Today's elevator and arm are simulated, so we know their true gains. Run the next cell to set them
 # up. (You do not need to read the code. Run each cell, and read what it prints.)
@@ -92,7 +92,7 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 #
 # > arm: **V = kG·cos(θ) + kS·sgn(v) + kV·v + kA·a**
 #
-# (θ, "theta", is the arm's angle: 0° when the arm is level, that is horizontal. sgn(v) is the
+# (θ, "theta", is the arm's angle. It is 0° when the arm is level (horizontal). sgn(v) is the
 # direction: +1 up, −1 down.)
 #
 # Compare the first two terms. The kS term changes its sign with the direction, because friction
@@ -206,8 +206,8 @@ print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_le
 
 # %% [markdown]
 # The carriage stays. Friction acts against *any* motion, also against falling, so friction helps
-# you to hold the carriage. The carriage sinks only if your voltage is more than kS below kG. It
-# rises only if your voltage is more than kS above kG.
+# you to hold the carriage. The carriage sinks only if your voltage is more than kS below kG. The
+# carriage rises only if your voltage is more than kS above kG.
 #
 # So there is a **window** of voltages, from kG − kS to kG + kS, in which nothing moves. Two common
 # methods for kG raise the voltage little by little. One method stops when the carriage no longer
@@ -311,7 +311,7 @@ Table(
 # are right.
 #
 # (This is simplified: our simulated friction is the same at rest and in motion. Real friction is
-# often larger at rest. Then the window is wider than 2·kS.)
+# often larger at rest. Then the window of voltages is wider than 2·kS.)
 
 # %% [markdown]
 # ## 4 An arm: the cosine
@@ -418,8 +418,8 @@ plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
 # > kG·cos(r + offset) = **A**·cos(r) + **B**·sin(r), with A = kG·cos(offset) and
 # > B = −kG·sin(offset)
 #
-# So you look for two numbers, A and B. At a reading of 0° the sine is 0, so the middle of the
-# window is A. At 90° the cosine is 0, so the middle is B. If you have measured more angles, a
+# So the fit has to find two numbers, A and B. At a reading of 0° the sine is 0, so the middle of
+# the window is A. At 90° the cosine is 0, so the middle is B. If you have measured more angles, a
 # least-squares fit uses all of them (`np.linalg.lstsq`; lesson 7 explains it). Then kG = √(A² +
 # B²), and the offset is the angle whose tangent is −B/A (`np.arctan2`).
 # </details>
@@ -573,8 +573,8 @@ Table(
 # > **Try it:** compare kG in the second row of the table with the true kG.
 # </details>
 #
-# **Where to choose the type.** The menu for the type is in SysId's Data Selector. It starts on
-# *Elevator*, whatever you load ([SysId's source:
+# **Where to choose the type.** The menu for the type is in SysId's Data Selector. This menu starts
+# on *Elevator*, whatever you load ([SysId's source:
 # DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
 # In this course you type `sysid fit log.wpilog --type elevator`.
 #

@@ -304,8 +304,8 @@ Table(
 # line, the fit cannot separate the gains.
 #
 # The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
-# noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means that both
-# gains are unknown, even if the band looks level.
+# noise, 95 of 100 fits would give gains inside the ellipse. A small ellipse is good. An endless
+# band means that both gains are unknown, even if the band looks level.
 #
 # **Predict** before you choose runs in the menu:
 
@@ -708,11 +708,11 @@ Table(
 #
 # Now plan a ramp test and a step test for the drivetrain. You let go of the button 0.3 s after the
 # robot passes the mark. Above the picture you see five rules: four rules of exercise 6, and the
-# current limit. Find a plan that follows all five in a room of 4 m. Then try 2.5 m.
+# current limit. Find a plan that follows all five rules in a room of 4 m. Then try a room of 2.5 m.
 #
 # **Choose your current limit first.** It protects the motors and the battery. If a step is too
-# large, the limit reduces the voltage at the start. So set the limit that you will use in a match,
-# then plan a step that stays below this limit.
+# large, the limit reduces the voltage at the start. So set the current limit that you will use in a
+# match. Then plan a step that stays below this limit.
 
 # %%
 REACTION = 0.3  # [s] from the mark to the thumb off the button
@@ -873,8 +873,8 @@ quick
 #
 # - Draw the picture of section 3 for a turret: add `"turret": MECHANISMS["turret"]` to `SHOWN`.
 # - Bring `lean` closer to 0. At which `lean` is the error of kA below 10 %?
-# - Plan the ramp of your own robot for the longest hallway of your school. Then measure the
-#   hallway.
+# - Plan the ramp of your own robot for the longest hallway of your school. Then measure how long
+#   the hallway is.
 # </details>
 #
 # **Next:** [Lesson 4, wire a SysIdRoutine](04_wire_sysidroutine.ipynb). Write the code that runs

@@ -203,9 +203,10 @@ for mass in (60.0, 30.0):
 # slip at an even lower voltage. (Our simulated wheels never slip, so we may use 3.5 V here. For
 # your robot, choose the step with the planner of lesson 3.)
 #
-# **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test:
-# words such as `quasistatic-forward`, which tell the analyzer where a test begins and ends. With
-# `null` these words go into the **WPILOG file** on the robot (the log that WPILib writes).
+# **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test.
+# The state is a word such as `quasistatic-forward`. It tells the analyzer where a test begins and
+# ends. With `null` these words go into the **WPILOG file** on the robot (the log that WPILib
+# writes).
 #
 # <details><summary>For mentors: where does the test state go?</summary>
 #
@@ -515,8 +516,8 @@ print(f"2π is {2 * math.pi:.4f}.")
 #
 # **Myth check.** "No limit works during a SysId test." *This is only partly true.* During a test,
 # your other *commands* do not run, so their safety code does not work. Limits **inside the motor
-# controller** still work if you set them up, and that is your job. Such a limit protects the robot.
-# But while a limit acts, you measure the limit and not the motor.
+# controller** still work if you set them up, and that is your job. A limit in the motor controller
+# protects the robot. But while it acts, you measure the limit and not the motor.
 #
 # <details><summary>For mentors: which limits does a test bypass?</summary>
 #
@@ -544,7 +545,7 @@ print(f"2π is {2 * math.pi:.4f}.")
 #
 # The test command starts its timer in one loop, and sets the first voltage two loops later. (We saw
 # this when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not
-# zero: with a ramp of 0.5 V/s and loops of 20 ms it is 0.02 V.
+# zero: with a ramp of 0.5 V/s and loops of 20 ms, the first voltage is 0.02 V.
 # </details>
 
 # %% [markdown]
@@ -886,8 +887,8 @@ quick
 # it grades your code each time you save the file.
 #
 # **On your own robot:** write the four bindings and the guard, with a comment on each that names
-# the test and what it measures. Then ask somebody who does not know your code to find the dynamic
-# reverse button.
+# the test and what it measures. Then ask somebody who does not know your code to find the button
+# for the dynamic reverse test.
 #
 # **Next:** [Lesson 5, pre-flight and the first run](05_preflight_and_run.ipynb). Is everything
 # ready?

@@ -32,8 +32,8 @@
 # the mechanism is. The person at the button has to stop it.
 #
 # So before the test you decide how far it may move, and check that everything is ready. Pilots call
-# this a *pre-flight check*. It takes five minutes. In this lesson you skip one check at a time and
-# see what happens.
+# this a *pre-flight check*. You need five minutes for it. In this lesson you skip one check at a
+# time and see what happens.
 #
 # ### The four steps
 #
@@ -200,8 +200,8 @@ print(f"On blocks, the fit gives {lifted['kV'] / TRUTH['kV']:.2f} times the true
 print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 
 # %% [markdown]
-# Here kV is almost right (a real robot also has less friction on blocks). But this kA only
-# describes the wheels and the motors. So test on the floor, and compute the room.
+# Here kV is almost right (a real robot also has less friction on blocks). But a kA measured on
+# blocks only describes wheels and motors. So test on the floor, and compute the room.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
@@ -468,8 +468,8 @@ Table(
 # commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
 # says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
 # battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
-# swapped and charged". They also advise against a battery of more than 20 mΩ in matches. ([WPILib
-# docs: Robot Battery Basics, at one
+# swapped and charged". These docs also say that you should not use a battery of more than 20 mΩ in
+# matches. ([WPILib docs: Robot Battery Basics, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
@@ -528,7 +528,7 @@ print(f"With the applied voltage, the fit gives {arrived:.2f} times the true kA.
 print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 
 # %% [markdown]
-# So the limit **protects** you. But while it acts, a log of the commanded voltage is wrong.
+# So the limit **protects** you. But while a limit acts, a log of the commanded voltage is wrong.
 #
 # Two more rules:
 #
@@ -744,7 +744,7 @@ Table(
 # ### Watch the tests live
 #
 # `sysid watch` reads the log while the robot writes it. After each test it fits the gains again and
-# says what to do next: which test is missing, which test to repeat, or that you have enough data.
+# says what to do next: run a missing test, repeat a test, or stop because you have enough data.
 #
 # <details><summary>Try it with a simulated robot, or use it with your own robot</summary>
 #
@@ -843,8 +843,8 @@ Table(
 # - [ ] **Battery.** It is charged: 12.5 V or more at rest, 20 mΩ or less.
 # - [ ] **Encoder.** When you push forward, the position rises smoothly. A positive voltage gives a
 #   positive velocity.
-# - [ ] **Log.** You have fetched a log from this robot before, and know its folder. One mechanism
-#   per log.
+# - [ ] **Log.** You have fetched a log from this robot before, and know its folder. Each log holds
+#   one mechanism.
 # - [ ] **Guard.** While the guard locks the tests, no button moves anything. One person only waits
 #   to disable the robot.
 #
@@ -933,7 +933,7 @@ quick
 #
 # <details><summary>You can also answer in a notebook</summary>
 #
-# This writes into `exercises/exercise6/answers.toml` and shows the result:
+# This code writes your answers into `exercises/exercise6/answers.toml` and shows the result:
 #
 # ```python
 # from grader import submit
