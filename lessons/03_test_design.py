@@ -234,7 +234,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# If you see no menu or slider, change the name and the number here:
+# No menu or slider on your screen? Change the name and the number here:
 
 # %%
 display(*drift_picture("flywheel", 1.0))

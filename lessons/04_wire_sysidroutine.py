@@ -514,10 +514,11 @@ print(f"2π is {2 * math.pi:.4f}.")
 # each at one commit of the branch)
 # </details>
 #
-# **Myth check.** "No limit works during a SysId test." *This is only partly true.* During a test,
-# your other *commands* do not run, so their safety code does not work. Limits **inside the motor
-# controller** still work if you set them up, and that is your job. A limit in the motor controller
-# protects the robot. But while it acts, you measure the limit and not the motor.
+# **Myth check.** "A SysId test *bypasses* all limits: no limit works during a test." *This is only
+# partly true.* During a test, your other *commands* do not run, so their safety code does not work.
+# Limits **inside the motor controller** still work if you set them up, and that is your job. A
+# limit in the motor controller protects the robot. But while it acts, you measure the limit and not
+# the motor.
 #
 # <details><summary>For mentors: which limits does a test bypass?</summary>
 #

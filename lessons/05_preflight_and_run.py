@@ -200,8 +200,8 @@ print(f"On blocks, the fit gives {lifted['kV'] / TRUTH['kV']:.2f} times the true
 print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 
 # %% [markdown]
-# Here kV is almost right (a real robot also has less friction on blocks). But a kA measured on
-# blocks only describes wheels and motors. So test on the floor, and compute the room.
+# Here kV is almost right (a real robot also has less friction on blocks). But kA on blocks only
+# describes wheels and motors. So test on the floor, and compute the room.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
@@ -487,12 +487,12 @@ Table(
 #
 # ### Guard
 #
-# A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Let the
-# guard lock the tests, and enable the robot. (If your guard is Test mode, called *Utility* in 2027,
-# enable in Teleop.) Press all four buttons. Nothing may move. One person has no other job than to
-# press *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables the robot.
-# The **space bar** is the emergency stop: it works even if another window is in front, and you have
-# to reboot the roboRIO afterwards. ([WPILib docs: Driver
+# A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Lock the
+# tests with it and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable
+# in Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
+# *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables the robot. The
+# **space bar** is the emergency stop: it works even if another window is in front, and you have to
+# reboot the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Safety code in your own *commands* does not run during a test. Limits *in the motor controller*
