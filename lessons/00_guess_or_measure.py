@@ -19,20 +19,21 @@
 # **At the end you can**
 #
 # - say what *system identification* is, and how it differs from guessing;
-# - say when a measured gain beats a guessed one, and when it does not;
+# - say when a measured gain is better than a guessed gain, and when it is not;
 # - say which gain changes when the robot gets heavier, and which do not;
-# - use the three tools of this course, and find the numbers that belong to your name.
+# - use the three tools of this course, and find the exercise numbers that belong to your name.
 #
-# **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: it runs,
-# and its answer appears below. Go from top to bottom, and run every cell. You do not have to
-# understand every line of code. In some cells a bar with three dots hides the code, because it
-# contains an answer or only draws a picture. Run these cells like the others.
+# **How a lesson works.** Gray cells hold code. Click into one and press *Shift + Enter*: the cell
+# runs, and its answer appears below. Go through the page from top to bottom, and run every cell.
+# You do not have to understand every line of code. In some cells a bar with three dots hides the
+# code, because this code contains an answer or only draws a picture. Run these cells like the
+# others.
 #
 # <details><summary>You see no buttons or sliders?</summary>
 #
 # You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
 # prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
-# with the same numbers to change. A bar hides its picture: click on the bar to see it. All lessons
+# with the same numbers to change. If a bar hides a picture, click on the bar to see it. All lessons
 # work this way.
 # </details>
 
@@ -42,22 +43,24 @@
 # Your robot program wants the drivetrain (motors, gears and wheels) to move at 2 m/s. But the
 # program can only set a **voltage**. How many volts give 2 m/s? A **feedforward** is a formula that
 # computes the voltage for the motion you want. A feedforward does not wait until the robot is too
-# slow: it gives the right voltage from the start.
+# slow: it sets the right voltage from the start.
 #
 # The formula contains three numbers, called **gains**:
 #
 # - **kS**: the volts that overcome friction while the robot moves;
-# - **kV**: volts for each m/s of velocity;
+# - **kV**: the volts for each m/s of velocity;
 # - **kA**: volts for each m/s² of acceleration. (An acceleration of 1 m/s² means: each second, the
 #   velocity grows by 1 m/s.)
 #
-# Lesson 1 explains where they come from. Today's question: **how do you find these numbers?**
+# Lesson 1 explains where these gains come from. Today's question is: **how do you find these
+# numbers?**
 #
-# - You can **guess**: try 0.1, load the code onto the robot (*deploy*), watch, try 0.2.
+# - You can **guess**: try 0.1, load the code onto the robot (*deploy*), and watch the robot. Then
+#   try 0.2.
 # - You can **measure**: let the robot run a few tests, write down what it did, and compute the
 #   gains from these data. This is **system identification**, in short *SysId*.
 #
-# Which is better? Let us race.
+# Which way is better? A race will show it.
 
 # %%
 import math
@@ -90,8 +93,8 @@ from sim.teaching.prediction import Prediction
 # %% [markdown]
 # ## 2 Your robot
 #
-# Write your name between the quotes, and run the cell. You get your own robot: a drivetrain with
-# its own gears, mass and friction. The same name always gives the same robot.
+# Write your name between the quotes, and run the cell. You get your own robot. It is a drivetrain
+# with its own gears, mass and friction. The same name always gives the same robot.
 
 # %%
 NAME = "me"
@@ -105,10 +108,11 @@ def robot_of(name: str) -> Mechanism:
 
 robot = robot_of(NAME)
 print(f"{NAME}'s robot is similar to this one: {robot.summary}.")
-print("You see its gains after the race.")
+print("You will see this robot's gains after the race.")
 
 # %% [markdown]
-# The robot is simulated. The simulation knows its true gains, so you can check who was right.
+# The robot is simulated. The simulation knows the robot's true gains, so you can check whose gains
+# were right.
 #
 # ### The drive
 #
@@ -142,7 +146,7 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 #
 # **Round one: you.** You have **90 seconds** and two sliders, kS and kV. kA stays at 0. The clock
 # starts when you move the first slider. The dashed robot shows the target motion. Move the sliders
-# until your robot stays with it, and make the *typical error* small. (It is the "root mean square"
+# until both robots stay together, and make the *typical error* small. (It is the "root mean square"
 # of all errors: an average in which large errors count more.)
 #
 # **Round two: three lines.** Your opponent is a program of three lines. It tests the robot and
@@ -155,7 +159,7 @@ def drive(driven: Mechanism, gains: dict[str, float]) -> np.ndarray:
 guess_race = Prediction(
     "You have 90 seconds and two sliders. Your opponent has three lines of code. Who gets the "
     "smaller typical error?",
-    "me, clearly",
+    "I do, clearly",
     "about the same",
     "the three lines",
 )
@@ -180,8 +184,9 @@ def race(*knobs: Knob, seconds: float = 0.0) -> Animation:
         knobs=knobs,
         score=Score("your robot", seconds=seconds),
         span=(-1.5, 5.0),
-        alt="Your robot drives beside a dashed one, the target, which speeds up to 2.5 m/s, stops, "
-        "and comes back at 1 m/s. The closer the two stay, the better your gains.",
+        alt="Your robot drives next to a dashed robot, which shows the target motion. The dashed "
+        "robot speeds up to 2.5 m/s, stops, and comes back at 1 m/s. If your robot stays close to "
+        "it, your gains are good.",
     )
 
 
@@ -195,10 +200,10 @@ race(KS, KV, seconds=90.0)
 MY_KS, MY_KV = START  # for example 0.2, 2.4
 
 # %% [markdown]
-# Now your opponent. Line one runs four tests with the robot and keeps the **log**: a table of time,
-# voltage, position and velocity with fifty rows per second. Line two *fits* the formula to the log:
-# it computes the gains that match the rows best, in the same way as the SysId tool of WPILib (the
-# code library of FRC). Line three drives with these gains.
+# Now your opponent drives. Line one of its program runs four tests with the robot and keeps the
+# **log**: a table of time, voltage, position and velocity with fifty rows per second. Line two
+# *fits* the formula to the log: it computes the gains that match the rows best, in the same way as
+# the SysId tool of WPILib (the code library of FRC). Line three drives with these gains.
 
 # %%
 log = simulate(robot, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
@@ -232,8 +237,9 @@ animate_mechanism(
     "drivetrain",
     side_by_side(robot, {YOU: guessed, "three lines": measured}),
     panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
-    alt=f"The finish. The robot with {YOU} leaves the dashed target while it speeds up and slows "
-    "down. The robot of the three lines stays inside it.",
+    alt=f"This is the finish of the race. The robot with {YOU} leaves the dashed target robot "
+    "while the target speeds up and slows down. The robot of the three lines stays with the "
+    "target.",
 )
 
 
@@ -266,32 +272,32 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# Look at the second row of the table. The computer tried *every* pair of kS and kV in steps of
-# 0.05, and the best pair still has a large error. The error is large where the robot speeds up and
-# slows down. kS and kV alone do not give the voltage for acceleration. kA does, and only the three
-# lines have a kA. So **you could not win round one**.
+# Look at the second row of the table. The computer tried *every* pair of kS and kV in intervals of
+# 0.05. Even the best pair has a large error. The error is large where the robot speeds up and slows
+# down. kS and kV alone do not give the voltage for acceleration. That voltage comes from kA, and
+# only the three lines have a kA. So **you could not win round one**.
 #
 # Was the race fair? Only partly.
 #
-# - The simulation was **easy for you**. One try took you two seconds. On a robot, one try means:
-#   change the number, deploy, drive, walk back.
-# - The simulation was **easy for the three lines**, too. On a robot, line one is work: you need
-#   code for the tests, room to drive, a good battery, and a log that is not damaged. Lessons 3 to 6
-#   teach this.
+# - The simulation was **easy for you**. One try took you two seconds. On a real robot, one try
+#   means: you change the number, deploy the code, drive, and walk back.
+# - The simulation was **easy for the three lines**, too. On a real robot, line one is a lot of
+#   work: you need code for the tests, room to drive, a good battery, and a log without wrong data.
+#   Lessons 3 to 6 teach this.
 #
 # <details><summary>Want to know why the true gains have an error, too?</summary>
 #
 # The program sets the voltage only every 20 ms, but the motion changes all the time.
 # </details>
 #
-# On a real robot, line one would need this much driving:
+# On a real robot, the four tests of line one would need this much driving:
 
 # %%
 spent = sum(float(run.time[-1] - run.time[0]) for run in log.runs)
 rows_seen = sum(len(run) for run in log.runs)
 farthest = max(float(np.ptp(run.position)) for run in log.runs)
 print(f"Four tests: {spent:.0f} s of driving, {rows_seen} rows in the log.")
-print(f"The longest one drives {farthest:.1f} m. (Lesson 3 shows how to do it in less room.)")
+print(f"The longest test drives {farthest:.1f} m. (Lesson 3 shows how to test in less room.)")
 
 # %% [markdown]
 # **Round three: kA unlocked.** Now race once more, with all three sliders and no clock. Can you
@@ -304,7 +310,8 @@ race(KS, KV, KA)
 # ## 4 A third way: a pencil is enough for kV
 #
 # A teammate says: "I do not move sliders. I give the robot 1 V, wait until the speed is steady, and
-# write it down. Then 2 V, and so on. Then I draw a straight line with a ruler."
+# write the speed down. Then I do the same with 2 V, 3 V, 4 V and 5 V. Then I draw a straight line
+# with a ruler."
 #
 # At a steady speed nothing accelerates, so kA does not matter. The formula becomes
 #
@@ -369,13 +376,14 @@ Table(
 )
 
 # %% [markdown]
-# For kV, the pencil is nearly as good as the three lines; often for kS, too. A careful line by hand
-# is *good*. A maintainer of WPILib (a person who develops it) calls it "the better way" to find kS
-# and kV by hand. ([frc-docs issue 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
+# The kV from the pencil is nearly as good as the kV from the three lines. Often its kS is good,
+# too. If you draw with care, the line is *good*. A maintainer of WPILib (a person who develops it)
+# calls it "the better way" to find kS and kV by hand. ([frc-docs issue
+# 2712](https://github.com/wpilibsuite/frc-docs/issues/2712))
 #
 # So the race was not "human against computer". Your teammate did *not* search for a number that
-# looks good. They **wrote down what the robot did, and fitted a model to these data**. (A *model*
-# is a formula for what the robot does.) This is system identification with a pencil.
+# looks good. Your teammate **wrote down what the robot did, and fitted a model to these data**. (A
+# *model* is a formula for what the robot does.) This is system identification with a pencil.
 #
 # The pencil cannot find kA, because it only looks at steady speeds.
 
@@ -397,25 +405,28 @@ Table(
 #
 # **Not everybody agrees.** Some people say that every good team uses SysId on every mechanism. A
 # maintainer of WPILib wrote in 2026 that most teams get the opposite advice: "avoid the SysId tool
-# and do manual tuning instead", because SysId is "error-prone": you easily make mistakes with it.
-# ([allwpilib issue 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) This course makes
-# such mistakes on purpose, so that you recognize them.
+# and do manual tuning instead", because SysId is "error-prone": it is easy to make mistakes with
+# SysId. ([allwpilib issue 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) This course
+# makes such mistakes on purpose, so that you recognize them.
 #
-# (This course grew out of another lesson, the *source lesson*. Most of it is right. Where it is
-# wrong or incomplete, you find a folded box: it quotes the source lesson, shows what the official
-# documentation says, and lets you try it. Mentors may want to open them; you do not need them.)
+# (This course grew out of another lesson, the *source lesson*. Most of it is right. Where the
+# source lesson is wrong or incomplete, you find a folded box. The box quotes the source lesson,
+# shows what the official documentation says, and lets you try it. These boxes are for mentors; you
+# do not need them.)
 #
 # <details><summary>For mentors: which question SysId asks</summary>
 #
 # > **Lesson says:** SysId does not ask "what gain produces behavior I like", it asks "what physical
 # > model best explains the data this mechanism actually produced".
 # >
-# > **Source says:** the same in other words: system identification is finding a mathematical model
-# > of a system "through statistical analysis of its inputs and outputs". And it adds that the model
-# > "is not perfect", but usually good enough. ([WPILib docs: Introduction to System
+# > **Source says:** WPILib says the same in other words: system identification is finding a
+# > mathematical model of a system "through statistical analysis of its inputs and outputs". WPILib
+# > adds that the model "is not perfect", but usually good enough. ([WPILib docs: Introduction to
+# > System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
-# > **Try it:** look at the table of section 3. Which row answers which question?
+# > **Try it:** look at the table of section 3. Which row comes from guessing, and which row from
+# > SysId?
 # </details>
 #
 # <details><summary>For mentors: does every good team use SysId?</summary>
@@ -428,8 +439,8 @@ Table(
 # > do manual tuning instead", because SysId is "error-prone". ([allwpilib issue
 # > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
 # >
-# > **Try it:** that is what this course is for. Each lesson makes one of those errors on purpose,
-# > in a simulation whose truth is known, until you recognize it.
+# > **Try it:** this course lets you make such errors. Each lesson makes one of them on purpose in a
+# > simulation with known gains, so that you learn to recognize the error.
 # </details>
 
 # %% [markdown]
@@ -443,7 +454,7 @@ Table(
 # %%
 guess_gain = Prediction("Which gain of the robot changes?", "kS", "kV", "kA", "all three")
 guess_worse = Prediction(
-    "You keep the gains of your best try. Will you see that the robot drives worse?",
+    "You keep the gains of your best try. Will you see that the heavier robot drives worse?",
     "yes, clearly",
     "hardly",
     "not at all",
@@ -472,9 +483,10 @@ animate_mechanism(
     {(name,): scene for name, scene in BRACES.items()},
     choices=(Choice("brace", tuple(BRACES), value="4 kg"),),
     panels=(Panel("velocity", "velocity [m/s]", low=-2.0, high=4.0),),
-    alt="Three robots with the same brace: one with your gains, one with the old gains of the "
-    "three lines, one measured again. With 4 kg nobody sees a difference. With 40 kg the old "
-    "gains fall behind on the ramps, and the new ones do not.",
+    alt="Three robots carry the same brace. One drives with your gains, one with the old gains of "
+    "the three lines, and one with gains that were measured again. With 4 kg you see no "
+    "difference. With 40 kg the robots with old gains fall behind while the target speeds up, and "
+    "the robot with new gains does not.",
 )
 
 # %%
@@ -492,34 +504,34 @@ Table(
         (name, truth[name], heavy.gains[name], measured[name], again[name], unit)
         for name, unit in (("kS", "V"), ("kV", "V·s/m"), ("kA", "V·s²/m"))
     ),
-    caption="Which of the true gains has changed?",
+    caption="Compare the true gains: which of them has changed?",
 )
 
 # %% [markdown]
 # ### Explain
 #
 # Only **kA** has changed. At a steady speed nothing accelerates, so a heavier robot needs no more
-# volts: kV stays the same. Choose 40 kg in the picture. The error of the old gains grows only where
-# the robot speeds up or slows down.
+# volts: kV stays the same. Choose 40 kg in the picture. With the old gains, the error of the
+# velocity grows only where the robot speeds up or slows down.
 #
 # <details><summary>For mentors: do guesses stop being valid when the robot gets heavier?</summary>
 #
 # > **Lesson says:** when the mechanism gets heavier, "the guesses stop being valid".
 # >
-# > **Source says:** only where they depend on mass. WPILib describes kS as what friction takes, kV
-# > as what a constant velocity takes, and kA as what acceleration takes. Mass resists acceleration.
-# > kS is "static friction in your gears, bearings, etc". Weight makes it larger only where it
-# > presses on them, or on the carpet.
-# > ([WPILib docs: Introduction to DC Motor Feedforward, at one
+# > **Source says:** a guess stops being valid only if the gain depends on mass. WPILib describes kS
+# > as the voltage for friction, kV as the voltage for a constant velocity, and kA as the voltage
+# > for acceleration. Mass resists acceleration. kS is "static friction in your gears, bearings,
+# > etc". More weight increases this friction only if the weight presses on gears or bearings, or on
+# > the carpet. ([WPILib docs: Introduction to DC Motor Feedforward, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** choose 40 kg. Where does the robot miss more: on the ramps, or while it
-# > holds a speed?
+# > **Try it:** choose 40 kg. When is the robot's velocity error larger: while its speed changes, or
+# > while it holds a speed?
 # </details>
 #
-# Your guess of kS and kV is as good as before, and it never had a kA. But when you guess, you do
-# not *notice* the brace. When you measure, you do. The next cell measures before and after, with
-# the course's own method (`fit` without `method="sysid"`):
+# Your guessed kS and kV are as good as before, and you never guessed a kA. But when you guess, you
+# do not *notice* the brace. When you measure, you notice it. The next cell measures the robot
+# without and with the brace, and uses the course's own method (`fit` without `method="sysid"`):
 
 # %%
 heavy_log = simulate(heavy, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(3))
@@ -532,10 +544,10 @@ sysid_growth = again["kA"] / measured["kA"]
 print(f"(SysId's method, same logs: {100 * (sysid_growth - 1):.1f} %. Its kA is less precise.)")
 
 # %% [markdown]
-# The log has *weighed* the brace: its numbers have a physical meaning.
+# So the log can *weigh* the brace, because a measured gain has a physical meaning.
 #
-# How much do 4 kg matter? That depends on where they are. (**kG** is the gain for gravity. Only
-# mechanisms that move up and down have it: lesson 2.)
+# How much do 4 kg more change the gains? That depends on the mechanism. (**kG** is the gain for
+# gravity. Only mechanisms that move up and down have it: lesson 2.)
 
 # %%
 lift = MECHANISMS["elevator"]
@@ -545,33 +557,34 @@ for name, one in (("your drivetrain", robot), ("an elevator's carriage", lift)):
     changes = [f"{100 * (more[gain] / one.gains[gain] - 1):.0f} %" for gain in ("kV", "kA")]
     gravity = f"{100 * (more['kG'] / one.gains['kG'] - 1):.0f} %" if "kG" in more else "none"
     rows.append((name, one.load, *changes, gravity))
-Table(("where", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows by"), tuple(rows))
+Table(("added to", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows by"), tuple(rows))
 
 # %% [markdown]
 # ### So, guess or measure?
 #
-# - For **kV**, and often for kS, a careful line by hand is as good as a fit. If you need nothing
-#   else, take the pencil.
-# - For **kA**, and for **kG**, measuring wins. kA shows only while the speed changes, and friction
-#   hides kG (lesson 2).
-# - When **something changes**, measuring wins: it shows what changed, and by how much.
-# - With a **damaged log**, measuring loses. A fit prints three numbers even when they are wrong.
-#   Lesson 6 teaches you to recognize such a log.
+# - For **kV**, and often for kS, a line that you draw with care is as good as a fit. If you need no
+#   other gain, use the pencil.
+# - For **kA**, and for **kG**, measuring wins. You can see the effect of kA only while the speed
+#   changes, and friction makes kG hard to see (lesson 2).
+# - When **something changes** on the robot, measuring wins: it shows what changed, and by how much.
+# - With a **damaged log** (a log with wrong data), measuring loses. A fit prints three gains even
+#   when they are wrong. Lesson 6 teaches you to recognize such a log.
 #
 # ## 7 What good gains give you
 #
-# Good gains help you more than once, because other code uses them.
+# Good gains help you more than once, because other parts of the robot's code use them, too.
 #
-# **Drivetrain.** A path planner such as PathPlanner needs the robot's *moment of inertia* (MOI): it
-# says how hard it is to turn the robot. The PathPlanner docs give a formula with two kA values, one
-# measured while turning and one while driving straight. ([PathPlanner docs: Robot
-# Config](https://pathplanner.dev/robot-config.html))
+# **Drivetrain.** A path planner such as PathPlanner needs the robot's *moment of inertia* (MOI).
+# The MOI says how hard it is to turn the robot. The PathPlanner docs give a formula with two kA
+# values: one is measured while the robot turns, the other while it drives straight. ([PathPlanner
+# docs: Robot Config](https://pathplanner.dev/robot-config.html))
 #
-# **Arm.** A *motion profile* plans a velocity and an acceleration for every moment, like the drive
-# of our race. With good gains the arm follows the plan, and the feedback has little to correct.
+# **Arm.** A *motion profile* is a plan of the velocity and acceleration at every moment. The drive
+# of our race has one, too. With good gains the arm follows this plan, and the feedback has little
+# to correct.
 #
-# **Shooter.** The next table asks a shooter for 4000 rpm (rotations per minute) with feedforward
-# alone:
+# **Shooter.** A shooter should reach 4000 rpm (rotations per minute) with feedforward alone. The
+# next table shows its speed:
 
 # %%
 wheel = MECHANISMS["shooter"]
@@ -588,32 +601,33 @@ def reached(real: Mechanism, used: dict[str, float]) -> float:
 
 worn = replace(wheel, drag=wheel.drag + 0.03)
 Table(
-    ("gains", "speed reached [rpm]", "off 4000 rpm by"),
+    ("gains", "speed reached [rpm]", "difference from 4000 rpm"),
     tuple(
         (name, f"{rpm:.0f}", f"{round(rpm / 40 - 100, 1) + 0.0:+.1f} %".replace("-", "−"))
         for name, rpm in (
             ("measured", reached(wheel, gains)),
             ("kV guessed 5 % too low", reached(wheel, gains | {"kV": 0.95 * gains["kV"]})),
-            ("measured, but a bearing has aged since", reached(worn, gains)),
+            ("measured, but a bearing got worse later", reached(worn, gains)),
         )
     ),
 )
 
 # %% [markdown]
-# With good gains the feedback has little work. But you still need it: the gains in the last row
-# were perfect last month. And gains belong to *your* robot: another team's gains describe another
-# machine.
+# With good gains the feedback has little work. But you still need feedback: the gains in the last
+# row of the table were right before the bearing got worse. And these gains fit only *your* robot:
+# another team's robot has other gains.
 #
 # <details><summary>For mentors: can feedforward hit 4000 rpm exactly, without PID?</summary>
 #
 # > **Lesson says:** the feedforward can "predict the exact voltage for 4000 RPM without needing PID
 # > to compensate for model error".
 # >
-# > **Source says:** feedforward handles what we already know; feedback then compensates "for what
-# > we do not or cannot know" while the robot runs.
-# > ([WPILib docs: Feedforward Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# > **Source says:** no. Feedforward handles what we already know; feedback then compensates "for
+# > what we do not or cannot know" while the robot runs. ([WPILib docs: Feedforward
+# > Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
-# > **Try it:** the last row above. The gains were perfect, last month.
+# > **Try it:** look at the last row of the table. These gains were right before the bearing got
+# > worse.
 # </details>
 
 # %% [markdown]
@@ -635,19 +649,20 @@ Table(
 # python -m grader start
 # ```
 #
-# (WPILib's own tool is also called **SysId**. It opens the same `.wpilog` files. You can use either
-# tool.)
+# (WPILib's own tool is also called **SysId**. It opens the same `.wpilog` files, so you can use
+# either tool.)
 #
 # ### Say who you are
 #
-# Do this once, in a terminal, with your own name (in a class, the name your teacher uses):
+# Type this command once in a terminal, with your own name (in a class, use the name your teacher
+# uses):
 #
 # ```
 # grade start --student ada
 # ```
 #
 # From then on, every exercise gives you your own numbers: your own mechanism and your own log. Your
-# neighbor has other answers, but you can compare *how* you found yours. Your numbers are in
+# neighbor has other answers, but you can compare *how* you found your answers. Your numbers are in
 # `exercises/exercise1/data/ada/given.toml`, and so on. (`NAME` at the top of this page is for the
 # race only.)
 #
@@ -660,7 +675,8 @@ if made:
     print(f"{made[0].parent.name}: {given['mechanism']}, velocities in {given['velocity_unit']}")
     print(f"kS = {given['kS']} V, kV = {given['kV']}, kA = {given['kA']} (units: exercise 1)")
 else:
-    print("Nothing yet. In a terminal, in the course's folder:  grade start --student YOUR-NAME")
+    print("You have no data yet. Type this in a terminal, in the course's folder:")
+    print("    grade start --student YOUR-NAME")
 
 # %% [markdown]
 # ### A first try
@@ -699,12 +715,12 @@ from grader import QuickCheck
 quick = QuickCheck(
     "Which gain changed when the 4 kg brace was added?",
     {
-        "kS": "Friction sits in gears and bearings. Four kilograms more hardly change it.",
+        "kS": "Most friction is in gears and bearings. Four kilograms more hardly change it.",
         "kV": (
             "kV is the voltage for a steady speed. At a steady speed nothing accelerates, "
             "so mass does not matter."
         ),
-        "kA": "More kilograms need more volts for the same acceleration.",
+        "kA": "A heavier robot needs more volts for the same acceleration.",
     },
     right="kA",
 )
@@ -715,25 +731,27 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Guessing: which gain makes the robot behave as I like? SysId: which physical model best explains
-# what the robot did?
+# Guessing asks: which gain makes the robot behave as I like? SysId asks: which physical model best
+# explains what the robot did?
 # </details>
 #
-# **2.** A teammate holds five steady voltages and draws a line. Which gains does that give, and how
-# good are they?
+# **2.** A teammate holds five steady voltages and draws a line. Which gains does the line give, and
+# how good are these gains?
 #
 # <details><summary>Answer</summary>
 #
-# kV (the slope) and kS (where the line meets velocity 0). Both are good: this kV is as good as that
-# of the fit. The line cannot give kA, because at a steady speed nothing accelerates.
+# The line gives kV (its slope) and kS (the voltage where it meets velocity 0). Both are good: this
+# kV is about as good as the kV of a fit. The line cannot give kA, because at a steady speed nothing
+# accelerates.
 # </details>
 #
-# **3.** The robot gets 4 kg heavier in week 3. Which of its gains has to change, and which not?
+# **3.** The robot gets 4 kg heavier in week 3. Which of its gains change, and which do not?
 #
 # <details><summary>Answer</summary>
 #
-# kA grows in proportion to the mass. kV depends on motor, gears and wheels: it stays the same. kS
-# depends on friction, and hardly changes. (For an elevator or an arm, kG grows, too.) </details>
+# kA grows in proportion to the mass. kV depends on motor, gears and wheels, so kV stays the same.
+# kS depends on friction, so kS hardly changes. (For an elevator or an arm, kG grows, too.)
+# </details>
 #
 # **4.** "We measured our gains, so we do not need PID." What do you say?
 #
@@ -748,9 +766,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# kA shows the robot's mass: how hard it is to speed up the robot. With a second kA, measured while
-# turning, a formula gives the robot's moment of inertia (lesson 8). And if kA jumps from one week
-# to the next, somebody added something heavy.
+# kA shows the robot's mass, because a heavier robot needs more volts for the same acceleration. If
+# you also measure a kA while the robot turns, a formula gives the robot's moment of inertia (lesson
+# 8). And if kA jumps from one week to the next, somebody added something heavy.
 # </details>
 
 # %% [markdown]
@@ -758,13 +776,14 @@ quick
 #
 # **Exercise 11** ([exercises/exercise11/README.md](../exercises/exercise11/README.md)) has the
 # knowledge checks of the whole course. Its first three questions, under *Guessing and measuring*,
-# are about this page. Answer them now, and leave the rest empty until lesson 8. In a terminal:
+# are about this page. Answer these three now, and leave the other questions empty until lesson 8.
+# In a terminal, type:
 #
 # ```
 # grade exercise11
 # ```
 #
-# Or answer in a notebook. The questions are in
+# You can also answer in a notebook. The questions are in
 # `exercises/exercise11/data/YOUR-NAME/questions.md`. Write the letters of your answers in place of
 # the dots:
 #
@@ -774,14 +793,14 @@ quick
 # submit("exercise11", Q0_guess="...", Q0_sysid="...", Q0_brace="...")
 # ```
 #
-# `submit` writes your answers into `exercises/exercise11/answers.toml` and shows the result. Or
-# write into that file with an editor, and start `grade watch exercise11` in a terminal: it grades
-# each time you save. Hints cost nothing: `grade exercise11 --hint`.
+# `submit` writes your answers into `exercises/exercise11/answers.toml` and shows the result. You
+# can also write into that file with an editor, and start `grade watch exercise11` in a terminal.
+# This command grades the file each time you save it. Hints cost nothing: `grade exercise11 --hint`.
 #
 # <details><summary>More, if you like</summary>
 #
-# - Use your neighbor's gains on your robot: `drive(robot, {...})`. Which of the three gains causes
-#   the largest error?
+# - Drive your robot with your neighbor's gains: `drive(robot, {...})`. Which of the three gains
+#   causes the largest error?
 # - Write another name above, and run the page again (menu: *Run*, *Run All Cells*).
 # </details>
 #

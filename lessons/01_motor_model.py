@@ -19,20 +19,20 @@
 #
 # - say what kS, kV and kA mean, and in which unit each is;
 # - split any voltage into its three parts;
-# - compute the kV to expect from the motor, the gears and the wheel, and say what to check when the
-#   measured kV is far above or below it;
+# - compute the expected kV from the motor, the gears and the wheel, and say what to check when the
+#   measured kV is very different;
 # - say what the time constant kA/kV tells you;
-# - recognize a kS that means "stop and get a wrench";
+# - recognize a kS that means "stop and repair the robot";
 # - convert a gain per rotation into a gain per radian, in the right direction.
 
 # %% [markdown]
 # ## 1 Why: a gain is a price
 #
 # Each gain has a meaning and a unit. You can read a gain as a **price**: kV = 2.5 V·s/m says that
-# each m/s of speed costs 2.5 volts.
+# each m/s of speed needs 2.5 volts.
 #
-# "The analyzer (the window of WPILib's SysId) says kV = 0.4." Can that be right? After this lesson
-# you can answer this in a minute, with the motor's data sheet and a calculator.
+# The analyzer (the window of WPILib's SysId) shows kV = 0.4. Can this kV be right? After this
+# lesson you can answer in a minute, with the motor's data sheet and a calculator.
 
 # %%
 import math
@@ -72,21 +72,21 @@ print(drivetrain.summary)
 # each second). sgn(v) is the *sign* of v: +1 forward and −1 backward. The model has three *terms*,
 # one for each gain:
 #
-# | term | pays for | unit of the gain | is zero when |
+# | term | gives the voltage for | unit of the gain | is zero when |
 # |---|---|---|---|
 # | kS·sgn(v) | friction in bearings, gears, belts | V | the robot stands still |
 # | kV·v | speed | V·s/m: volts for each m/s | the robot stands still |
 # | kA·a | *changing* the speed | V·s²/m: volts for each m/s² | the speed is steady |
 #
-# Each term is in volts: V·s/m times m/s is V. If your mechanism turns, read rotations or radians
+# Each term is in volts: V·s/m times m/s is V. If your mechanism turns, use rotations or radians
 # instead of meters (section 8). A mechanism that moves up and down also needs volts for gravity:
 # lesson 2.
 #
 # The kS term is the same at any speed; only its sign changes. (Real friction also has a part that
-# grows with speed. This part becomes part of kV.)
+# grows with speed. That part is included in kV.)
 #
-# The next table shows the three terms of our simulated drivetrain in four moments. Cover its last
-# row with your hand and compute it first: driving *backward* at 2 m/s.
+# The next table shows the three terms of our simulated drivetrain in four moments. Cover the last
+# row with your hand and compute it first (2 m/s *backward*).
 
 
 # %%
@@ -119,9 +119,9 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "together [V]"), tu
 
 # %%
 guess_seven = Prediction(
-    "Where do the other volts go?",
+    "The motors get 7 V, more than a steady 2 m/s needs. What are the other volts for?",
     "friction",
-    "they turn into heat, and are lost",
+    "they become heat, and are lost",
     "into acceleration: the speed is not steady",
     "the log must be wrong",
 )
@@ -130,10 +130,13 @@ guess_seven
 # %%
 left = 7.0 - sum(bill(2.0, 0.0).values())
 print(guess_seven.reveal("into acceleration: the speed is not steady"))
-print(f"7 V − {gains['kS']:.2f} V − {gains['kV'] * 2:.2f} V = {left:.2f} V are left.")
 print(
-    f"They accelerate the robot by {left / gains['kA']:.1f} m/s every second, so it gets faster "
-    "than 2 m/s."
+    f"7 V − {gains['kS']:.2f} V (friction) − {gains['kV'] * 2:.2f} V (speed) = {left:.2f} V "
+    "are left."
+)
+print(
+    f"These volts accelerate the robot by {left / gains['kA']:.1f} m/s every second, so it gets "
+    "faster than 2 m/s."
 )
 print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.2f} V·s/m.")
 
@@ -144,10 +147,10 @@ print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
 #
-# Now do the same for every moment of a drive. The picture computes the three terms from the robot's
-# *motion* and draws them as three colored areas, one on top of the other. The thick line is the
-# voltage that the motors really got (the *applied* voltage). If the model is right, the areas reach
-# this line. Move the slider below the picture: it sets the time, and the robot moves with it.
+# Now compute the three terms for every moment of a drive. The picture computes them from the
+# robot's *motion* and draws them as three colored areas, one on top of the other. The thick line is
+# the voltage that the motors really got (the *applied* voltage). If the model is right, the areas
+# reach this line. Move the slider below the picture: it sets the time, and the robot moves.
 #
 # There are three drives:
 #
@@ -162,7 +165,7 @@ guess_step = Prediction(
     "Right after the sudden step, which term takes the most volts?", "kS·sgn(v)", "kV·v", "kA·a"
 )
 guess_ramp = Prediction(
-    "And halfway through the slow ramp?",
+    "Halfway through the slow ramp, which term takes the most volts?",
     "kS·sgn(v)",
     "kV·v",
     "kA·a",
@@ -215,9 +218,9 @@ animate_mechanism(
         Knob("mass", "mass [kg]", low=20.0, high=80.0, step=5.0, value=60.0),
         Knob("kS", "kS [V]", low=0.05, high=1.0, step=0.05, value=0.15),
     ),
-    alt="A robot drives, and below it three areas share out its volts: kS·sgn(v), kV·v and kA·a. "
-    "Right after a sudden step nearly all volts are kA·a; then kV·v grows and kA·a shrinks. In the "
-    "slow ramp nearly all are kV·v.",
+    alt="A robot drives. Below it, three colored areas show how many volts each term takes: "
+    "kS·sgn(v), kV·v and kA·a. Right after a sudden step, nearly all volts are in kA·a. Then kV·v "
+    "grows and kA·a shrinks. In the slow ramp, nearly all volts are in kV·v.",
 )
 
 # %%
@@ -239,12 +242,12 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # ### Explain
 #
 # - **Sudden step.** At first there is no speed, so nearly all volts go into kA·a. As the robot gets
-#   faster, kV·v grows, fewer volts are left for kA·a, and the acceleration gets smaller. So SysId
-#   needs this test for kA: **kA takes many volts only here.**
+#   faster, kV·v grows. Fewer volts are left for kA·a, so the acceleration gets smaller. SysId needs
+#   this test, because **kA takes many volts only here.**
 # - **Slow ramp.** The acceleration is small the whole time. Most volts go into kS and kV·v, so this
 #   test shows **kS and kV**.
-# - **The gap at the start of the ramp.** Until the voltage reaches kS, friction holds the robot:
-#   nothing moves, and there is no colored area.
+# - **The gap at the start of the ramp.** Until the voltage reaches kS, friction holds the robot.
+#   Nothing moves, so there is no colored area.
 # - **There and back.** When the voltage drops to 0 V, kA·a is negative, and the robot gets slower.
 #
 # Make the robot heavy, then light. Which area changes? Then increase the friction (kS). In the
@@ -255,39 +258,39 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > **Lesson says:** in the quasistatic test, kS "shows up as the initial voltage intercept before
 # > velocity develops".
 # >
-# > **Source says:** nearly. kS is what it takes "to just barely get it moving", as WPILib puts it.
-# > But a ramp never stops accelerating altogether, so a thin strip of kA·a is in there, too.
+# > **Source says:** nearly. WPILib says that kS is the voltage "to just barely get it moving". But
+# > during a ramp the robot always accelerates a little, so the voltage also contains a little kA·a.
 # > ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** how many volts does kA·a still take halfway through the slow ramp? The table above
-# > has the number. Lesson 3 shows what it does to a kS that is read off a line.
+# > **Try it:** how many volts does kA·a take halfway through the slow ramp? The table above has the
+# > number. Lesson 3 shows how kA·a changes a kS that you find with a straight line.
 # </details>
 
 # %% [markdown]
 # ## 4 Where the prices come from
 #
-# The table below says what each gain depends on. Its letters: R is the electrical resistance of the
-# motor; Ke and Kt are two more constants from its data sheet; G is the gear ratio (6.75:1 means
-# that the motor turns 6.75 times for one turn of the wheel); r is the radius of the wheel; n is the
-# number of motors; m is the mass.
+# The table below says what each gain depends on. Its letters mean: R is the electrical resistance
+# of the motor; Ke and Kt are two more constants from the motor's data sheet; G is the gear ratio
+# (6.75:1 means that the motor turns 6.75 times for one turn of the wheel); r is the radius of the
+# wheel; n is the number of motors; m is the mass.
 #
 # <details><summary>Want to know why? The derivation in three sentences</summary>
 #
 # An electric motor does three things, and each is a simple product:
 #
-# 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against the one
-#    you apply, proportional to its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
+# 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against your
+#    voltage, proportional to its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
 # 2. **The remaining voltage drives a current** through the winding's resistance R: I = (V − Ke·ω) /
 #    R.
 # 3. **The current makes torque**, a turning force: T = Kt·I.
 #
-# Gears of ratio G and a wheel of radius r turn the torque of n motors into a force, n·G·T/r. Part
-# of that force works against friction, the rest moves the mass m:
+# With gears of ratio G and a wheel of radius r, the torque T of n motors gives the force n·G·T/r.
+# Part of that force works against friction, and the rest accelerates the mass m:
 #
 # > n·G·Kt·I / r = friction + m·a
 #
-# Put the three together, with ω = G·v/r, and solve for V:
+# Combine the three equations, use ω = G·v/r, and solve for V:
 #
 # > V = R·r/(n·G·Kt) · friction + Ke·G/r · v + R·r·m/(n·G·Kt) · a
 #
@@ -300,8 +303,8 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # | kV | Ke·G/r | the kind of motor, gears, wheel |
 # | kA | R·r·m/(n·G·Kt) | mass, motors, gears, wheel |
 #
-# Look for the mass m. It is only in kA, as you saw in week 3 of lesson 0. (We leave out losses in
-# the gears, and the mass of the spinning parts.)
+# Look for the mass m in the table. It is only in kA, as you saw in lesson 0. (We leave out losses
+# in the gears, and the mass of the spinning parts.)
 #
 # The next cell computes kV and kA from the motor's data, and compares them with a log:
 
@@ -324,7 +327,7 @@ Table(
 )
 
 # %% [markdown]
-# You cannot compute kS: no data sheet knows your friction. You have to measure it.
+# You cannot compute kS: no data sheet contains your robot's friction. You have to measure it.
 #
 # **Predict:**
 
@@ -385,20 +388,20 @@ Table(
 )
 
 # %% [markdown]
-# With slower gears the motor turns faster for each m/s, so speed costs **more** volts. But the
-# gears make more force from the same torque, so acceleration costs **fewer** volts. With half the
+# With slower gears the motor turns faster for each m/s, so speed needs **more** volts. But the
+# gears make more force from the same torque, so acceleration needs **fewer** volts. With half the
 # motors, each motor has twice the load, so kS and kA double. kV stays the same.
 
 # %% [markdown]
 # ## 5 Is this kV possible?
 #
 # A data sheet gives the **free speed**: how fast the motor turns at 12 V with nothing attached.
-# From the free speed you get the kV to expect, the **theoretical kV**:
+# From the free speed you can compute the expected kV, the **theoretical kV**:
 #
 # > theoretical kV = 12 V / (free speed of the *mechanism*)
 #
 # The data sheet gives the speed of the motor in rpm (rotations per minute), without gears and
-# wheel. So convert it one step at a time:
+# wheel. So the next cell converts it to the mechanism's speed:
 
 # %%
 rpm = kraken.free_speed * 60 / (2 * math.pi)
@@ -409,7 +412,7 @@ print(f"{rpm:.0f} rpm are {motor_turns:.2f} turns of the motor per second")
 print(f"... divided by the ratio {G}: {wheel_turns:.2f} turns of the wheel per second")
 print(f"... times the circumference {math.pi * 2 * r:.4f} m: {free_speed:.2f} m/s")
 print(f"theoretical kV: 12 V / {free_speed:.2f} m/s = {12 / free_speed:.3f} V·s/m")
-print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s: no robot does that.")
+print(f"With kV = 0.4 V·s/m, 12 V would give 12 / 0.4 = {12 / 0.4:.0f} m/s: no robot is so fast.")
 
 # %% [markdown]
 # The next table has the theoretical kV of eight motors without gears. `DCMotor`, WPILib's class for
@@ -420,12 +423,13 @@ print(f"And section 1's kV = 0.4 V·s/m? 12 V / 0.4 V·s/m = {12 / 0.4:.0f} m/s:
 #
 # > **Lesson says:** "kV_theoretical = 12V ÷ free_speed_in_your_units."
 # >
-# > **Source says:** a good first check. More exactly, kV follows from a constant of the motor.
-# > WPILib's `DCMotor` first subtracts the small voltage drop that the free current causes, so its
-# > kV is a little lower. ([WPILib's source:
+# > **Source says:** this formula is a good first check. More exactly, kV follows from a constant of
+# > the motor. WPILib's `DCMotor` first subtracts the small voltage drop that the free current
+# > causes, so its kV is a little lower. ([WPILib's source:
 # > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
-# > **Try it:** the last column says how much lower, for eight motors at 1:1.
+# > **Try it:** the table's last column says how much lower this kV is, for eight motors without
+# > gears.
 # </details>
 
 # %%
@@ -446,20 +450,20 @@ Table(
 # ### Measured kV against theory
 #
 # A real kV is a little **above** the theoretical kV, because grease and seals brake more at higher
-# speed. If kV is far above, something is wrong. And if kV is **below**? A motor cannot turn faster
-# than its free speed. So somebody wrote down a wrong number.
+# speed. If the measured kV is far above, something is wrong. If it is **below**, somebody wrote
+# down a wrong number, because a motor cannot turn faster than its free speed.
 #
 # | measured kV | verdict | what to do |
 # |---|---|---|
-# | below the theoretical kV | *bookkeeping* | find the wrong number |
+# | below the theoretical kV | *bookkeeping* (a wrong number) | find the wrong number |
 # | 0 to 8 % above | *ok* | nothing |
 # | 8 to 20 % above | *watch* | compare again next week |
 # | more than 20 % above | *inspect* | look for the cause before the next test |
 #
-# (These limits are rules of thumb. Data sheets are rounded, so 1 or 2 % below proves nothing.)
+# (These limits are only rough rules. Data sheets are rounded, so 1 or 2 % below proves nothing.)
 #
-# Here are seven robots with the same drivetrain. All except the first have one fault. Which of them
-# have a kV more than 20 % above the theoretical one?
+# Here are seven robots with the same drivetrain. All except the first have one fault. Which robots
+# have a kV more than 20 % above the theoretical kV?
 #
 # **Predict:**
 
@@ -547,23 +551,23 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # ### Explain
 #
 # - **Mass** changes kA. **Constant friction** changes kS. Neither changes kV.
-# - **Friction that grows with speed** adds to kV: thick grease, a dry bearing, a belt that brakes
-#   more the faster it runs. (A belt that is only too tight adds to kS.)
-# - **Wrong numbers** (ratio, wheel, unit) multiply kV *and* kA by the same factor, and do not
-#   change kS.
+# - **Friction that grows with speed** increases kV. Examples are thick grease, a dry bearing or
+#   some belts. (A belt that is only too tight increases kS.)
+# - **Wrong numbers** (gear ratio, wheel size, unit) multiply kV *and* kA by the same factor. They
+#   do not change kS.
 # - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` sets
-#   a share of the battery voltage, not a voltage. With an 11 V battery the motors get at most 11/12
-#   of what the log says, and less when a large current pulls the battery voltage down. All three
-#   gains are wrong.
+#   a fraction of the battery voltage, not a voltage. With an 11 V battery the motors get at most
+#   11/12 of what the log says, and less when a large current pulls the battery voltage down. All
+#   three gains are wrong.
 #
 # When kV is more than 20 % above the theoretical kV, check the easiest things first:
 #
-# 1. **Numbers** (at a desk): gear ratio, wheel, units, the kind of motor.
+# 1. **Numbers** (at a desk): check gear ratio, wheel size, units and the kind of motor.
 # 2. **Electrical** (in the log): did the logged voltage really reach the motors? Do all motors have
-#    power? If one has none, the others do its work, and kS and kA grow. If its controller is in
-#    *brake mode* (it brakes a motor that gets no voltage), kV grows, too.
-# 3. **Mechanical** (with a wrench): belt, chain, bearings, grease. Turn the mechanism by hand. Is
-#    some part hot after a test?
+#    power? If one motor has no power, the others do its work, and kS and kA grow. If its controller
+#    is in *brake mode* (it brakes a motor that gets no voltage), kV grows, too.
+# 3. **Mechanical** (with a wrench): check belt, chain, bearings and grease. Turn the mechanism by
+#    hand. Is some part hot after a test?
 #
 # ### Check somebody else's numbers
 #
@@ -575,8 +579,8 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 #
 # > **Lesson says:** "kV = 2.68", "GEAR_RATIO = 8.46" and a wheel of "4 in", with TalonFX motors.
 # >
-# > **Source says:** the free speeds of the motors that a TalonFX can be (the table above, which is
-# > WPILib's own). ([WPILib's source:
+# > **Source says:** WPILib gives the free speeds of these motors (see the table above). ([WPILib's
+# > source:
 # > DCMotor.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/system/plant/DCMotor.java))
 # >
 # > **Try it:** which of these motors could have been in that robot?
@@ -587,11 +591,11 @@ rows = []
 for name in ("falcon500", "krakenX60", "krakenX44"):
     theory = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
     rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
-Table(("motor", "theoretical kV [V·s/m]", "2.68 lies above by"), tuple(rows))
+Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 
 # %% [markdown]
-# The first two motors would have to turn faster than they can. Either that robot had the third
-# motor, or the ratio is wrong.
+# With kV = 2.68, the first two motors would have to turn faster than they can. Either that robot
+# had the third motor, or the ratio is wrong.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
@@ -600,10 +604,10 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 lies above by"), tuple(rows))
 # the **time constant**, τ ("tau"). SysId's window calls it *Response Timescale* and shows it in
 # milliseconds.
 #
-# After a step of voltage, the velocity rises fast, then slower and slower. After one τ it has
-# reached 63 % of the final speed; in the next τ it gains 63 % of the rest, and so on. (Such a curve
-# is called *exponential*.) After 3 τ it has almost reached the final speed. Below, four mechanisms
-# get the same step of 4 V, in slow motion. Which one has the longest τ?
+# After a step of voltage, the velocity rises fast, then slower and slower. After one τ the velocity
+# has reached 63 % of the final speed. In the next τ it gains 63 % of the rest, and so on. (Such a
+# curve is called *exponential*.) After 3 τ the velocity has almost reached the final speed. In the
+# picture, four mechanisms get the same step of 4 V, in slow motion. Which has the longest τ?
 
 # %%
 KINDS = ["drivetrain", "shooter", "intake", "turret"]
@@ -627,9 +631,9 @@ animate_mechanism(
     Scene(since, tuple(spin_up(kind, since) for kind in KINDS)),
     panels=(Panel("velocity", "share of its final speed [%]", low=0.0, high=105.0, scale=100.0),),
     slow=12.0,
-    alt="Four wheels for four mechanisms get up to speed after a step of 4 V. The shooter, with a "
-    f"τ of {1000 * tau('shooter'):.0f} ms, is the last; the others need less than a quarter of a "
-    "second.",
+    alt="Four wheels show how four mechanisms speed up after a step of 4 V. The shooter is the "
+    f"last to reach its final speed: its τ is {1000 * tau('shooter'):.0f} ms. The other three "
+    "need less than a quarter of a second.",
 )
 
 # %%
@@ -639,23 +643,23 @@ for count in (1, 2, 3):
     share = np.interp(count * tau("shooter"), wheel_time, spun) / spun[-1]
     print(f"The shooter after {count} τ: {100 * share:.0f} % of its final speed")
 Table(
-    ("mechanism", "τ [ms]", "rows of the log in one τ", "3 τ [ms]"),
+    ("mechanism", "τ [ms]", "rows of the log during one τ", "3 τ [ms]"),
     tuple((kind, 1000 * tau(kind), tau(kind) / 0.02, 3000 * tau(kind)) for kind in KINDS),
 )
 
 # %% [markdown]
-# Look at the third column. A robot program writes one row every 20 ms. If τ is only two or three
-# rows long, the log hardly shows the acceleration, and kA is uncertain. Then the robot must write
-# more rows each second.
+# Look at the third column. A robot program writes one row of the log every 20 ms. If τ is only two
+# or three rows long, the log hardly shows the acceleration, and kA is uncertain. Then the robot
+# must write more rows each second.
 
 # %% [markdown]
 # ## 7 kS: when to get a wrench
 #
 # A low kS means that the mechanism turns easily. A high kS means friction: a tilted bearing, a bent
-# shaft, a screw that rubs. Do not just put a high kS into the code: that *hides* the part that is
-# wearing out.
+# shaft, a screw that rubs. Do not just put a high kS into the code: then nobody notices which part
+# is wearing out.
 #
-# How high is too high? One rule says: stop when kS is much higher than kV × typical velocity. How
+# How high is too high? One rule says: stop if kS is much higher than kV × typical velocity. How
 # large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
@@ -663,9 +667,9 @@ Table(
 # > **Lesson says:** a kS "that's much higher than kV × typical velocity suggests something is
 # > mechanically wrong".
 # >
-# > **Source says:** the units fit: kV·v is in volts, as kS is. WPILib calls kS the voltage to "just
-# > barely get it moving", and gives no bound. See for yourself how much friction this rule allows.
-# > ([WPILib docs: Introduction to DC Motor
+# > **Source says:** the units agree: kV·v is in volts, and kS is in volts, too. WPILib calls kS the
+# > voltage to "just barely get it moving", and gives no upper limit. The next cell shows how much
+# > friction this rule allows. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** how large may our drivetrain's kS get at 2 m/s before this rule says *stop*?
@@ -674,19 +678,17 @@ Table(
 # %%
 TYPICAL = 2.0  # [m/s] in a match
 flag = gains["kV"] * TYPICAL
-print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop above that, which is")
-print(
-    f"{100 * flag / 12:.0f} % of 12 V, for friction alone. Our drivetrain has {gains['kS']:.2f} V."
-)
+print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop only if kS is above this voltage,")
+print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains['kS']:.2f} V.")
 
 # %% [markdown]
 # So this rule warns you very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
-# about 4 % of 12 V. (This is our rule of thumb. Some healthy mechanisms with a high gear ratio are
+# about 4 % of 12 V. (This is our own rough rule. Some healthy mechanisms with a high gear ratio are
 # above it.)
 #
 # Two warning signs need no limit:
 #
-# - **kS has grown since last week.** Write it down each time.
+# - **kS has grown since last week.** Write kS down each time.
 # - **Left and right differ.** They are built the same, so they should have the same friction.
 
 
@@ -718,7 +720,7 @@ red_flag(left=0.15, right=0.45, typical=1.0)
 
 # %% [markdown]
 # Here the gauge says *fine* for both sides. But the right side has three times the friction of the
-# left. The gauge does not compare the sides: you do.
+# left side. The gauge does not compare the sides: you must do it.
 
 # %% [markdown]
 # ## 8 Units: per rotation, per radian, per meter
@@ -731,7 +733,7 @@ red_flag(left=0.15, right=0.45, typical=1.0)
 shooter = MECHANISMS["shooter"].gains
 per_rotation = shooter["kV"] * TURN
 guess_unit = Prediction(
-    f"A shooter has kV = {per_rotation:.3f} V·s/rot. What is it in V·s/rad?",
+    f"A shooter has kV = {per_rotation:.3f} V·s/rot. How large is this kV in V·s/rad?",
     "6.28 times larger",
     "the same",
     "6.28 times smaller",
@@ -752,18 +754,18 @@ rows = [
 Table(("unit", "the same speed in this unit", "kV [V for one unit]", "kV·v [V]"), tuple(rows))
 
 # %% [markdown]
-# The same speed must cost the same volts: look at the last column. 50 rot/s is 314 rad/s, so each
-# rad/s must cost fewer volts. **When the number for the speed grows, the gain shrinks by the same
-# factor.**
+# The same speed needs the same volts in every unit: look at the last column. 50 rot/s is 314 rad/s,
+# so each rad/s needs fewer volts. **When the number for the speed grows, the gain shrinks by the
+# same factor.**
 #
-# - from V·s/rot to V·s/rad: **divide** by 2π. Do the same with kA. kS is in volts, so it stays.
-# - from V·s/rot of a wheel to V·s/m: divide by its circumference.
+# - From V·s/rot to V·s/rad: **divide** by 2π. Do the same with kA. kS is in volts, so it stays.
+# - From V·s/rot of a wheel to V·s/m: divide by the wheel's circumference.
 #
 # Two traps:
 #
-# - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is made for positions and speeds.
-#   If you use it on a **gain**, the gain changes in the wrong direction: it is (2π)² = 39.5 times
-#   too large.
+# - WPILib's `Units.rotationsToRadians(x)` *multiplies* by 2π. It is for positions and speeds. If
+#   you use it on a **gain**, the gain changes in the wrong direction and is (2π)² = 39.5 times too
+#   large.
 # - kV and the velocity that you pass to the feedforward must be in the **same** unit. The code does
 #   not notice when they differ.
 
@@ -772,25 +774,25 @@ per_radian = per_rotation / TURN
 wrong = per_rotation * TURN
 wheel = 4 * 0.0254  # [m] a 4 inch wheel
 print(f"right:  {per_rotation:.4f} V·s/rot / 2π = {per_radian:.5f} V·s/rad")
-print(f"wrong:  {per_rotation:.4f} · 2π = {wrong:.4f}: too large by {wrong / per_radian:.1f} times")
-print(f"A wheel with kV = 0.8 V·s/rot and 4 in: {0.8 / (math.pi * wheel):.3f} V·s/m")
+print(f"wrong:  {per_rotation:.4f} · 2π = {wrong:.4f}, {wrong / per_radian:.1f} times too large")
+print(f"4 inch wheel: kV = 0.8 V·s/rot is the same as {0.8 / (math.pi * wheel):.3f} V·s/m")
 
 # %% [markdown]
 # ## 9 System check
 #
-# Before you trust a set of gains, your own or somebody else's:
+# Before you trust any gains, check all five:
 #
 # - [ ] Each gain has its **unit** written next to it.
-# - [ ] kV is positive, and 0 to 8 % above the theoretical kV. If not, you know why.
+# - [ ] kV is positive, and 0 to 8 % above the theoretical kV. If it is not, you know why.
 # - [ ] kS is below 0.5 V, the same left and right, and the same as last week.
-# - [ ] kA/kV makes sense for the mechanism: tens of milliseconds if the mechanism is light,
-#   hundreds if it is heavy for its motors.
+# - [ ] kA/kV is tens of milliseconds for a light mechanism, and hundreds of milliseconds for a
+#   mechanism that is heavy for its motors.
 # - [ ] The velocity that you pass to the feedforward has the same length or angle unit as kV.
 #
 # ## 10 Knowledge check
 #
-# Type an answer to the first question; you get feedback at once. (No box? Type `quick.answer("0.5
-# V·s/rad")` in a cell.)
+# Type an answer to the first question; you get feedback at once. (If you see no box, type
+# `quick.answer("0.5 V·s/rad")` in a cell.)
 
 # %%
 from grader import QuickNumberCheck
@@ -805,21 +807,21 @@ quick = QuickNumberCheck(
 quick
 
 # %% [markdown]
-# **1.** A mechanism has kS = 0.2 V and kV = 3.4 V·s/m. It moves at a steady 2 m/s on 7 V. Where do
-# the volts go?
+# **1.** A mechanism has kS = 0.2 V and kV = 3.4 V·s/m. It moves at a steady 2 m/s with 7 V. How
+# many volts does each term take?
 #
 # <details><summary>Answer</summary>
 #
-# 0.2 V go into friction, 3.4 · 2 = 6.8 V into speed, and nothing into acceleration: at a steady
-# speed there is none.
+# Friction takes 0.2 V, and speed takes 3.4 · 2 = 6.8 V. Acceleration takes 0 V, because at a steady
+# speed there is no acceleration.
 # </details>
 #
 # **2.** Convert kV = 0.12 V·s/rot into V·s/rad.
 #
 # <details><summary>Answer</summary>
 #
-# Divide by 2π: 0.12 / 6.283 = 0.0191 V·s/rad. One rad/s is a smaller speed than one rot/s, so it
-# costs less.
+# Divide by 2π: 0.12 / 6.283 = 0.0191 V·s/rad. 1 rad/s is a smaller speed than 1 rot/s, so it needs
+# fewer volts.
 # </details>
 #
 # **3.** A drivetrain's kV is 25 % above the theoretical kV. A teammate says: "It is the new
@@ -828,11 +830,11 @@ quick
 # <details><summary>Answer</summary>
 #
 # Mass changes kA; it cannot change kV. First check the numbers: gear ratio, wheel, units, kind of
-# motor. Then the log: did this voltage reach the motors? Then belts and bearings.
+# motor. Then check the log: did the logged voltage reach the motors? Then check belts and bearings.
 # </details>
 #
-# **4.** Another drivetrain's kV is 15 % *below* the theoretical kV. "Great, our robot is better
-# than theory." Is it?
+# **4.** Another drivetrain's kV is 15 % *below* the theoretical kV. A teammate says: "Great, our
+# robot is better than theory." Is that right?
 #
 # <details><summary>Answer</summary>
 #
@@ -840,35 +842,36 @@ quick
 # wheel, the unit or the kind of motor.
 # </details>
 #
-# **5.** Last week the left side had kS = 0.15 V, today it has 0.40 V. Typical speed times kV is 5
-# V. Is the left side fine?
+# **5.** Last week the left side of a drivetrain had kS = 0.15 V. Today it has 0.40 V. Typical speed
+# times kV is 5 V. Is the left side fine?
 #
 # <details><summary>Answer</summary>
 #
-# No, although the gauge says *fine*. kS has more than doubled in a week. Compare with the right
-# side, and look for the part that rubs.
+# No, although the gauge says *fine*. kS has more than doubled in a week. Compare it with the kS of
+# the right side, and look for the part that rubs.
 # </details>
 #
 # **6.** An intake has τ = 15 ms, and the robot logs every 20 ms. What does that mean for kA?
 #
 # <details><summary>Answer</summary>
 #
-# The intake is nearly up to speed before the log has its second row. The log hardly shows any
-# acceleration, so kA is uncertain. kV is not affected. Let the robot write more rows each second.
+# The intake has nearly reached its final speed before the log has its second row. The log hardly
+# shows any acceleration, so kA is uncertain. kV is not affected. Let the robot write more rows each
+# second.
 # </details>
 
 # %% [markdown]
 # ## 11 Practice
 #
 # **Exercise 1: voltage budget**
-# ([exercises/exercise1/README.md](../exercises/exercise1/README.md)). Your own mechanism in four
-# moments. You need sections 2 and 8. In a terminal:
+# ([exercises/exercise1/README.md](../exercises/exercise1/README.md)). You compute the voltages of
+# your own mechanism in four moments. You need sections 2 and 8. In a terminal, type:
 #
 # ```
 # grade exercise1
 # ```
 #
-# or in a notebook, with your own numbers in place of the dots:
+# You can also answer in a notebook, with your own numbers in place of the dots:
 #
 # ```python
 # from grader import submit
@@ -892,8 +895,8 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# - In which drive of section 3 does kA·a give back the most volts?
-# - How heavy would our drivetrain have to be for a τ of 200 ms?
+# - In which drive of section 3 is kA·a the most negative?
+# - Which mass would give our drivetrain a τ of 200 ms?
 # - Look up your robot's motors in `sim/physics/motors.py`. Do the free speeds agree with the data
 #   sheets?
 # </details>

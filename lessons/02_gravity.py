@@ -19,21 +19,23 @@
 # **At the end you can**
 #
 # - say what kG is, and why a whole *window* of voltages holds an elevator still;
-# - find kG and kS from two voltages, and say which edge of the window a method finds;
-# - do the same for an arm, and correct the zero of its encoder (the sensor that measures position);
-# - choose SysId's analysis type and WPILib's feedforward class, with the arguments in order;
+# - find kG and kS from two voltages, and say which edge of this window a method finds;
+# - find kG and kS of an arm, and correct the zero of its encoder (the sensor that measures
+#   position);
+# - choose SysId's analysis type and WPILib's feedforward class, with the arguments in the right
+#   order;
 # - explain why driving only up cannot separate kG from kS.
 
 # %% [markdown]
-# ## 1 Why: it falls
+# ## 1 Why: an elevator falls
 #
 # The model of lesson 1 gives the voltage for a motion:
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# This model says: with 0 V nothing moves. That is right for a drivetrain. But the *carriage* of an
-# elevator (the part that moves up and down) falls when you let go of it. One thing is missing in
-# the model: gravity.
+# This model says that nothing moves with 0 V. That is right for a drivetrain. But the *carriage* of
+# an elevator (the part that moves up and down) falls when you let go of it. The model has no term
+# for gravity.
 #
 # Today's elevator and arm are simulated, so we know their true gains. Run the next cell to set them
 # up. (You do not need to read the code. Run each cell, and read what it prints.)
@@ -84,17 +86,18 @@ print(f"0 V: after 0.4 s the carriage moves at {let_go(0.0):.2f} m/s. A minus si
 # ## 2 The model: one more term
 #
 # Gravity pulls with a constant force. To balance a constant force, a motor needs a constant
-# current, and so a constant voltage. We call this voltage **kG**.
+# current, and therefore a constant voltage. We call this voltage **kG**.
 #
 # > elevator: **V = kG + kS·sgn(v) + kV·v + kA·a**
 #
 # > arm: **V = kG·cos(θ) + kS·sgn(v) + kV·v + kA·a**
 #
-# (θ, "theta", is the arm's angle: 0° when the arm is level, that is horizontal. sgn(v) is the
+# (θ, "theta", is the arm's angle. It is 0° when the arm is level (horizontal). sgn(v) is the
 # direction: +1 up, −1 down.)
 #
 # Compare the first two terms. The kS term changes its sign with the direction, because friction
-# always acts *against* the motion. The kG term does not: gravity always pulls down.
+# always acts *against* the motion. The kG term does not change its sign, because gravity always
+# pulls down.
 #
 # **Predict:**
 
@@ -119,28 +122,27 @@ Table(
 )
 
 # %% [markdown]
-# 1.5 times the mass needs 1.5 times the force: to hold it (kG) and to accelerate it (kA). At a
-# steady speed nothing accelerates, so kV does not change. (In our simulation friction does not
-# change either. On a real robot, more weight can press harder on a bearing.)
+# With 1.5 times the mass, the motor needs 1.5 times the force to hold the carriage (kG) and to
+# accelerate it (kA). At a steady speed nothing accelerates, so kV does not change. (In our
+# simulation kS does not change either. On a real robot, more weight can press harder on a bearing
+# and increase the friction.)
 #
 # So test an elevator with the load that it will carry: otherwise kG and kA are wrong. Change
-# `TIMES` above to 3. Which rows change?
+# `TIMES` above to 3. Which rows of the table change?
 #
 # <details><summary>For mentors: does kV change with the load?</summary>
 #
 # > **Lesson says:** run the elevator with its load, "since kA and kV change significantly with load
-# > mass".
-# >
-# > **Source says:** kV is the voltage "to hold (or "cruise") at a given constant velocity", against
-# > the motor's own back-EMF and friction that grows with speed. There is no mass in it. kA is, and
-# > kG is. ([WPILib docs: Introduction to DC Motor
+# > mass". **Source says:** kV is the voltage "to hold (or "cruise") at a given constant velocity",
+# > against the motor's own back-EMF and friction that grows with speed. There is no mass in it. kA
+# > and kG depend on the mass. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** change `TIMES` above to 3. Which rows change?
+# > **Try it:** change `TIMES` above to 3. Which rows of the table change?
 # </details>
 #
 # **A quick check.** Both kG and kA grow in proportion to the mass. So kG/kA does not depend on the
-# mass. For an elevator it is the acceleration of gravity:
+# mass. For an elevator, kG/kA is the acceleration of gravity:
 
 # %%
 print(
@@ -149,25 +151,27 @@ print(
 )
 
 # %% [markdown]
-# On a real elevator the ratio is a little smaller, because kA also contains the spinning parts of
-# the motors. If your ratio is 15, look for a mistake before you trust the two gains.
+# On a real elevator kG/kA is a little smaller, because kA also contains the spinning parts of the
+# motors. If your kG/kA is 15 m/s², look for a mistake before you trust the two gains.
 #
-# Two kinds of elevator have another ratio. The next cell simulates both:
+# Two kinds of elevator have another kG/kA. The next cell computes it for both:
 #
-# - In a **cascade**, a lower stage moves, too, at half the speed: kG/kA is between g and 2·g. (g is
-#   the acceleration of gravity.)
+# - In a **cascade**, a lower stage moves, too, at half the carriage's speed: kG/kA is between g and
+#   2·g. (g is the acceleration of gravity.)
 # - A **counterweight** on the other end of the rope adds inertia and takes away weight: the motor
 #   accelerates more mass, but lifts less weight. So kG/kA is below g.
 #
 # <details><summary>Want to know why?</summary>
 #
 # Let the carriage of a cascade have the mass m and its lower stage the mass m₁. The carriage moves
-# at v, the stage at v/2. To lift both, the motor needs the power m·g·v + m₁·g·v/2: that is the
-# weight (m + m₁/2)·g, moved at v. Both have the kinetic energy m·v²/2 + m₁·(v/2)²/2: that is the
-# mass m + m₁/4, moved at v. So kG/kA is 11.8 m/s² if both have the same mass.
+# at v, and the stage at v/2. To lift both, the motor needs the power m·g·v + m₁·g·v/2: this is the
+# same as for the weight (m + m₁/2)·g, moved at v. Both have the kinetic energy m·v²/2 +
+# m₁·(v/2)²/2: that is the mass m + m₁/4, moved at v. So kG/kA is 11.8 m/s² if both have the same
+# mass.
 #
-# A counterweight m₂ moves at v and goes down: weight (m − m₂)·g, inertia m + m₂. (Textbooks call it
-# Atwood's machine: Goldstein, *Classical Mechanics*, 3rd edition (2002), section 1.6.)
+# A counterweight m₂ goes down at v. So the motor lifts the weight (m − m₂)·g and accelerates the
+# mass m + m₂. (Textbooks call it Atwood's machine: Goldstein, *Classical Mechanics*, 3rd edition
+# (2002), section 1.6.)
 # </details>
 
 # %%
@@ -179,15 +183,16 @@ for name in ("cascade-elevator", "counterweight-elevator"):
 # %% [markdown]
 # ## 3 Doing it: hold it still
 #
-# Now find kG without a log. Choose a voltage, hold the carriage in the middle, let go and watch.
+# Now find kG without a log. Choose a voltage, hold the carriage in the middle, let go, and watch
+# it.
 #
 # **Predict:**
 
 # %%
 guess_hold = Prediction(
-    f"Gravity takes {truth['kG']:.2f} V, friction {truth['kS']:.2f} V. You give the motor "
-    f"{truth['kG'] - 0.15:.2f} V, a little less than gravity takes. What does the carriage "
-    "do?",
+    f"An elevator has kG = {truth['kG']:.2f} V and kS = {truth['kS']:.2f} V. You let go of the "
+    f"carriage with {truth['kG'] - 0.15:.2f} V on the motor, a little less than kG. What does the "
+    "carriage do?",
     "it sinks slowly",
     "it stays",
     "it rises slowly",
@@ -201,12 +206,12 @@ print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_le
 
 # %% [markdown]
 # The carriage stays. Friction acts against *any* motion, also against falling, so friction helps
-# you to hold the carriage. The carriage sinks only if your voltage is more than kS below kG. It
-# rises only if your voltage is more than kS above kG.
+# you to hold the carriage. The carriage sinks only if your voltage is more than kS below kG. The
+# carriage rises only if your voltage is more than kS above kG.
 #
 # So there is a **window** of voltages, from kG − kS to kG + kS, in which nothing moves. Two common
-# methods for kG raise the voltage in small steps. One stops when the carriage no longer drops, the
-# other just before it rises. Which is right?
+# methods for kG raise the voltage little by little. One method stops when the carriage no longer
+# drops. The other stops just before the carriage rises. Which method is right?
 
 # %%
 steps = np.arange(0.0, 4.0, 0.01)
@@ -235,15 +240,15 @@ animate_mechanism(
     ),
     knobs=(Knob("volts", "voltage [V]", low=1.2, high=3.0, step=0.01, value=1.5),),
     span=(0.0, 1.2),
-    alt=f"You let go of a carriage at {MIDDLE} m, under a voltage that you choose. It sinks below "
-    f"{truth['kG'] - truth['kS']:.2f} V, rises above {truth['kG'] + truth['kS']:.2f} V, and stays "
-    "between them.",
+    alt=f"You choose a voltage and let go of a carriage at a height of {MIDDLE} m. The carriage "
+    f"sinks if the voltage is less than {truth['kG'] - truth['kS']:.2f} V. It rises if the voltage "
+    f"is more than {truth['kG'] + truth['kS']:.2f} V. Between these voltages it stays.",
 )
 
 # %% [markdown]
 # Change the voltage and press *Play*. At which voltage does the carriage begin to sink, and at
-# which does it begin to rise? Then run the next cell: it tries all voltages in steps of 10 mV, and
-# shows what the two methods find.
+# which does it begin to rise? Then run the next cell: it tries a voltage every 10 mV, and shows
+# which kG each method finds.
 
 # %%
 shown = slice(round(100 * not_falling) % 10 + 110, 311, 10)  # both edges are among them
@@ -256,23 +261,25 @@ plot_hold_window(
 
 # %% [markdown]
 # **Myth check.** "Raise the voltage until the elevator no longer drops: that is kG." *Not quite:*
-# that is the lower edge, kG − kS. Another method says: "as much as you can without the elevator
-# moving upward". That is the upper edge, kG + kS. The two are equal only without friction.
+# this method finds the lower edge of the window, kG − kS. Another method raises the voltage "as
+# much as you can without the elevator moving upward". This method finds the upper edge, kG + kS.
+# The two edges are equal only without friction.
 #
 # <details><summary>For mentors: the two methods, and their sources</summary>
 #
 # > **Lesson says:** for an elevator, kG is "measured by slowly increasing voltage until the
 # > elevator just barely doesn't drop".
 # >
-# > **Source says:** raise kG "as much as you can without the elevator moving upward". That page's
-# > simulation has no friction, and it says so: where kS matters, it recommends SysId.
-# > ([WPILib docs: Tuning a Vertical Elevator](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/tuning-elevator.html))
+# > **Source says:** raise kG "as much as you can without the elevator moving upward". The
+# > simulation on that page has no friction, and the page says so. For mechanisms where kS matters,
+# > it recommends SysId. ([WPILib docs: Tuning a Vertical
+# > Elevator](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/tuning-elevator.html))
 # >
-# > **Try it:** the two recipes are the two marks in the picture. One finds the lower edge, kG − kS,
-# > the other the upper edge, kG + kS. They agree only where there is no friction.
+# > **Try it:** look at the marks of the two methods in the picture. One method finds the lower
+# > edge, kG − kS, and the other finds the upper edge, kG + kS. They agree only without friction.
 # </details>
 #
-# So use both edges:
+# So use both edges of the window:
 #
 # > **kG is the middle: (lower + upper) / 2. kS is half the width: (upper − lower) / 2.**
 
@@ -286,37 +293,39 @@ rows = [
     )
     for name, volts in recipes.items()
 ]
-print(f"half the width: {(not_rising - not_falling) / 2:.3f} V. True kS: {truth['kS']:.3f} V.")
+print(f"Half the window's width is {(not_rising - not_falling) / 2:.3f} V.", end=" ")
+print(f"The true kS is {truth['kS']:.3f} V.")
 Table(
     ("method", "its kG [V]", "error of kG [V]", "error of velocity [m/s]"),
     tuple(rows),
-    caption=f"True kG: {truth['kG']:.3f} V. Up is plus.",
+    caption=f"The true kG is {truth['kG']:.3f} V. A positive velocity is upward.",
 )
 
 # %% [markdown]
-# The last column shows what a wrong kG does later, in a feedforward. With the first method the
-# elevator is too slow on the way up and too fast on the way down. With the second method it is too
-# fast on the way up and too slow on the way down. The error is always kS/kV.
+# The last column shows the velocity error that a wrong kG causes later, in a feedforward. With the
+# first method the elevator is too slow on the way up and too fast on the way down. With the second
+# method it is too fast on the way up and too slow on the way down. The velocity error is always
+# kS/kV.
 #
-# The less friction, the narrower the window. Without friction it closes, and both methods are
-# right.
+# With less friction the window is narrower. Without friction there is no window, and both methods
+# are right.
 #
 # (This is simplified: our simulated friction is the same at rest and in motion. Real friction is
-# often larger at rest. Then the window is wider than 2·kS.)
+# often larger at rest. Then the window of voltages is wider than 2·kS.)
 
 # %% [markdown]
 # ## 4 An arm: the cosine
 #
-# Hold a heavy bag with your arm stretched out level. Now let it hang straight down. The bag is the
-# same, but the level arm needs far more strength. What matters is how far the weight is from your
-# shoulder *sideways*. For an arm of length L at the angle θ from level, that distance is L·cos(θ).
-# The cosine is 1 when the arm is level, and 0 when it points straight up or down.
+# Hold a heavy bag with your arm stretched out level. Then let the arm hang straight down. The bag
+# is the same, but the level arm needs far more strength. Only the *horizontal* distance from your
+# shoulder to the weight matters. For an arm of length L at the angle θ from level, this distance is
+# L·cos(θ). The cosine is 1 when the arm is level, and 0 when it points straight up or down.
 #
-# So gravity takes kG·cos(θ) volts. **Predict:**
+# So the motor needs kG·cos(θ) volts to balance gravity. **Predict:**
 
 # %%
 guess_angle = Prediction(
-    "The arm stands 60° above level. How much of kG does gravity take there?",
+    "The arm points 60° above level. Which share of kG does the motor need there against gravity?",
     "all of it",
     "about 9/10",
     "half",
@@ -329,14 +338,16 @@ cosines = [
     (f"{angle}°", round(float(np.cos(np.radians(angle))), 3)) for angle in (0, 30, 45, 60, 90, 120)
 ]
 print(guess_angle.reveal("half"))
-print(f"np.cos(60) = {np.cos(60):.3f}. Careful: NumPy, Java and C++ count angles in radians.")
+print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
 Table(("angle from level", "share of kG"), tuple(cosines))
 
 # %% [markdown]
-# Beyond 90° the share is negative: the arm is past the top, and gravity pulls it further over.
+# Beyond 90° the share of kG is negative: the arm is past the top, and gravity pulls it down on the
+# other side.
 #
-# Friction does not depend on the angle. So the window has the same width at every angle, and its
-# middle follows the cosine. Hold the arm at 0°, then at 60°: at which voltages does it stay?
+# Friction does not depend on the angle. So the window of voltages that hold the arm has the same
+# width at every angle. The middle of the window is kG·cos(θ). Hold the arm at 0°, then at 60°: at
+# which voltages does it stay?
 
 
 # %%
@@ -378,13 +389,13 @@ animate_mechanism(
     choices=(Choice("angle", tuple(ANGLES), value="60°"),),
     knobs=(Knob("volts", "voltage [V]", low=-0.5, high=2.5, step=0.01, value=0.2),),
     panels=(Panel("position", "angle [°]", low=-90.0, high=135.0, scale=180 / np.pi),),
-    alt="An arm drawn at its angle. You let go of it under a voltage that you choose. At every "
-    "angle there is a window of voltages that hold it; the window is highest where the arm is "
+    alt="The picture shows an arm at its angle. You choose a voltage and let go of the arm. At "
+    "every angle, a window of voltages holds the arm. These voltages are highest where the arm is "
     "level.",
 )
 
 # %% [markdown]
-# Here is the window at seven angles, measured in steps of 10 mV:
+# The next picture shows this window at seven angles. We tried a voltage every 10 mV:
 
 # %%
 plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
@@ -393,24 +404,24 @@ plot_hold_angles(measured, kg=arm.gains["kG"], ks=arm.gains["kS"])
 # ### An encoder with an offset
 #
 # The formula needs the angle from **level**. But an encoder does not know where level is: its zero
-# depends on how somebody mounted it. Suppose our encoder shows 25° too much. Then the true angle is
-# reading + *offset*, with an offset of −25°.
+# depends on how somebody mounted it. Suppose our encoder shows 25° too much. The *reading* is the
+# angle that the encoder shows. Then the true angle is the reading plus the *offset*, here −25°.
 #
-# You can find the offset from the windows: by eye in the next picture, or by a fit, as the next
-# cell does.
+# You can find the offset from the windows. The next cell computes it with a fit. In the picture
+# after it, you can find the offset by eye.
 #
 # <details><summary>How to compute the offset (you need it for exercise 3)</summary>
 #
 # Let r be the reading. The middle of the window is kG·cos(r + offset). A rule of mathematics splits
-# this into a cosine and a sine:
+# this term into a cosine and a sine:
 #
 # > kG·cos(r + offset) = **A**·cos(r) + **B**·sin(r), with A = kG·cos(offset) and
 # > B = −kG·sin(offset)
 #
-# So you look for two numbers, A and B. At a reading of 0° the sine is 0, so the middle is A. At 90°
-# the cosine is 0, so the middle is B. If you have more rows, a least-squares fit uses all of them
-# (`np.linalg.lstsq`; lesson 7 explains it). Then kG = √(A² + B²), and the offset is the angle whose
-# tangent is −B/A (`np.arctan2`).
+# So the fit has to find two numbers, A and B. At a reading of 0° the sine is 0, so the middle of
+# the window is A. At 90° the cosine is 0, so the middle is B. If you have measured more angles, a
+# least-squares fit uses all of them (`np.linalg.lstsq`; lesson 7 explains it). Then kG = √(A² +
+# B²), and the offset is the angle whose tangent is −B/A (`np.arctan2`).
 # </details>
 
 # %%
@@ -426,13 +437,13 @@ found_kg = float(np.hypot(a_share, b_share))
 found_offset = float(np.degrees(np.arctan2(-b_share, a_share)))
 print(f"kG = {found_kg:.3f} V (true: {arm.gains['kG']:.3f} V)")
 print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
-print(f"offset = {found_offset:.1f}°: add it to every reading")
+print(f"offset = {found_offset:.1f}°. Add the offset to every reading of the encoder.")
 
 # %% [markdown]
-# The result is not exactly the truth, because we tried voltages in steps of 10 mV.
+# The found values are not exactly the true values, because we tried only one voltage every 10 mV.
 #
-# In the next picture the marks are highest where the arm is *really* level, not at a reading of 0.
-# Find the offset at which the band covers all marks.
+# In the next picture the marks are highest where the arm is *really* level, not where the encoder
+# shows 0°. Find the offset at which the shaded band covers all marks.
 
 
 # %%
@@ -455,33 +466,35 @@ show_interactive(
 askew_picture(0)
 
 # %% [markdown]
-# SysId does the same for an arm: it fits a cosine and a sine, and computes kG and the offset from
-# them.
+# SysId uses the same method for an arm: it fits a cosine and a sine, and computes kG and the offset
+# from them.
 #
-# So "the voltage at horizontal" is kG only if you take the middle of the window, and if your
-# encoder reads 0 at horizontal. What do you get at a *reading* of 0°?
+# So "the voltage at horizontal" is kG only if you use the middle of the window, and if your encoder
+# shows 0° when the arm is level. What is the middle of the window when our encoder shows 0°?
 #
 # <details><summary>For mentors: kG at horizontal, and its source</summary>
 #
 # > **Lesson says:** for an arm, kG is "the voltage needed at horizontal".
 # >
-# > **Source says:** the term is kG·cos(θ), with θ = 0 level. The page on arms holds the arm "with
-# > as little movement as possible", and again leaves friction out.
-# > ([WPILib docs: Tuning a Vertical Arm](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/tuning-vertical-arm.html))
+# > **Source says:** the term is kG·cos(θ), and θ = 0 means level. WPILib's page on arms holds the
+# > arm "with as little movement as possible", and its simulation has no friction either. ([WPILib
+# > docs: Tuning a Vertical
+# > Arm](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/introduction/tuning-vertical-arm.html))
 # >
-# > **Try it:** at a *reading* of 0°, what is the middle in our table, and by how much would you
-# > miss kG?
+# > **Try it:** when our encoder shows 0°, what is the middle of the window? How far is this voltage
+# > from kG?
 # </details>
 
 # %%
 at_zero = arm.gains["kG"] * float(np.cos(np.radians(TILT)))
-print(f"At a reading of 0° the middle is {at_zero:.2f} V; kG is {arm.gains['kG']:.2f} V.")
+print(f"When the encoder shows 0°, the middle of the window is {at_zero:.2f} V.", end=" ")
+print(f"But kG is {arm.gains['kG']:.2f} V.")
 
 # %% [markdown]
 # ## 5 From a log: choose the analysis type
 #
-# Finding the window by hand takes time. SysId's four tests find kG and the other gains together,
-# *if* you choose the right **analysis type**. Each type is one model:
+# Finding the window by hand takes time. From SysId's four tests you get kG and the other gains
+# together, *if* you choose the right **analysis type**. Each type is one model:
 #
 # | analysis type | model | for |
 # |---|---|---|
@@ -501,9 +514,9 @@ plot_time_series(log)
 
 # %%
 guess_type = Prediction(
-    "We fit this log as Simple, which has no kG. What comes out?",
-    "kS absorbs kG, the rest is right",
-    "the same gains, only kG is missing",
+    "We fit an elevator's log with the type Simple, which has no kG. Which gains do we get?",
+    "kS contains kG, and the other gains are right",
+    "the right gains, only kG is missing",
     "nonsense",
 )
 guess_type
@@ -519,7 +532,9 @@ cases = {
 rows = []
 for name, (one, types) in cases.items():
     gains = MECHANISMS[name].gains
-    rows.append((f"{name}: truth", *(gains.get(gain, "–") for gain in ("kS", "kV", "kA", "kG"))))
+    rows.append(
+        (f"{name}: true gains", *(gains.get(gain, "–") for gain in ("kS", "kV", "kA", "kG")))
+    )
     for kind in types:
         got = fit(one, type=kind, method="sysid").gains
         found = (got.get(gain, "–") for gain in ("kS", "kV", "kA", "kG"))
@@ -529,21 +544,21 @@ print(guess_type.reveal("nonsense"))
 Table(
     ("log", "kS [V]", "kV", "kA", "kG [V]"),
     tuple(rows),
-    caption="kV in V·s/m and kA in V·s²/m; for the arm, in V·s/rad and V·s²/rad",
+    caption="Units: kV in V·s/m and kA in V·s²/m. For the arm: V·s/rad and V·s²/rad.",
 )
 
 # %% [markdown]
 # With the right type, the gains are close to the truth. With the type Simple, the elevator's gains
-# are nonsense: kV is negative. Gravity pulls the same way in every row, but this model has no term
-# for that, so the fit makes the other terms wrong. (`sysid fit` warns about such gains.)
+# are nonsense: kV is negative. Gravity pulls downward in every row of the log. This model has no
+# term for gravity, so the fit makes the other terms wrong. (`sysid fit` warns about such gains.)
 #
 # It is more dangerous to fit the arm with the type Elevator: every gain is positive and looks
-# plausible, but every gain is wrong. The last row is harmless: a drivetrain with the type Elevator
-# gets a kG near 0.
+# possible, but every gain is wrong. The last row of the table is harmless: a drivetrain with the
+# type Elevator gets a kG near 0.
 #
 # **Myth check.** "SysId does not find kG; you must measure it separately." *False:* SysId fits kG
-# for the types Elevator and Arm. It is true only for the type Simple. Compare kG in the second row
-# with the truth.
+# for the types Elevator and Arm. The sentence is true only for the type Simple. Compare kG in the
+# second row of the table with the true kG.
 #
 # <details><summary>For mentors: SysId fits kG, with source</summary>
 #
@@ -555,26 +570,28 @@ Table(
 # > is true only for the type *Simple*.
 # > ([WPILib docs: Introduction to System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
-# > **Try it:** you just did. Compare kG in the second row with the truth.
+# > **Try it:** compare kG in the second row of the table with the true kG.
 # </details>
 #
-# **Where to choose the type.** The menu for it is in SysId's Data Selector. It starts on
-# *Elevator*, whatever you load ([SysId's source:
+# **Where to choose the type.** The menu for the type is in SysId's Data Selector. This menu starts
+# on *Elevator*, whatever you load ([SysId's source:
 # DataSelector](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/view)).
-# In this course: `sysid fit log.wpilog --type elevator`.
+# In this course you type `sysid fit log.wpilog --type elevator`.
 #
-# **Why does an arm's log need the position?** Gravity on an arm depends on the angle, so the fit
-# needs the angle of every row. The other types need only velocity and voltage.
+# **Why does an arm's log need the position?** The torque of gravity on an arm depends on the angle,
+# so the fit needs the angle in every row of the log. The other types need only velocity and
+# voltage.
 
 # %% [markdown]
 # ## 6 Only up: two gains become one
 #
-# Tests downward are unpleasant. The carriage drops from the first moment, and somebody has to lift
-# it again. So why not skip the reverse tests and drive up only? **Predict:**
+# Nobody likes an elevator's tests downward (the reverse tests). The carriage drops as soon as the
+# test starts, and somebody has to lift it again. Can you skip the reverse tests and drive only up?
+# **Predict:**
 
 # %%
 guess_up = Prediction(
-    "An elevator was only driven up. Which gains can the fit find?",
+    "The log of an elevator contains only tests upward. Which gains can a fit find?",
     "all four gains",
     "all but kA",
     "neither kS nor kG, only their sum",
@@ -591,19 +608,20 @@ except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
-# On the way up sgn(v) is always +1, so every row says
+# On the way up sgn(v) is always +1, so every row of the log gives the equation
 #
 # > V = **kG + kS** + kV·v + kA·a
 #
-# kG and kS are always together in a sum. If you take 1 V from kG and add it to kS, every row fits
-# as well as before. Even a thousand rows do not help, because all of them show only the sum.
+# kG and kS are always together in a sum. If you make kG 1 V smaller and kS 1 V larger, the model
+# matches every row as well as before. Even a thousand rows do not help, because each row shows only
+# the sum.
 #
 # Every sensor has *noise*: small random errors. If you repeated the tests many times, noise would
 # change the fitted pair (kS, kG) a little each time. In the next picture, the shaded region
-# contains 95 of 100 such fits: it is called a *confidence ellipse*. A small ellipse means that you
-# know both gains well. The slider adds rows from the way down.
+# contains 95 of 100 such fits. It is called a *confidence ellipse*. A small ellipse means that you
+# know both gains well. With the slider you add rows from the way down.
 #
-# (You may skip the code. It computes how far noise could move a fit.)
+# (You may skip the code. It computes how much noise could change the fitted gains.)
 
 # %%
 SIDES = ("kS", "kG")
@@ -654,12 +672,12 @@ show_interactive(
 up_and(0)
 
 # %% [markdown]
-# Without rows from the way down, the ellipse is an endless band. Everywhere in this band the sum
-# kG + kS is nearly the same. A single row from the way down makes it a closed ellipse.
+# Without rows from the way down, the ellipse is an endless band. Everywhere in this band the sum kG
+# + kS is nearly the same. With a single row from the way down, the band becomes a closed ellipse.
 #
-# An arm is easier. On the way up, its cosine changes and kS does not. So the fit can separate kG
-# from kS, but not precisely. The next table shows how far noise moves a fit; the *standard error*
-# is the typical distance from the truth:
+# For an arm this is easier. On the way up, cos(θ) changes and kS does not. So the fit can separate
+# kG from kS, but not precisely. The next table shows how much noise changes a fitted gain. The
+# *standard error* is the typical distance from the true gain:
 
 # %%
 rows = []
@@ -677,7 +695,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 
 # %% [markdown]
 # So on an elevator, only the reverse tests separate kS from kG. SysId's window asks for all four
-# tests. Run them, and be ready: with 0 V the carriage already falls.
+# tests. Run all four, and be careful: the carriage falls even with 0 V.
 #
 # <details><summary>For mentors: are reverse tests needed for gravity mechanisms?</summary>
 #
@@ -690,8 +708,8 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 # > accurate", and that they cannot be run accurately where the mechanism does not hold itself up.
 # > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492))
 # >
-# > **Try it:** in the simulation, an arm agrees roughly with the maintainer. An elevator does not:
-# > see the table. Only the way down separates kS from kG.
+# > **Try it:** look at the table. For the simulated arm, the maintainer is roughly right. For the
+# > elevator he is not: only tests downward separate kS from kG.
 # </details>
 
 # %%
@@ -699,15 +717,16 @@ falls = (truth["kG"] - truth["kS"]) / truth["kV"]
 down_run = log.runs_of_test("quasistatic-reverse")[0]
 print(f"At 0 V the carriage goes down at {falls:.2f} m/s.")
 print(
-    f"The slow ramp down lasted {down_run.time[-1] - down_run.time[0]:.1f} s, then the carriage "
-    "was at the end of its travel."
+    f"The slow ramp down lasted {down_run.time[-1] - down_run.time[0]:.1f} s. Then the carriage "
+    "was at the bottom."
 )
 print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f} s.")
 
 # %% [markdown]
 # ## 7 Which class, and in which order
 #
-# In the robot's code, you put the gains into a *feedforward class*. There is one for each model:
+# In the robot's code, you put the gains into a *feedforward class*. WPILib has one class for each
+# model:
 #
 # | analysis type | class | arguments |
 # |---|---|---|
@@ -736,7 +755,7 @@ print(f"The slow ramp up lasted {log.runs[0].time[-1] - log.runs[0].time[0]:.1f}
 
 # %%
 guess_order = Prediction(
-    "Somebody swapped kV and kG. The code asks the elevator to stand still. What happens?",
+    "Somebody swapped kV and kG. The code should hold the elevator still. What happens?",
     "it stands still",
     "it sinks",
     "it goes up",
@@ -750,30 +769,32 @@ print(f"At rest the motor gets {wrong:.2f} V instead of {truth['kG']:.2f} V, ", 
 print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 
 # %% [markdown]
-# So check the order in your robot's code today.
+# So check the order of the arguments in your robot's code today.
 #
 # <details><summary>For mentors: kG in WPILib's classes, with source</summary>
 #
 # > **Lesson says:** "WPILib's ArmFeedforward and ElevatorFeedforward can absorb kG in addition to
 # > the kS/kV/kA values SysId provides."
 # >
-# > **Source says:** yes, as their *second* argument; and SysId provides kG, too, if the type is
-# > right.
-# > ([WPILib docs: Feedforward Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# > **Source says:** yes, kG is their *second* argument. SysId provides kG, too, if the analysis
+# > type is right. ([WPILib docs: Feedforward
+# > Control](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
-# > **Try it:** write down the order for your own mechanism, then look at your robot's code.
+# > **Try it:** write down the order of the arguments for your own mechanism. Then look at your
+# > robot's code.
 # </details>
 
 # %% [markdown]
 # ## 8 System check
 #
-# Before you trust a kG, check all five:
+# Before you trust a kG, check these five points:
 #
-# - [ ] You used **both** edges, or a log with both directions.
-# - [ ] The analysis type fits the mechanism: Elevator, Arm or Simple.
-# - [ ] An arm's angle is 0 when the arm is **level**, and in radians where the code needs radians.
-# - [ ] Elevator: kG/kA is near 9.81 m/s²; above it (up to 19.6) only with a cascade, well below it
-#   only with a counterweight or a spring.
+# - [ ] You used **both** edges of the window, or a log with both directions.
+# - [ ] You chose the analysis type for this mechanism: Elevator, Arm or Simple.
+# - [ ] An arm's angle is 0 when the arm is **level**, and the angle is in radians where the code
+#   needs radians.
+# - [ ] An elevator's kG/kA is near 9.81 m/s². It is larger (up to 19.6) only with a cascade, and
+#   much smaller only with a counterweight or a spring.
 # - [ ] In the code kG is the second argument, and the carriage stays still at zero speed.
 #
 # ## 9 Knowledge check
@@ -784,56 +805,60 @@ print(f"and the carriage moves at {let_go(wrong, height=0.3):.2f} m/s.")
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "You raise the voltage until the elevator no longer drops. Which edge is that?",
+    "You raise the voltage until the elevator no longer drops. Which voltage have you found?",
     {
-        "kG − kS": "Friction helps you hold it, so less than kG is enough.",
-        "kG": "That is the middle. But friction helps you to hold it.",
-        "kG + kS": "There it begins to rise, and friction is against you.",
+        "kG − kS": "Friction helps you to hold the elevator, so less than kG is enough.",
+        "kG": "kG is the middle of the window. But friction helps you to hold the elevator.",
+        "kG + kS": "At this voltage the elevator begins to rise, against gravity and friction.",
     },
     right="kG − kS",
 )
 quick
 
 # %% [markdown]
-# **1.** You raise the voltage slowly. At 1.2 V an elevator no longer falls, at 1.8 V it begins to
+# **1.** You raise the voltage slowly. At 1.2 V an elevator no longer falls. At 1.8 V it begins to
 # rise. What are kG and kS?
 #
 # <details><summary>Answer</summary>
 #
-# kG is the middle, 1.5 V. kS is half the width, 0.3 V. Each of the two voltages alone is wrong by
-# kS.
+# kG is the middle, 1.5 V. kS is half the width, 0.3 V. If you took one of the two voltages as kG,
+# the error would be kS.
 # </details>
 #
-# **2.** Which method finds the lower edge, and which the upper?
+# **2.** Which method for kG finds the lower edge of the window, and which finds the upper edge?
 #
 # <details><summary>Answer</summary>
 #
-# "Until it no longer drops" stops at the lower edge, kG − kS: friction helps you hold. "As much as
-# you can without it moving upward" stops at the upper edge, kG + kS: friction is in your way.
+# "Raise the voltage until it no longer drops" finds the lower edge, kG − kS, because friction helps
+# you to hold the elevator. "As much as you can without it moving upward" finds the upper edge, kG +
+# kS, because friction acts against the motor.
 # </details>
 #
-# **3.** You hold an arm straight up. What do the two edges tell you?
+# **3.** An arm points straight up. You find the lowest and the highest voltage that hold it. What
+# do these two edges tell you?
 #
 # <details><summary>Answer</summary>
 #
-# The cosine is 0 there, so gravity takes no voltage. The edges are −kS and +kS: they show the
-# friction, but not kG. For kG, hold the arm level.
+# The cosine is 0 there, so the motor needs no voltage against gravity. The edges are −kS and +kS:
+# they show the friction, but not kG. For kG, hold the arm level.
 # </details>
 #
-# **4.** SysId shows a negative kV for an elevator, and the log looks clean. What do you look at
+# **4.** SysId shows a negative kV for an elevator, and the log looks clean. What do you check
 # first?
 #
 # <details><summary>Answer</summary>
 #
-# The analysis type. Fitted as Simple, an elevator's gains are nonsense. (Then check the sign: does
-# a positive voltage give a positive velocity?)
+# Check the analysis type first. If you fit an elevator with the type Simple, the gains are
+# nonsense. (Then check the sign: does a positive voltage give a positive velocity?)
 # </details>
 #
-# **5.** Your arm was measured empty. With a game piece it droops. Which gains must change?
+# **5.** You measured the gains of an arm without a game piece. With a game piece, the arm sinks.
+# Which gains must change?
 #
 # <details><summary>Answer</summary>
 #
-# kG and kA: both contain the mass. kV and kS hardly change. Lesson 8 comes back to this.
+# kG and kA must change: both contain the mass. kV and kS hardly change. Lesson 8 comes back to
+# this.
 # </details>
 
 # %% [markdown]
@@ -846,9 +871,9 @@ quick
 # grade exercise3
 # ```
 #
-# The first time, this command makes your numbers. Later it checks
+# The first time, this command makes your own numbers. After that, it checks
 # `exercises/exercise3/answers.toml`. (`grade watch exercise3` checks each time you save that file.)
-# You may also answer from a notebook:
+# You can also answer in a notebook:
 #
 # ```python
 # from grader import submit
@@ -856,14 +881,14 @@ quick
 # ```
 #
 # You need section 3 for the elevator, section 4 for the arm and its offset, and sections 5 and 7
-# for type and class. Hints cost nothing: `grade exercise3 --hint`.
+# for the analysis type and the class. Hints cost nothing: `grade exercise3 --hint`.
 #
 # <details><summary>More, if you like</summary>
 #
 # - Add noise to the arm's table: add `0.02 * np.random.default_rng(1).standard_normal(7)` to the
-#   middles. How far does the offset move?
-# - A constant-force spring lifts the carriage with as much force as 1 V. What is kG now? Can it
-#   become negative?
+#   middles. How much does the found offset change?
+# - A constant-force spring pulls the carriage up with a force that is worth 1 V of the motor. What
+#   is kG now? Can kG become negative?
 # </details>
 #
 # **Next:** [Lesson 3, test design](03_test_design.ipynb). Which tests does a robot need?

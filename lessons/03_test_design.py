@@ -17,18 +17,20 @@
 #
 # **At the end you can**
 #
-# - say which gains the slow ramp shows and which the sudden step, and why you need both;
-# - explain why the kS that you read off a ramp is too large, and by how much;
-# - say what becomes unknown when a test is missing, and give three reasons to run in reverse;
-# - choose a ramp, a step, a timeout and a mark on the floor for a given room.
+# - say which gains you get from the slow ramp and which from the sudden step, and why you need
+#   both;
+# - explain why the kS that you take from a ramp's line is too large, and by how much;
+# - say which gains become unknown when a test is missing, and give three reasons for tests in
+#   reverse;
+# - choose the voltage ramp, the voltage step, the timeout and a mark on the floor for a room.
 
 # %% [markdown]
 # ## 1 Why: a test is a question
 #
 # SysId cannot find what the data do not contain. If a robot never accelerates in the log, no
 # mathematics will find its kA. So before you press a button you decide how fast the voltage rises,
-# how far it jumps, how far the robot drives, and how long. This is *test design*. A plan takes ten
-# minutes. To drive all tests again takes an evening.
+# how much it jumps, and how far and how long the robot drives. This is *test design*. You need ten
+# minutes to make a plan. Without a plan, you may need an evening to repeat all tests.
 #
 # Today's mechanisms are simulated, so we know their true gains. (You do not need to read the code.
 # Run each cell, and read what it prints.)
@@ -88,16 +90,16 @@ Table(
 #
 # - **Quasistatic** ("as if static"). The voltage rises slowly from zero. The mechanism hardly
 #   accelerates, so kA·a is small, and V ≈ kS + kV·v. This test shows **kS and kV**.
-# - **Dynamic.** The voltage jumps to a *step* and stays. At first the speed is zero, so nearly all
-#   of the voltage goes into acceleration. This test shows **kA**.
+# - **Dynamic.** The voltage jumps to a *step* and stays constant. At first the speed is zero, so
+#   nearly all of the voltage goes into acceleration. This test shows **kA**.
 #
 # You run each test forward and in reverse. That makes four runs. **Predict** how the speed rises in
-# the second test:
+# the dynamic test:
 
 # %%
 guess_rise = Prediction(
-    "After the step, how does the speed rise to its final value?",
-    "evenly, then suddenly flat",
+    "After a sudden step of voltage, how does the speed rise to its final value?",
+    "evenly, and then it suddenly stays constant",
     "quickly first, then slower and slower",
     "slowly first, then faster and faster",
 )
@@ -109,8 +111,8 @@ log = simulate(drivetrain, routine, rng=np.random.default_rng(3))
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# The picture shows only the first second of each step. Now look at the rise after the step more
-# closely:
+# The picture shows only the first second of each step. The next picture shows how the speed rises
+# after the step:
 
 # %%
 since = np.round(np.arange(0.0, 0.5, 0.005), 3)
@@ -121,8 +123,8 @@ at_tau = float(np.interp(tau, since, speed))
 
 print(guess_rise.reveal("quickly first, then slower and slower"))
 print(
-    f"The star is at kA/kV = {1000 * tau:.0f} ms: the robot has {100 * at_tau / top:.0f} % of its "
-    "final speed."
+    f"The star shows the time kA/kV = {1000 * tau:.0f} ms. Then the robot has "
+    f"{100 * at_tau / top:.0f} % of its final speed."
 )
 plot_curves(
     since,
@@ -138,45 +140,46 @@ plot_curves(
 )
 
 # %% [markdown]
-# The faster the robot goes, the more volts kV·v takes, and the fewer are left for acceleration. So
-# the curve is steep at first and gets flatter: the speed approaches its final value
-# *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how fast: after τ the speed has
-# reached about two thirds of its final value, after 3τ nearly all of it.
+# When the robot gets faster, kV·v takes more volts, and fewer volts are left for acceleration. So
+# the curve is steep at first and then gets flatter: the speed approaches its final value
+# *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how quickly. After τ the speed
+# has reached about two thirds of its final value. After 3τ it has nearly reached it.
 #
 # **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
-# *False:* that would be the dashed line with squares. WPILib describes a good test as "an
-# approximately exponential approach of the steady-speed". If *your* data look like the line with
-# squares, ask why: a current limit and slipping wheels both keep the acceleration constant (section
-# 7).
+# *False:* constant acceleration would give the dashed line with squares. WPILib describes a good
+# test as "an approximately exponential approach of the steady-speed". If *your* data look like the
+# line with squares, look for the cause: a current limit or slipping wheels can keep the
+# acceleration constant (section 7).
 #
 # <details><summary>For mentors: the rise of a dynamic test, with source</summary>
 #
 # > **Lesson says:** in a clean dynamic test "Acceleration is relatively constant during the rising
 # > portion."
 # >
-# > **Source says:** "a successful dynamic graph will be an approximately exponential approach of
-# > the steady-speed".
-# > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
+# > **Source says:** no: "a successful dynamic graph will be an approximately exponential approach
+# > of the steady-speed". ([WPILib docs: Viewing
+# > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
-# > **Try it:** the line with squares above is constant acceleration. If *your* data look like that,
-# > ask why: a current limit and slipping wheels both hold the acceleration at one value.
+# > **Try it:** the line with squares in the picture shows constant acceleration. If *your* data
+# > look like this line, look for the cause: a current limit or slipping wheels can keep the
+# > acceleration constant.
 # </details>
 
 # %% [markdown]
 # ## 3 Reading the ramp: is the intercept kS?
 #
-# Draw voltage over velocity for the ramp. V ≈ kS + kV·v is a straight line. Its slope is kV, and
-# the voltage where it meets velocity 0 (its *intercept*) should be kS. To *read kS off* the ramp
-# means to take this intercept.
+# Draw the voltage of a ramp over the velocity. V ≈ kS + kV·v is a straight line. Its slope is kV,
+# and the voltage where it meets velocity 0 (its *intercept*) should be kS. To *read kS off* the
+# ramp means to use this intercept as kS.
 #
 # Is the intercept really kS? We test a drivetrain and a shooter's flywheel (its heavy wheel). The
-# flywheel is heavy for its motors, so its τ is much longer.
+# flywheel is heavy for its motors, so its τ is much longer than the drivetrain's.
 #
 # **Predict:**
 
 # %%
 guess_drift = Prediction(
-    "You read kS off a ramp of 1 V/s. Which kS is further from the truth?",
+    "You read the kS of both mechanisms off a ramp of 1 V/s. Which kS has the larger error?",
     "the drivetrain's",
     "the flywheel's",
     "neither, both are right",
@@ -231,7 +234,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No controls on your screen? Change name and number here:
+# No menu or slider on your screen? Change the name and the number here:
 
 # %%
 display(*drift_picture("flywheel", 1.0))
@@ -252,28 +255,28 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# During a ramp the robot never stops accelerating. The voltage rises by `ramp` volts each second,
+# During a ramp the robot accelerates all the time. The voltage rises by `ramp` volts each second,
 # so the speed rises by ramp/kV each second. This small, constant acceleration takes
 #
 # > kA · (ramp/kV) = **τ·ramp** volts, during the whole ramp.
 #
-# The straight line adds these volts to kS. So the error of the intercept is proportional to the
-# ramp: twice the ramp, twice the error.
+# The intercept of the straight line is kS plus these volts. So the error of the intercept is
+# proportional to the ramp: with twice the ramp, the error is twice as large.
 #
-# <details><summary>Want to know why the picture shows a little more?</summary>
+# <details><summary>Want to know why the error in the picture is a little larger?</summary>
 #
-# The small remaining difference has two causes. Each row contains the current speed, but the
-# voltage for the next 20 ms, so the two are 10 ms apart. And noise in the velocity bends the line a
-# little: lesson 7.
+# The small difference has two causes. Each row contains the current speed, but the voltage for the
+# next 20 ms, so on average voltage and speed are 10 ms apart. And noise in the velocity makes the
+# line a little flatter (lesson 7).
 # </details>
 #
-# SysId itself does not read an intercept: it fits all runs at once, with a kA term for the ramps,
-# too. If you read an intercept by eye, use a slow ramp. How slow must the flywheel's ramp be for an
-# error below 0.03 V? Solve τ·ramp = 0.03.
+# SysId itself does not read an intercept: it fits all runs at once, and its model has a kA term for
+# the ramps, too. If you read an intercept by eye, use a slow ramp. How slow must the flywheel's
+# ramp be for an error of kS below 0.03 V? Solve τ·ramp = 0.03 V.
 #
 # <details><summary>Answer</summary>
 #
-# 0.03 V / 0.267 s = 0.11 V/s.
+# The ramp must be slower than 0.03 V / 0.267 s = 0.11 V/s.
 # </details>
 #
 # <details><summary>For mentors: is the intercept kS?</summary>
@@ -281,40 +284,41 @@ Table(
 # > **Lesson says:** the quasistatic test moves "so slowly that it's essentially never
 # > accelerating", so that "the intercept is kS".
 # >
-# > **Source says:** the ramp makes the voltage of the acceleration *negligible*. SysId itself does
-# > not read an intercept: it fits all runs at once, with a kA term for the ramps, too. ([WPILib
-# > docs: Creating a
+# > **Source says:** with a slow ramp, the voltage for acceleration is *negligible*. SysId itself
+# > does not read an intercept: it fits all runs at once, and its model has a kA term for the ramps,
+# > too. ([WPILib docs: Creating a
 # > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
-# > **Try it:** how slow must the flywheel's ramp be for an error below 0.03 V? Solve τ·ramp = 0.03.
+# > **Try it:** how slow must the flywheel's ramp be for an error of kS below 0.03 V? Solve τ·ramp =
+# > 0.03 V.
 # </details>
 
 # %% [markdown]
 # ## 4 The information map: what each run adds
 #
-# Every row of a log gives one equation: the model, with the V, v and a of this row. The left
-# picture shows each row as a dot, v to the right and a upward. If the dots spread over the picture,
-# the equations differ, and the fit can separate the gains. If all dots are on one line, the fit
-# cannot separate them.
+# Every row of a log gives one equation: the model with the V, v and a of this row. The left picture
+# shows each row as a dot. Its place to the right is v, and its height is a. If the dots are in many
+# different places, the equations differ, and the fit can separate the gains. If all dots are on one
+# line, the fit cannot separate the gains.
 #
 # The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
-# noise, 95 of 100 fits would be inside. A small ellipse is good. An endless band means that both
-# gains are unknown, even where it looks level.
+# noise, 95 of 100 fits would give gains inside the ellipse. A small ellipse is good. An endless
+# band means that both gains are unknown, even if the band looks level.
 #
 # **Predict** before you choose runs in the menu:
 
 # %%
 guess_drop = Prediction(
-    "The dynamic reverse run of this drivetrain is missing. What becomes unknown?",
+    "Only the dynamic reverse run of this drivetrain is missing. What becomes unknown?",
     "kA",
     "kS",
     "kV",
     "nothing, the errors grow a little",
 )
 guess_ramps = Prediction(
-    "Now both ramps are missing, and we have both steps. What becomes unknown?",
+    "Both ramp tests are missing, and we have both step tests. What becomes unknown?",
     "kA only",
     "kS only",
     "all three gains",
@@ -323,7 +327,7 @@ guess_ramps = Prediction(
 display(guess_drop, guess_ramps)
 
 # %% [markdown]
-# (You may skip the code. It computes how far noise could move a fit.)
+# (You may skip the code. It computes how much noise could change the fitted gains.)
 
 # %%
 sensor = replace(drivetrain.sensor, velocity_noise=0.0, jitter=0.0, resolution=1e-9)
@@ -380,9 +384,9 @@ show_interactive(
 map_picture("all four", "kS and kA")
 
 # %% [markdown]
-# Add runs one by one: use the first four lines of the menu. With one ramp, the ellipse of kS and kA
-# is long: the ramp only shows the sum kS + τ·ramp, as in section 3, and not its two parts. A single
-# step separates the two parts. All choices in numbers:
+# Add runs one by one: choose the first four lines of the menu. With one ramp, the ellipse of kS and
+# kA is long, because a ramp shows only the sum kS + τ·ramp (section 3). With a single step test,
+# the fit can separate kS and kA. The next table shows the errors for each line of the menu:
 
 # %%
 rows = []
@@ -403,14 +407,14 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# - **Without steps** (the row "2 ramps") kA is very uncertain, and so is kS.
-# - **Without ramps**, no gain can be found. With one constant voltage the rows only show the final
-#   speed and how quickly the robot reaches it. These are two numbers for three unknown gains. (If
-#   you knew kS, you could compute the other two.)
-# - **Without the dynamic reverse run**, almost nothing is lost. Forward and reverse are equal
-#   *here*, because we simulated the robot that way.
+# - **Without step tests** (the row "2 ramps") kA and kS are very uncertain.
+# - **Without ramps**, you can find no gain. With one constant voltage the rows only show the final
+#   speed and how quickly the robot reaches it. These two numbers are not enough for three unknown
+#   gains. (If you knew kS, you could compute kV and kA.)
+# - **Without the dynamic reverse run**, the errors grow only a little. In this simulation the robot
+#   behaves the same forward and in reverse.
 #
-# But SysId accepts only a log with all four:
+# But SysId accepts only a log with all four runs:
 
 # %%
 three = replace(log, runs=tuple(run for run in log.runs if run.test != "dynamic-reverse"))
@@ -420,7 +424,7 @@ except sim.Refusal as refusal:
     print(refusal)
 
 # %% [markdown]
-# So you need ramps and steps.
+# So you need both ramps and steps.
 #
 # <details><summary>For mentors: one test alone, with source</summary>
 #
@@ -429,18 +433,18 @@ except sim.Refusal as refusal:
 # >
 # > **Source says:** in the quasistatic test "the voltage corresponding to acceleration is
 # > negligible". The dynamic test is there "so that the behavior while accelerating can be
-# > determined". Neither test replaces the other. ([WPILib docs: Creating a
+# > determined". So you need both tests. ([WPILib docs: Creating a
 # > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
-# > **Try it:** "no ramps: 2 steps" in the map. The dots lie on two lines, and the ellipse is a
-# > band.
+# > **Try it:** choose "no ramps: 2 steps" in the menu of the map. The dots are on two lines, and
+# > the ellipse is an endless band.
 # </details>
 
 # %% [markdown]
 # ## 5 Why reverse? Three reasons
 #
-# If forward and reverse are equal, why test both? Because on a real robot you do not know that they
-# are equal.
+# If a robot behaves the same forward and in reverse, why do you test both? On a real robot you do
+# not know that both are the same.
 #
 # **Reason 1: gravity.** For an elevator, only the way down separates kS from kG (lesson 2).
 #
@@ -450,7 +454,7 @@ except sim.Refusal as refusal:
 
 # %%
 guess_lean = Prediction(
-    "We fit all four runs with one kS. Which gain has the largest error, in percent?",
+    "We fit all four runs of this robot with one kS. Which gain has the largest error in percent?",
     "kS",
     "kV",
     "kA",
@@ -474,12 +478,12 @@ print(guess_lean.reveal("kA"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
-# Each direction alone gives a good fit. Both together do not, because the model has only one kS for
-# both, and the error goes into kA. The simulated velocity R² (SysId's score; 1 is perfect, lesson
-# 7) stays high. So compare the gains of one direction with those of the other.
+# A fit of one direction alone gives good gains. A fit of both directions does not: the model has
+# only one kS for both, so kA becomes wrong. The simulated velocity R² (SysId's score; 1 is perfect,
+# lesson 7) stays high. So compare the gains of the forward runs with the gains of the reverse runs.
 #
-# Without the reverse runs you would know only the first row. In reverse, your feedforward would
-# give a third of the voltage that friction needs.
+# Without the reverse runs you would know only the first row of the table. In reverse, your
+# feedforward would give only a third of the voltage that friction needs.
 #
 # **Reason 3: the way back.** The reverse run brings the robot back to where it started, so the next
 # test has room again.
@@ -490,28 +494,27 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # > accurately".
 # >
 # > **Source says:** a backward test right after a forward test "will more or less reset the
-# > mechanism to its original position"
-# > ([Creating a Routine, at one
+# > mechanism to its original position" ([Creating a Routine, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst)).
 # > SysId's maintainer has called backward tests not required for the fit of an elevator or arm
 # > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)). But SysId's window wants
-# > all four: it looks for each of them, and lists those that are missing
-# > ([DataSelector.cpp, at one
+# > all four: it looks for each test, and lists the tests that are missing ([DataSelector.cpp, at
+# > one
 # > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
-# > **Try it:** the last row of section 4's table is forward only. For a *symmetric* drivetrain it
-# > is fine. Now set `lean` to 0 above: do the rows agree?
+# > **Try it:** look at the row "forward only" in section 4's table. For a *symmetric* drivetrain it
+# > is fine. Now set `lean` to 0 in the code above: do the rows of this section's table agree?
 # </details>
 
 # %% [markdown]
 # ## 6 Choose the ramp: how far will it go?
 #
-# A slow ramp is precise (section 3). Is it also safe? Your room has a certain length, and the robot
-# should reach 1 m/s in the ramp. **Predict:**
+# With a slow ramp, the kS that you read off is precise (section 3). Is a slow ramp also safe? Your
+# room has a certain length, and the robot should reach 1 m/s. **Predict:**
 
 # %%
 guess_way = Prediction(
-    "We halve the ramp, from 1 V/s to 0.5 V/s. How far does the robot drive to reach 1 m/s?",
+    "We halve the voltage ramp to 0.5 V/s. How far does the robot now drive to reach 1 m/s?",
     "half as far",
     "just as far",
     "twice as far",
@@ -546,58 +549,61 @@ Table(
         "distance in 10 s [m]",
     ),
     tuple(rows),
-    caption="A ramp of 2 V/s reaches the battery's 12 V after 6 s, and ends there",
+    caption="A ramp of 2 V/s ends after 6 s, because it has reached the battery's 12 V.",
 )
 
 # %% [markdown]
-# With half the ramp the robot needs twice the time to reach any speed, and so twice the distance:
+# With half the ramp the robot needs twice the time to reach any speed, and also twice the distance:
 #
 # > **d ≈ kV·v² / (2·ramp)**
 #
 # So "slow is safe" is wrong if your room is short. With a very slow ramp the robot reaches the end
-# of the room before it is fast, and a log without speed contains little about kV. Choose the
+# of the room before it is fast. A log with only low speeds contains little about kV. Choose the
 # slowest ramp that fits into your room. WPILib recommends "at least 10' of space, ideally closer to
 # 20'" (3 to 6 m). Never run the tests on blocks, with the wheels in the air: then the robot's mass
-# does not move. Look at the row 0.500 of the table: how far does this drivetrain go in 10 s?
+# does not move. Look at the row for 0.5 V/s in the table: how far does this drivetrain go in 10 s?
 #
 # <details><summary>For mentors: 10 feet and 0.5 V/s, with source</summary>
 #
 # > **Lesson says:** clear "at least 10 feet forward and 10 feet back", with a ramp that is
 # > "typically 0.5 V/s" and a timeout of 10 s.
 # >
-# > **Source says:** "at least 10' of space, ideally closer to 20'", and never on blocks, where the
-# > robot's mass does not move. The library's default ramp is 1 V/s. ([WPILib docs: Running the
+# > **Source says:** WPILib recommends "at least 10' of space, ideally closer to 20'", and never on
+# > blocks, because there the robot's mass does not move. The library's default ramp is 1 V/s.
+# > ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [Creating a
 # > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
-# > **Try it:** in the table, row 0.5: how far does this drivetrain get in 10 s? And how many volts
-# > does it see in 10 feet?
+# > **Try it:** look at the row for 0.5 V/s in the table. How far does this drivetrain go in 10 s?
+# > Which voltage has the ramp reached after 10 feet?
 # </details>
 
 # %% [markdown]
 # ## 7 Choose the step: hard enough, not too hard
 #
-# A large step gives a large acceleration, which is much larger than the noise. Three things limit
-# the step.
+# After a large voltage step, the acceleration is much larger than its noise. But three things limit
+# the step:
 #
 # 1. **Grip.** Wheels slip when the motors push harder than the carpet can hold. From standstill
-#    they slip above `V_slip = kS + kA·μ·g`. The grip μ is about 1.1 on carpet (measure yours), and
-#    g is 9.81 m/s². When wheels spin, the encoder counts meters that the robot does not move.
+#    they slip if the voltage is above `V_slip = kS + kA·μ·g`. The grip μ is about 1.1 on carpet
+#    (measure yours), and g is 9.81 m/s². When wheels spin, the encoder counts meters that the robot
+#    does not move.
 # 2. **Current.** At standstill a motor draws `stall_current · step / 12 V`. (The *stall current* is
-#    on its data sheet: what it draws at 12 V when it cannot turn.) To keep the current below its
-#    limit, the controller reduces the voltage, and at first the speed rises in a straight line.
-#    (Phoenix 6, the library for the TalonFX, sets a limit of 120 A unless you change it.)
-# 3. **Room.** The top speed is (step − kS)/kV, and you need time to let go of the button.
+#    on the motor's data sheet: the current at 12 V when the motor cannot turn.) To keep the current
+#    below its limit, the controller reduces the voltage. Then the speed rises in a straight line at
+#    first. (Phoenix 6, the library for the TalonFX, sets a limit of 120 A unless you change it.)
+# 3. **Room.** The top speed is (step − kS)/kV. At this speed the robot drives on until you let go
+#    of the button.
 #
-# (For the limit see `CurrentLimitsConfigs` in
-# [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/).)
+# (Source for 120 A: `CurrentLimitsConfigs` in [Phoenix 6, release
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/).)
 #
-# And the step must not be too small. SysId computes the acceleration from the differences of
-# speeds, so the acceleration is noisy. ([SysId's source:
+# The step must not be too small either. SysId computes the acceleration from differences of speeds,
+# so the acceleration is noisy. ([SysId's source:
 # FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
-# The acceleration at the start should be at least ten times as large as this noise. For our robot
-# 2 V is enough and 0.6 V is not: with 0.6 V, SysId finds a kA that is far too large.
+# The acceleration at the start should be at least ten times as large as this noise. For our robot 2
+# V is enough and 0.6 V is not: with a step of 0.6 V, SysId finds a kA that is far too large.
 
 # %%
 rows = []
@@ -622,21 +628,21 @@ Table(
 
 # %% [markdown]
 # Both robots weigh 60 kg and have a ratio of 6.75. With a step of 3.5 V, the wheels of one robot
-# spin, and those of the other do not. Stay at 90 % of V_slip or less. For that you need kA *before*
-# the test: compute kA from mass and motors (lesson 1), or start with a small step.
+# slip, and the wheels of the other do not. Stay at 90 % of V_slip or less. To compute V_slip, you
+# need kA *before* the test: compute kA from mass and motors (lesson 1), or start with a small step.
 #
 # <details><summary>For mentors: typical steps and the default of 7 V</summary>
 #
 # > **Lesson says:** "applies a large voltage step — typically 3–7V", and "Start with a step voltage
 # > of 3–4V, not 7V".
 # >
-# > **Source says:** the library's default is 7 V. Its maintainer: "7 V is almost always too much,
-# > but users should also be picking a good value specific to their system". A default of 4 V has
-# > been proposed.
-# > ([allwpilib issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
+# > **Source says:** the library's default is 7 V. Its maintainer writes: "7 V is almost always too
+# > much, but users should also be picking a good value specific to their system". A default of 4 V
+# > has been proposed. ([allwpilib issue
+# > 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
 # >
-# > **Try it:** change the mass: `replace(drivetrain, load=30.0, …)`. Does a light robot slip
-# > earlier or later? (Look at kA in the formula.)
+# > **Try it:** change the mass: `replace(drivetrain, load=30.0, …)`. Do the wheels of a light robot
+# > slip at a lower voltage or at a higher voltage? (Look at kA in the formula.)
 # </details>
 #
 # (Our simulated drivetrain never slips. Lesson 6 shows what slipping looks like in a log.)
@@ -648,7 +654,8 @@ Table(
 # you do not let go, the **timeout** stops the robot. Set the timeout a little longer than the test
 # needs.
 #
-# Does a long dynamic test harm the fit? We cut the same step after different times:
+# Does a long dynamic test make the gains worse? The next table uses only the first seconds of the
+# same step test:
 
 # %%
 hall = simulate(replace(drivetrain, travel=None), routine, rng=np.random.default_rng(1))
@@ -677,35 +684,35 @@ Table(
 )
 
 # %% [markdown]
-# SysId uses the rows up to 90 % of the final speed and drops the rest, so a long test does not harm
-# kA. But a long test needs a long room: look at the last column. After 3τ, the rows contain nothing
-# new about kA. (A fit that does not drop the later rows gets a wrong kA: lesson 7.)
+# SysId uses only the rows up to 90 % of the final speed, so a long test does not make kA wrong. But
+# a long test needs a long room: look at the last column. After 3τ, the rows contain nothing new
+# about kA. (If a fit also uses the later rows, its kA is wrong: lesson 7.)
 #
 # <details><summary>For mentors: does a long dynamic test spoil kA?</summary>
 #
 # > **Lesson says:** "Running the dynamic test too long lets the mechanism overshoot its physical
 # > limits or reach free speed, where acceleration collapses to zero and kA becomes unobservable."
 # >
-# > **Source says:** the first half is the real danger: stop early "if it exceeds safe limits". The
-# > second half does not affect SysId, because SysId trims the step by itself. It does affect fits
-# > that do not trim (lesson 7). ([Running the
+# > **Source says:** the physical limits are the real danger: stop early "if it exceeds safe
+# > limits". Free speed does not affect SysId's kA, because SysId trims the step by itself. It
+# > affects fits that use all rows (lesson 7). ([Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
-# > **Try it:** compare the rows "0.2 s" and "7 s" of the table.
+# > **Try it:** compare kA in the rows "0.2 s" and "7 s" of the table.
 # </details>
 
 # %% [markdown]
 # ## 9 Plan one
 #
-# Now plan a ramp and a step for the drivetrain. You let go of the button 0.3 s after the robot
-# passes the mark. Above the picture you see five rules: four rules of exercise 6, and the current
-# limit. Find a plan that follows all five in a room of 4 m. Then try 2.5 m.
+# Now plan a ramp test and a step test for the drivetrain. You let go of the button 0.3 s after the
+# robot passes the mark. Above the picture you see five rules: four rules of exercise 6, and the
+# current limit. Find a plan that follows all five rules in a room of 4 m. Then try a room of 2.5 m.
 #
 # **Choose your current limit first.** It protects the motors and the battery. If a step is too
-# large, the limit reduces the voltage at the start. So set the limit that you will use in a match,
-# then plan a step that stays below this limit.
+# large, the limit reduces the voltage at the start. So set the current limit that you will use in a
+# match. Then plan a step that stays below this limit.
 
 # %%
 REACTION = 0.3  # [s] from the mark to the thumb off the button
@@ -744,14 +751,16 @@ animate_mechanism(
     span=(-1.0, 10.5),
     wall=Gain("room"),
     marks={"mark": Gain("mark")},
-    alt="A room with a mark on the floor and a wall at its end. Two robots drive the ramp and the "
-    "step. Each is switched off 0.3 s after the mark. Above the room stand five rules, ticked or "
-    "broken. With 0.5 V/s and 3.5 V in a room of 4 m, two rules are broken.",
+    alt="The picture shows a room with a mark on the floor and a wall at its end. One robot drives "
+    "the ramp test, the other drives the step test. The motors of each robot are switched off "
+    "0.3 s after the mark. Above the room you see five rules, and whether your plan follows them. "
+    "With 0.5 V/s and 3.5 V in a room of 4 m, the plan breaks two rules.",
 )
 
 # %% [markdown]
 # With 0.5 V/s and 3.5 V in a room of 4 m, the plan breaks two rules: the ramp is too slow for the
-# room, and the step spins the wheels of this strong drivetrain. Which slider fixes which rule?
+# room, and the step is so large that the wheels of this strong drivetrain slip. Which slider fixes
+# which rule?
 #
 # (This is simplified: the motors brake at 0 V, the floor is flat, and the battery voltage does not
 # drop. Leave more room than the plan says.)
@@ -763,14 +772,15 @@ animate_mechanism(
 # %% [markdown]
 # ## 10 System check
 #
-# Before you press the first button, check all five:
+# Before you press the first button, check these five points:
 #
-# - [ ] You computed how far the ramp goes, `kV·v²/(2·ramp)`, and the room is longer than that.
+# - [ ] You computed how far the robot drives in the ramp, `kV·v²/(2·ramp)`, and the room is longer.
 # - [ ] The step is below 90 % of V_slip, and below the current limit.
-# - [ ] The mark is on the floor, with room behind it for your reaction time. The timeout is set.
+# - [ ] The mark is on the floor. Behind it there is enough room for your reaction time. The timeout
+#   is set.
 # - [ ] Four runs are planned: ramp and step, forward and reverse, each reverse run right after its
 #   forward run.
-# - [ ] The robot stands on the carpet it will drive on, not on blocks.
+# - [ ] The robot stands on the carpet that it will drive on, not on blocks.
 #
 # ## 11 Knowledge check
 #
@@ -780,57 +790,61 @@ animate_mechanism(
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "You halve the ramp and go to the same speed. How far does the mechanism travel?",
+    "You halve the voltage ramp. How far does the mechanism move to reach the same speed?",
     {
-        "half as far": "It takes longer to reach the speed, and it moves all that time.",
-        "just as far": "The final speed is the same, but it takes longer to reach it.",
-        "twice as far": "It takes twice as long, at the same mean speed.",
+        "half as far": "It needs more time to reach the speed, and it moves all the time.",
+        "just as far": "The final speed is the same, but it needs more time to reach this speed.",
+        "twice as far": "It moves for twice the time, with the same average speed.",
     },
     right="twice as far",
 )
 quick
 
 # %% [markdown]
-# **1.** A flywheel has τ = 0.4 s and a true kS of 0.10 V. You read kS off a ramp of 0.5 V/s. What
-# do you read, about?
+# **1.** A flywheel has τ = 0.4 s and a true kS of 0.10 V. You read kS off a ramp of 0.5 V/s. About
+# how large is the kS that you read off?
 #
 # <details><summary>Answer</summary>
 #
-# kS + τ·ramp = 0.10 + 0.4·0.5 = 0.30 V, three times the true value. SysId's fit includes kA and
-# does not make this mistake.
+# You get kS + τ·ramp = 0.10 + 0.4·0.5 = 0.30 V, three times the true value. SysId's fit has a term
+# for kA, so it does not make this mistake.
 # </details>
 #
-# **2.** "We have only 3 m, so we ramp very slowly, to be safe." What do you say?
+# **2.** A teammate says: "We have only 3 m, so we use a very slow ramp, to be safe." What do you
+# answer?
 #
 # <details><summary>Answer</summary>
 #
-# The distance to a speed is kV·v²/(2·ramp): half the ramp, twice the distance. In 3 m a very slow
-# ramp hardly reaches any speed. Use a steeper ramp and a mark, and let go of the button quickly.
+# The distance to reach a speed is kV·v²/(2·ramp): with half the ramp, it is twice as long. With a
+# very slow ramp, the robot is still slow after 3 m. Use a steeper ramp and a mark, and let go of
+# the button quickly.
 # </details>
 #
 # **3.** In the information map the dots of each direction lie on one slanted line. Which runs are
-# missing?
+# missing in this log?
 #
 # <details><summary>Answer</summary>
 #
-# The ramps: with one constant voltage, the acceleration falls evenly as the speed rises. Without a
-# ramp, the fit finds no gain.
+# The ramps are missing: with one constant voltage, the acceleration falls evenly as the speed
+# rises. Without a ramp, you can find no gain.
 # </details>
 #
-# **4.** Forward alone gives kS = 0.14 V, reverse alone 0.38 V. What now?
+# **4.** A fit of the forward runs gives kS = 0.14 V. A fit of the reverse runs gives 0.38 V. What
+# do you do?
 #
 # <details><summary>Answer</summary>
 #
-# Look at the robot, not at the fit. Something rubs in one direction: a brake, a chain, a bearing. A
+# Look for the cause on the robot. A part rubs in one direction: a brake, a chain or a bearing. A
 # fit with one kS for both directions gives a wrong kA, and its R² may stay high.
 # </details>
 #
-# **5.** The rise after a step is a straight line that ends in a corner. What happened?
+# **5.** After a voltage step, the speed rises in a straight line and then suddenly stays constant.
+# What happened?
 #
 # <details><summary>Answer</summary>
 #
-# Something kept the acceleration constant: a current limit, or slipping wheels. Use a smaller
-# step. A clean rise is exponential.
+# Something kept the acceleration constant: a current limit, or slipping wheels. Use a smaller step.
+# In a good test the speed rises exponentially.
 # </details>
 
 # %% [markdown]
@@ -843,7 +857,7 @@ quick
 # grade exercise6
 # ```
 #
-# Any plan that follows the rules passes. You may also answer from a notebook:
+# Any plan that follows the rules passes. You can also answer in a notebook:
 #
 # ```python
 # from grader import submit
@@ -852,14 +866,15 @@ quick
 #
 # You need section 6 for the ramp and the mark, section 7 for the step, and section 8 for the
 # timeout. Part (b) comes with lesson 5. Hints cost nothing: `grade exercise6 --hint`. If you write
-# into `answers.toml` with an editor, start `grade watch exercise6`: it grades each time you save.
+# into `answers.toml` with an editor, start `grade watch exercise6`: it grades the file each time
+# you save it.
 #
 # <details><summary>More, if you like</summary>
 #
-# - Draw section 3's picture for a turret: add `"turret": MECHANISMS["turret"]` to `SHOWN`.
-# - Make `lean` smaller. How small must it be until the error of kA is below 10 %?
-# - Plan the ramp of your own robot for the longest hallway of your school. Then measure the
-#   hallway.
+# - Draw the picture of section 3 for a turret: add `"turret": MECHANISMS["turret"]` to `SHOWN`.
+# - Bring `lean` closer to 0. At which `lean` is the error of kA below 10 %?
+# - Plan the ramp of your own robot for the longest hallway of your school. Then measure how long
+#   the hallway is.
 # </details>
 #
 # **Next:** [Lesson 4, wire a SysIdRoutine](04_wire_sysidroutine.ipynb). Write the code that runs

@@ -13,16 +13,16 @@
 # %% [markdown]
 # # Lesson 4: Wire a SysIdRoutine
 #
-# *About 30 minutes. You need lesson 3, and you have written some robot code. You need no robot
-# today.*
+# *About 30 minutes. You need lesson 3, and you should have written some robot code. You need no
+# robot today.*
 #
 # **At the end you can**
 #
 # - build a `SysIdRoutine` from its two parts, a `Config` and a `Mechanism`;
 # - write the callback that drives the motors, and say why it must set a *voltage*;
-# - write the callback that logs the right three signals in the right units;
-# - bind the four test commands to buttons, behind a guard;
-# - look at a wrong gain and name the line of code that caused it.
+# - write the callback that logs three signals (voltage, position, velocity) in the right units;
+# - bind the four test commands to buttons, and protect them with a guard;
+# - look at a wrong gain and find the line of code that caused the error.
 #
 # (A *callback* is a function of yours that the library calls. A *guard* is a condition that must be
 # true before a button works.)
@@ -36,10 +36,9 @@
 # A `SysIdRoutine` does two things, fifty times a second: it **sets a voltage**, and it **writes
 # down what happened**. You compute the gains later, from the log.
 #
-# So a mistake in this code causes no crash. The robot moves, the log fills, and the analyzer (the
-# SysId window) prints numbers. But these are the gains of a different robot. Today you make such
-# mistakes on purpose, on a simulated robot with known gains, and learn what each mistake looks
-# like.
+# A mistake in this code does not stop the program. The robot moves, the log grows, and the analyzer
+# (the SysId window) shows gains. But these gains do not belong to your robot. Today you make such
+# mistakes on purpose, on a simulated robot with known gains, and learn to recognize each mistake.
 
 # %%
 import math
@@ -63,7 +62,7 @@ print(drivetrain.summary)
 Table(
     ("gain", "true value", "unit"),
     (("kS", truth["kS"], "V"), ("kV", truth["kV"], "V·s/m"), ("kA", truth["kA"], "V·s²/m")),
-    caption="The true gains of our drivetrain. On a real robot nobody knows them.",
+    caption="These are the true gains of our drivetrain. On a real robot nobody knows them.",
 )
 
 # %% [markdown]
@@ -73,7 +72,7 @@ Table(
 #
 # > **V = kS·sgn(v) + kV·v + kA·a**
 #
-# To find the three gains, the analyzer needs many rows with V, v and a:
+# To find the three gains, the analyzer needs many rows of V, v and a:
 #
 # | what | where it comes from | what needs it |
 # |---|---|---|
@@ -91,15 +90,15 @@ Table(
 # > **Lesson says:** log position, velocity and applied voltage, "all three are required for
 # > regression".
 # >
-# > **Source says:** SysId's window wants all three before it loads a log. The arithmetic for a
-# > drivetrain or a shooter then uses only velocity and voltage.
-# > ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
+# > **Source says:** SysId's window wants all three before it loads a log. The fit for a drivetrain
+# > or a shooter then uses only velocity and voltage. ([WPILib docs: Loading
+# > Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
 # >
 # > **Try it:** the last cell of this section removes the positions and fits again. Do the gains
 # > change?
 # </details>
 #
-# Here is the log of a correct routine, with a ramp of 0.5 V/s and a step of 3.5 V.
+# The picture shows the log of a correct routine, with a ramp of 0.5 V/s and a step of 3.5 V.
 
 # %%
 routine = sim.Routine(ramp=0.5, step=3.5, timeout=10.0)
@@ -108,7 +107,7 @@ right = simulate(drivetrain, routine, rng=np.random.default_rng(4))
 plot_time_series(right, dynamic_seconds=1.0)
 
 # %% [markdown]
-# You see the four runs of lesson 3, and only the first second of each step. Which gains does
+# You see the four runs of lesson 3, with only the first second of each step. Which gains does
 # SysId's method find in this log?
 
 
@@ -129,13 +128,13 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 
 # %% [markdown]
 # The gains do not change. The two **R²** ("R squared") are SysId's scores: 1 is perfect. Lesson 7
-# explains them. Here we only watch whether they show a mistake.
+# explains them. In this lesson we only look whether R² shows a mistake.
 
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
 #
 # SysId needs no project of its own. You add the routine as a field to a subsystem that you already
-# have, because the subsystem owns the motors and the encoders.
+# have, because the subsystem contains the motors and the encoders.
 #
 # ### Two arguments
 #
@@ -147,18 +146,19 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # > **Lesson says:** "The routine takes three things: a Config (…), a Mechanism (…), and a log-name
 # > string."
 # >
-# > **Source says:** two: `SysIdRoutine(Config config, Mechanism mechanism)`. The name is an
-# > optional *fourth* argument of `Mechanism`; left out, it is the subsystem's own name.
-# > ([WPILib's source: SysIdRoutine.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibNewCommands/src/main/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.java))
+# > **Source says:** it takes two: `SysIdRoutine(Config config, Mechanism mechanism)`. The name is
+# > an optional *fourth* argument of `Mechanism`. If you leave it out, the log uses the subsystem's
+# > name. ([WPILib's source:
+# > SysIdRoutine.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibNewCommands/src/main/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.java))
 # >
-# > **Try it:** count the arguments in the code below.
+# > **Try it:** count the arguments of `SysIdRoutine` in the code below.
 # </details>
 #
 # ### Config: how hard, how long
 #
-# `Config` holds the ramp rate (volts per second), the step (volts) and the timeout (seconds). In
-# Java, `null` means "use the library's default". In Python, leave the argument out: there `None` is
-# an error.
+# `Config` holds the ramp rate (volts per second), the step voltage (volts) and the timeout
+# (seconds). In Java, `null` means "use the library's default". In Python, leave the argument out:
+# there `None` is an error.
 
 # %%
 defaults = sim.Routine()
@@ -173,21 +173,22 @@ Table(
 
 # %% [markdown]
 # **Myth check.** "A step between 3 and 7 V is fine." *It depends on your robot.* A maintainer of
-# WPILib calls the default of 7 V "almost always too much". The next cell computes V_slip of lesson
-# 3, `kS + kA·μ·g`, for two drivetrains with the same motors. Would 3 V be safe?
+# WPILib calls the default of 7 V "almost always too much". The next cell computes the voltage above
+# which the wheels slip, V_slip = `kS + kA·μ·g` (lesson 3), for two drivetrains with the same
+# motors. Would a step of 3 V be safe for both?
 #
 # <details><summary>For mentors: typical steps, with source</summary>
 #
 # > **Lesson says:** a ramp that is "typically 0.5 V/s", a step that is "typically 3–7V", and "Start
 # > with a step voltage of 3–4V, not 7V".
 # >
-# > **Source says:** the library's default step is what the table shows, and one of its maintainers
-# > finds it "almost always too much": wheels slip, and slipping data is not what the model
-# > describes. ([allwpilib issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
+# > **Source says:** the library's default step is 7 V, and one of its maintainers finds it "almost
+# > always too much": the wheels slip, and the model does not describe slipping wheels. ([allwpilib
+# > issue 7794](https://github.com/wpilibsuite/allwpilib/issues/7794))
 # >
-# > **Try it:** wheels slip when the motors push harder than the carpet can hold. That takes about
-# > `kS + kA·μ·g` volts from standstill, with grip μ and g = 9.81 m/s². The next cell computes it
-# > for two drivetrains with the same motors. Would 3 V be safe?
+# > **Try it:** wheels slip when the motors push harder than the carpet can hold. From standstill,
+# > this needs about `kS + kA·μ·g` volts, with grip μ and g = 9.81 m/s². The next cell computes this
+# > voltage for two drivetrains with the same motors. Would a step of 3 V be safe for both?
 # </details>
 
 # %%
@@ -198,20 +199,23 @@ for mass in (60.0, 30.0):
     print(f"{mass:.0f} kg, kA = {gains['kA']:.3f} V·s²/m: wheels slip from about {slips:.1f} V")
 
 # %% [markdown]
-# A strong drivetrain slips early, and a light one slips even earlier. (Our simulated wheels never
-# slip, so we may use 3.5 V here. For your robot, choose the step with the planner of lesson 3.)
+# The wheels of a strong drivetrain slip at a low voltage. If the drivetrain is also light, they
+# slip at an even lower voltage. (Our simulated wheels never slip, so we may use 3.5 V here. For
+# your robot, choose the step with the planner of lesson 3.)
 #
-# **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test:
-# words such as `quasistatic-forward`, which tell the analyzer where a test begins and ends. With
-# `null` these words go into the **WPILOG file** on the robot (the log that WPILib writes).
+# **What `null` means.** The fourth argument of `Config` is a callback for the *state* of the test.
+# The state is a word such as `quasistatic-forward`. It tells the analyzer where a test begins and
+# ends. With `null` these words go into the **WPILOG file** on the robot (the log that WPILib
+# writes).
 #
 # <details><summary>For mentors: where does the test state go?</summary>
 #
 # > **Lesson says:** `null` is "use default state consumer (logs to DS)".
 # >
-# > **Source says:** with `null` the state goes into the **WPILOG file** on the robot, as a text
-# > entry named `sysid-test-state-` and the mechanism's name. Nothing goes to the Driver Station.
-# > ([WPILib docs: Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
+# > **Source says:** with `null` the state goes into the **WPILOG file** on the robot. It is a text
+# > entry whose name is `sysid-test-state-` plus the mechanism's name. Nothing goes to the Driver
+# > Station. ([WPILib docs: Creating a
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # >
 # > **Try it:** open any SysId log in AdvantageScope and look for that entry.
 # </details>
@@ -222,31 +226,32 @@ for mass in (60.0, 30.0):
 # uses the name of the subsystem.
 #
 # If you give the state to a logger of your own in Python, use `SysIdRoutineLog.stateEnumToString`:
-# it makes the word that the analyzer looks for. `str(state)` does not.
+# it makes the word that the analyzer looks for. But `str(state)` does not.
 #
 # The log callback of `Mechanism` may be `null` too, but only if another logger records the motors
 # for you: CTRE's SignalLogger, or URCL for REV. Lesson 5 shows how. In Python, `None` fails in the
-# first loop of the test: write `lambda log: None`. In this course you write the callback.
+# first loop of the test: write `lambda log: None`. In this course you write the log callback
+# yourself.
 #
-# (Read in `commands2/sysid/sysidroutine.py` of
-# [robotpy-commands-v2 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/). CTRE's
-# Python example uses both: [Plumbing & Running SysId, at one
+# (Source: `commands2/sysid/sysidroutine.py` of [robotpy-commands-v2
+# 2026.2.2](https://pypi.org/project/robotpy-commands-v2/2026.2.2/). CTRE's Python example uses a
+# state callback and `lambda log: None`: [Plumbing & Running SysId, at one
 # commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst).)
 # </details>
 
 # %% [markdown]
 # ### Mechanism, first callback: drive
 #
-# The routine gives you a voltage. You send it to **every** motor of the mechanism. There are three
-# rules:
+# The routine gives your drive callback a voltage. You send it to **every** motor of the mechanism.
+# There are three rules:
 #
-# 1. **Open loop.** Nothing may correct the motion: no PID, no `VelocityVoltage`, no Motion Magic.
-#    If a controller corrects the motion, SysId measures that controller too.
-# 2. **A voltage, not a share of the battery.** `set(0.3)` means "30 % of the present battery
-#    voltage". The battery voltage drops when motors draw current, so the motor gets less voltage
-#    than you think. You can test this in section 4.
-# 3. **Every motor.** If one gets no voltage, the others have to turn it, too. Then the gains are
-#    wrong.
+# 1. **Open loop.** Nothing may correct the motion. Use no PID, no `VelocityVoltage` and no Motion
+#    Magic. If a controller corrects the motion, SysId also measures this controller.
+# 2. **A voltage, not a fraction of the battery voltage.** `set(0.3)` means "30 % of the present
+#    battery voltage". The battery voltage drops when motors draw current, so the motor gets less
+#    voltage than you expect. You can test this in section 4.
+# 3. **Every motor.** If one motor gets no voltage, the other motors have to turn it, too. Then the
+#    gains are wrong.
 #
 # <details><summary>For mentors: setVoltage or VoltageOut?</summary>
 #
@@ -257,7 +262,8 @@ for mass in (60.0, 30.0):
 # > `VoltageOut` request, and CTRE's own SysId example uses `setControl` with one request object.
 # > ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
 # >
-# > The rule worth keeping is rule 2. **Try it** in section 4.
+# > What matters is that you set a voltage and not a fraction of the battery voltage. **Try it** in
+# > section 4.
 # </details>
 #
 # ### Mechanism, second callback: log
@@ -265,28 +271,28 @@ for mass in (60.0, 30.0):
 # Once per loop, write down for each motor group: **applied voltage, position, velocity**.
 #
 # - **Applied** voltage is what reached the motor. A TalonFX reports it as `getMotorVoltage()`. For
-#   a simple controller on a PWM port it is `get()` times the battery voltage. It is *not* the
-#   voltage that the routine commanded: in a brownout (the battery voltage gets too low), the
-#   applied voltage drops to 0 and comes back, again and again (lesson 6).
-# - **Units.** A drivetrain or an elevator moves along a line: meters and meters per second, after
-#   gear ratio *and* wheel size. A shooter or an arm turns: rotations and rotations per second of
-#   the *output*, after the gear ratio.
-# - **Direction.** A positive voltage must give a positive velocity. Check this first.
+#   a simple controller on a PWM port it is `get()` times the battery voltage. The applied voltage
+#   is *not* always the voltage that the routine commanded: in a brownout (the battery voltage gets
+#   too low), the applied voltage drops to 0 and comes back, again and again (lesson 6).
+# - **Units.** A drivetrain or an elevator moves along a line. Log meters and meters per second:
+#   include the gear ratio *and* the wheel size. A shooter or an arm turns. Log rotations and
+#   rotations per second of the *mechanism*: include the gear ratio.
+# - **Direction.** A positive voltage must give a positive velocity. Check the direction first.
 # - **Name.** `log.motor("drive-left")`: one name for each motor, or for each pair that shares an
 #   encoder. Later you choose this name in the analyzer.
 #
 # The Java logger accepts any unit of angle, but it always *stores rotations*. So the gains are per
-# rotation. If your feedforward uses radians, convert the **gain**, at the end (lesson 1). The next
-# cell fits one shooter log and prints kV per rotation and per radian.
+# rotation. If your feedforward uses radians, convert the **gains** after the fit (lesson 1). The
+# next cell fits one shooter log and prints kV per rotation and per radian.
 #
 # <details><summary>For mentors: where to convert to radians</summary>
 #
 # > **Lesson says:** "Use `Units.rotationsToRadians()` if your feedforward class expects radians."
 # >
-# > **Source says:** the Java logger takes any unit of angle, and always *stores rotations*. The
-# > gains come out per rotation. What you convert is the **gain**, at the end, or the number you
-# > hand to your feedforward.
-# > ([WPILib's source: SysIdRoutineLog.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibj/src/main/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.java))
+# > **Source says:** the Java logger takes any unit of angle, and always *stores rotations*. So the
+# > gains are per rotation. You convert either the **gains** after the fit, or the velocity that you
+# > pass to your feedforward. ([WPILib's source:
+# > SysIdRoutineLog.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibj/src/main/java/edu/wpi/first/wpilibj/sysid/SysIdRoutineLog.java))
 # >
 # > **Try it:** the next cell fits one shooter log and prints kV per rotation and per radian.
 # </details>
@@ -297,10 +303,11 @@ spun = fit(simulate(shooter, routine, rng=np.random.default_rng(5)), method="sys
 per_rotation = spun.in_units("rotations").gains["kV"]
 per_radian = spun.in_units("radians").gains["kV"]
 print(f"kV = {per_rotation:.4f} V·s/rotation = {per_radian:.5f} V·s/radian")
-print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:.4f}.")
+print(f"These two kV differ by a factor of {per_rotation / per_radian:.4f}.", end=" ")
+print(f"2π is {2 * math.pi:.4f}.")
 
 # %% [markdown]
-# If you mix up the units, your feedforward is wrong by this factor.
+# If you mix up rotations and radians, your feedforward is wrong by a factor of 2π.
 #
 # ### All of it, in Java
 #
@@ -368,9 +375,9 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # }
 # ```
 #
-# (The right motor's inversion is set in its TalonFX configuration, so that plus is forward. A stick
-# that you push forward gives a *minus*: negate it in your drive code.
-# [WPILib docs: Coordinate System, at one
+# (The right motor's inversion is set in its TalonFX configuration, so that a positive voltage
+# drives forward. A joystick that you push forward gives a *negative* number: change its sign in
+# your drive code. [WPILib docs: Coordinate System, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/171e0ea60c03fb59789a30b8fdfca9a299747af9/source/docs/software/basic-programming/coordinate-system.rst))
 # </details>
 #
@@ -379,8 +386,8 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # **Commands v3** comes with WPILib 2027, for Java. There the class `extends Mechanism`, and the
 # parts of the same routine have other names: `Config.useDataLog` takes ramp, step and timeout, and
 # `SysIdRoutine.SysIdMechanism` takes the two callbacks and `this`. `null` does not mean "default"
-# there: for WPILib's own numbers write `Config.defaults()`. Exercises 4 and 5 accept both versions.
-# ([SysIdRoutine of Commands v3, at one commit of the
+# there: for WPILib's default numbers write `Config.defaults()`. Exercises 4 and 5 accept both
+# versions. ([SysIdRoutine of Commands v3, at one commit of the
 # branch](https://github.com/wpilibsuite/allwpilib/blob/10171e2f048a8b86ffa82d52b65d09287c342268/commandsv3/src/main/java/org/wpilib/command3/sysid/SysIdRoutine.java))
 # </details>
 
@@ -389,8 +396,8 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # <details><summary>Open the code in Python</summary>
 #
-# This version uses PWM controllers and encoders on the roboRIO, so it needs no vendor library. The
-# course's own tests run it in WPILib's simulation, press its buttons and fit its log.
+# This version uses PWM controllers and encoders on the roboRIO, so it needs no vendor library. We
+# test this code in WPILib's simulation: the tests press its buttons and fit its log.
 #
 # ```python
 # import commands2
@@ -456,16 +463,16 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #         test_mode.and_(pad.y()).whileTrue(self.drive.sysid_dynamic(reverse))
 # ```
 #
-# **Where does this line go?** WPILib's docs show `routine = SysIdRoutine(…,
+# **Where do you write `self.routine = …`?** WPILib's docs show `routine = SysIdRoutine(…,
 # Mechanism(self.voltageDrive, …, self))`, but not in which method. In the body of a class there is
-# no `self`, and Python stops with a `NameError`. Write it into `__init__`, as `self.routine = …`
-# above.
-# ([WPILib docs: Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
+# no `self`, and Python stops with a `NameError`. Write it into `__init__`, as in the code above.
+# ([WPILib docs: Creating a
+# Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # </details>
 #
-# In the code you have opened, find three lines: the one that sets the voltage, the one that logs
-# it, and the one that passes the subsystem (`this` or `self`). With `this`, no other command can
-# drive the subsystem during a test.
+# In the Java or Python code that you opened, find three lines: the line that sets the voltage, the
+# line that logs the voltage, and the line that passes the subsystem (`this` or `self`). If you pass
+# the subsystem, no other command can drive it during a test.
 
 # %% [markdown]
 # ### Four commands, bound and guarded
@@ -476,10 +483,10 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 #
 # - **`whileTrue`**, so that letting go ends the test. With `onTrue` the test continues after you
 #   let go, until the timeout.
-# - **A comment on each binding** that names the test *and what it measures*. You will need it in
-#   six months.
-# - **A guard**, so that nobody starts a test in a match: Test mode (as here), a separate
-#   controller, or two buttons at once.
+# - **A comment on each binding** that names the test *and what it measures*. In six months you will
+#   not remember it.
+# - **A guard**, so that nobody starts a test in a match. The guard can be Test mode (as here), a
+#   separate controller, or two buttons at once.
 #
 # In Java (the Python code above ends with the same bindings):
 #
@@ -507,37 +514,39 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 # each at one commit of the branch)
 # </details>
 #
-# **Myth check.** "A SysId test bypasses all limits." *Only partly.* During a test, your other
-# *commands* do not run, so their safety code does not work. Limits **inside the motor controller**
-# still work if you set them up, and that is your job. Such a limit protects the robot. But when it
-# acts, the data show the limit and not the motor.
+# **Myth check.** "A SysId test *bypasses* all limits: no limit works during a test." *This is only
+# partly true.* During a test, your other *commands* do not run, so their safety code does not work.
+# Limits **inside the motor controller** still work if you set them up, and that is your job. A
+# limit in the motor controller protects the robot. But while it acts, you measure the limit and not
+# the motor.
 #
 # <details><summary>For mentors: which limits does a test bypass?</summary>
 #
 # > **Lesson says:** a SysId test runs "bypassing soft limits, current limits, and any command-level
 # > safety logic you've written".
 # >
-# > **Source says:** partly. Your *command-level* logic is bypassed: the test command has the
-# > subsystem for itself. Limits **inside the motor controller** still work if you set them up;
-# > WPILib's docs name "soft and hard limits" as a reason to use your own code for the tests, and
-# > say that setting them up is your job.
-# > ([Creating a Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
-# > [Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
+# > **Source says:** this is partly true. The safety code in your *commands* does not run, because
+# > no other command can use the subsystem during a test. Limits **inside the motor controller**
+# > still work if you set them up; WPILib's docs name "soft and hard limits" as a reason to use your
+# > own code for the tests, and say that setting them up is your job. ([Creating a
+# > Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst),
+# > [Running the
+# > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
-# > Both sides matter: a limit protects you, *and* when it engages, the data show the limit instead
-# > of the motor.
+# > Two things matter: a limit protects you, *and* while it acts, you measure the limit instead of
+# > the motor.
 # >
 # > **Try it** on your robot, slowly and with a hand on Disable: drive toward a soft limit with a
-# > joystick, and see whether it holds.
+# > joystick. Does the limit stop the robot?
 # </details>
 
 # %% [markdown]
 #
 # <details><summary>Want to know more? What the loop really does</summary>
 #
-# The test command starts its timer in one loop, and drives for the first time two loops later. (We
-# saw this when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is
-# not zero: with a ramp of 0.5 V/s and loops of 20 ms it is 0.02 V.
+# The test command starts its timer in one loop, and sets the first voltage two loops later. (We saw
+# this when we ran the real command in WPILib's simulation.) So the first voltage of a ramp is not
+# zero: with a ramp of 0.5 V/s and loops of 20 ms, the first voltage is 0.02 V.
 # </details>
 
 # %% [markdown]
@@ -548,23 +557,23 @@ print(f"Their ratio is {per_rotation / per_radian:.4f}, and 2π is {2 * math.pi:
 
 # %%
 guess_gain = Prediction(
-    "1. The drive callback calls motor.set(volts / 12), the log contains the commanded volts, "
-    "and the battery is nearly empty. Which gain has the largest error?",
+    "1. The drive callback calls motor.set(volts / 12). The log contains the commanded volts. "
+    "The battery is nearly empty. Which gain has the largest error?",
     "kS",
     "kV",
     "kA",
     "none of them",
 )
 guess_factor = Prediction(
-    "2. Somebody logs turns of the wheel and calls them meters. The wheel has a diameter of "
-    "4 inches. What happens to kV?",
+    "2. The code logs turns of the wheel as if they were meters. The wheel has a diameter of "
+    "4 inches. How large is the kV from this log?",
     "it is right anyway",
     "3.1 times too small",
     "6.3 times too small",
     "2 times too big",
 )
 guess_score = Prediction(
-    "3. For which of the wrong programs does the simulated velocity R² fall below 0.9?",
+    "3. For which of the wrong programs is the simulated velocity R² below 0.9?",
     "for all",
     "for some",
     "for none",
@@ -577,8 +586,8 @@ display(guess_gain, guess_factor, guess_score)
 # | program | the mistake in the code |
 # |---|---|
 # | correct | none |
-# | share of the battery | `set(volts / 12)`, logs the commanded volts |
-# | …but logs applied volts | `set(volts / 12)`, logs `getMotorVoltage()` |
+# | share of the battery | `set(volts / 12)`, and the log contains the commanded volts |
+# | …but logs applied volts | `set(volts / 12)`, and the log contains `getMotorVoltage()` |
 # | turns called meters | `Meters.of(wheelTurns)` |
 # | radians taken for turns | `circumference * radians` |
 # | encoder inverted | `setInverted` forgotten |
@@ -621,8 +630,8 @@ programs = {
 }
 
 # %% [markdown]
-# Choose a program. The upper picture shows its log; a thin dotted line shows what really happened.
-# The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
+# Choose a program. The upper picture shows its log. A thin dotted line in it shows what really
+# happened. The lower picture shows each gain from this log, divided by the true gain: 1 is correct.
 
 
 # %%
@@ -648,7 +657,7 @@ show_interactive(
 display(*virtual_robot("share of the battery"))
 
 # %% [markdown]
-# Here are all seven:
+# The next table shows the gains and both R² for all seven programs:
 
 # %%
 Table(HEADER, tuple(row(name, log) for name, (log, _) in programs.items()))
@@ -659,66 +668,71 @@ off = {gain: 100 * (asked.gains[gain] / truth[gain] - 1) for gain in truth}
 turns = fit(programs["turns called meters"][0], method="sysid").gains["kV"] / truth["kV"]
 worst = min(fit(log, method="sysid").simulated_velocity_r2 for log, _ in programs.values())
 print("1.", guess_gain.reveal("kA"))
-print(f"   Commanded volts: kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
+print("   Errors with the commanded volts:", end=" ")
+print(f"kS {off['kS']:+.0f} %, kV {off['kV']:+.0f} %, kA {off['kA']:+.0f} %.")
 print("2.", guess_factor.reveal("3.1 times too small"))
 print(
-    f"   kV is {1 / turns:.2f} times too small: the circumference is 1/{1 / CIRCUMFERENCE:.2f} m."
+    f"   kV is {1 / turns:.2f} times too small, because the wheel's circumference is "
+    f"1/{1 / CIRCUMFERENCE:.2f} m."
 )
 print("3.", guess_score.reveal("for none"))
-print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
+print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f}.")
 
 # %% [markdown]
 # ### Explain what you saw
 #
-# - **Share of the battery.** At the start of the step the current is large, the battery voltage
-#   drops, and the motors get less than the log says. The robot looks heavier than it is: **kA** has
-#   the largest error. At a steady speed the current is small, so kV is hardly wrong.
-# - **…but logs applied volts.** The gains are right again. The robot drove as before; only the log
-#   differs. *Log the applied voltage*: it costs nothing. (With `setVoltage`, commanded and applied
-#   voltage also differ when a current limit, an empty battery or a brownout acts.)
-# - **Wrong units** multiply kV and kA by the same factor, and do not change kS, because kS has no
-#   distance in its unit. You can recognize the factor: 2π, a circumference, a gear ratio.
-# - **Encoder inverted** makes every gain negative. No real robot has a negative kV.
-# - **One motor of each pair:** the log is correct, but you will drive with all motors. kS and kA
-#   double, because each volt now gives half the force. kV stays.
-# - **R² shows none of this.** With a wrong unit or sign it cannot: the log is a perfect log of
-#   another robot.
+# - **Share of the battery.** At the start of the step the current is large, so the battery voltage
+#   drops. The motors get fewer volts than the log says. The robot looks heavier than it is: **kA**
+#   has the largest error. At a steady speed the current is small, so the error of kV is small.
+# - **…but logs applied volts.** The gains are right. The robot drove as with the program before;
+#   only the log is different. *Log the applied voltage*: it is no extra work. (Even with
+#   `setVoltage`, commanded and applied voltage differ during a brownout, with an empty battery, or
+#   while a current limit acts.)
+# - **Wrong units** multiply kV and kA by the same factor. They do not change kS, because kS is in
+#   volts. You can recognize the factor: it is 2π, a circumference or a gear ratio.
+# - **Encoder inverted:** every gain is negative. No real robot has a negative kV.
+# - **One motor of each pair:** the log is correct, but later you will drive with all motors. With
+#   half the motors, each volt gives half the force, so kS and kA double. kV stays the same.
+# - **R² shows none of these mistakes.** R² cannot show a wrong unit or sign, because the model fits
+#   such a log as well as before.
 
 # %% [markdown]
 # ## 5 From your robot to your computer
 #
 # 1. Call `DataLogManager.start()` when the robot program starts, if your code does not do it yet.
-# 2. Run the four tests (lesson 5 shows each step). **One routine per log:** switch the robot off
-#    and on before you test another mechanism. WPILib's docs say that analysis fails otherwise.
-#    ([Running the Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
+# 2. Run the four tests (lesson 5 shows how). **One routine per log:** switch the robot off and on
+#    before you test another mechanism. WPILib's docs say that otherwise the analysis fails.
+#    ([Running the
+#    Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # 3. Download the `.wpilog` file with WPILib's Data Log Tool or with AdvantageScope (lesson 5,
 #    section 5).
-# 4. Fit it on your own computer. In a terminal:
+# 4. Fit the log on your own computer. In a terminal, type:
 #
 # ```
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
 # The analysis type is `simple` unless you add `--type elevator` or `--type arm`. WPILib's SysId
-# window starts with *Elevator*, so check its menu.
+# window starts with the type *Elevator*, so check its menu.
 #
 # <details><summary>For mentors: where the log is</summary>
 #
 # > **Lesson says:** the default path is `/home/lvuser/logs/`.
 # >
-# > **Source says:** on a 2026 roboRIO, a FAT32 USB stick comes first: `/u/logs`. Without one, it is
-# > `/home/lvuser/logs`. ([WPILib docs: Data
-# > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html)) A 2027 Systemcore
-# > without a stick has `/home/systemcore/logs`: that is from the source code of WPILib 2027, which
-# > is not released yet, and the docs do not mention it yet.
+# > **Source says:** on a 2026 roboRIO, a FAT32 USB stick comes first: if there is one, the folder
+# > is `/u/logs`. Without a USB stick, the folder is `/home/lvuser/logs`. ([WPILib docs: Data
+# > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html)) On a 2027
+# > Systemcore without a USB stick, the folder is `/home/systemcore/logs`. This comes from the
+# > source code of WPILib 2027, which is not released yet. The docs do not mention it yet.
 # >
-# > **Try it:** find yesterday's log of your robot before you need today's.
+# > **Try it:** find an old log of your robot before you need a new one.
 # </details>
 
 # %% [markdown]
 # ## 6 Spot five defects
 #
-# This code compiles and moves the robot. Find five defects that ruin the data or endanger someone.
+# This code compiles and moves the robot. Find five defects that make the data wrong or put somebody
+# in danger.
 #
 # ```java
 # private final SysIdRoutine m_routine =
@@ -743,17 +757,20 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #
 # <details><summary>The five defects, and some more</summary>
 #
-# 1. `set(voltage / 12)` sets a share of the battery, not a voltage. Use `setVoltage`.
+# 1. `set(voltage / 12)` sets a fraction of the battery voltage, not a voltage. Use `setVoltage`.
 # 2. `m_lastRequest` is the *commanded* voltage. Log `getMotorVoltage()`.
-# 3. A TalonFX gives **rotations**. Wrapping the number in `Radians` makes kV 2π times too large.
-# 4. `onTrue`: the test continues after you release the button. Use `whileTrue`.
-# 5. `kForward` twice: there is no dynamic reverse test, and SysId needs all four.
+# 3. A TalonFX gives **rotations**. If the code calls this number `Radians`, kV is 2π times too
+#    large.
+# 4. With `onTrue` the test continues after you release the button. Use `whileTrue`.
+# 5. The last two lines both say `kForward`, so there is no dynamic reverse test. SysId needs all
+#    four tests.
 #
-# Also: 7 V is a lot for a first step; the driver's own controller without a guard is dangerous; and
-# no comment says which button does what.
+# There are three more: 7 V is a lot for a first step. It is dangerous to use the driver's
+# controller without a guard. And no comment says which test a button starts.
 # </details>
 #
-# **One more, in Python.** WPILib's docs make the commands like this. Which error stops the program?
+# **Find one more defect, in Python.** WPILib's docs make the commands like this. Which error stops
+# the program?
 #
 # ```python
 # def sysid_dynamic(self, direction: SysIdRoutine.Direction) -> commands2.Command:
@@ -762,22 +779,23 @@ print(f"   The lowest simulated velocity R² of all seven is {worst:.3f}.")
 #
 # <details><summary>The defect</summary>
 #
-# `SysIdRoutine` is the class, and a class has no motors. Python uses the direction as `self` and
-# stops with a `TypeError` when you bind the buttons: an argument is missing. Call the method of
-# *your* routine: `self.routine.dynamic(direction)`.
-# ([source of WPILib's docs, at one commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
+# `SysIdRoutine` is the class, not your routine. Python uses the direction as `self`, so an argument
+# is missing. The program stops with a `TypeError` when it binds the buttons. Call the method of
+# *your* routine: `self.routine.dynamic(direction)`. ([source of WPILib's docs, at one
+# commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # </details>
 
 # %% [markdown]
 # ## 7 System check
 #
-# Before you press the first button, check all five:
+# Before you press the first button, check these five points:
 #
 # - [ ] The drive callback sets a **voltage** on **every** motor, and nothing corrects the motion.
-# - [ ] The log holds **applied** voltage, position and velocity, in the mechanism's own unit.
-# - [ ] Push the mechanism forward by hand: position and velocity **grow**. A small positive voltage
-#   moves it the same way.
-# - [ ] Four different commands on four buttons, `whileTrue`, behind a **guard**.
+# - [ ] The log holds **applied** voltage, position and velocity. Position and velocity are those of
+#   the mechanism, not of the motor.
+# - [ ] When you push the mechanism forward by hand, the position **grows** and the velocity is
+#   positive. A small positive voltage also moves the mechanism forward.
+# - [ ] Four different commands are on four buttons, with `whileTrue` and behind a **guard**.
 # - [ ] The limits in the motor controller are set, the timeout fits the room, and somebody has a
 #   hand on *Disable*.
 #
@@ -794,12 +812,12 @@ quick = QuickCheck(
         "volts. Which gains are wrong when the battery gives 11 V all the time?"
     ),
     {
-        "none": "A share of 11 V is not the same share of 12 V.",
+        "none": "The motors get a fraction of 11 V, but the log says the same fraction of 12 V.",
         "only kA": (
-            "That happens when the battery voltage drops for a moment. Here the voltage is wrong "
-            "in every row, also at a steady speed."
+            "Only kA is wrong if the battery voltage drops just for a moment. Here the logged "
+            "voltage is wrong in every row, also at a steady speed."
         ),
-        "all three": "The log says more volts than the motors got, in every row.",
+        "all three": "In every row, the log says more volts than the motors got.",
     },
     right="all three",
 )
@@ -811,34 +829,35 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Divide: 2.5 / 0.40 is about 6.3, which is 2π. Somebody took radians for rotations, so the log's
-# velocities are 2π times too large. Check kA as well: it must be wrong by the same factor, and kS
-# must be right.
+# Divide: 2.5 / 0.40 is about 6.3, which is 2π. The code uses radians as if they were rotations, so
+# the log's velocities are 2π times too large. Check kA as well: it must be wrong by the same
+# factor, and kS must be right.
 # </details>
 #
-# **2.** A teammate says: "SysId bypasses limits anyway, so I left them out." What do you say?
+# **2.** A teammate says: "No limit works during a SysId test, so I set no limits." What do you
+# answer?
 #
 # <details><summary>Answer</summary>
 #
-# A test only bypasses the safety code in your commands. Limits in the motor controller work if you
-# set them up, so do it. And if a limit acts during a test, run that test again: from that moment
-# the data show the limit, not the motor.
+# During a test, only the safety code in your commands does not run. Limits in the motor controller
+# work if you set them up, so set them. If a limit acts during a test, run this test again: while
+# the limit acts, you measure the limit and not the motor.
 # </details>
 #
-# **3.** You have two logs of one robot. Both have a simulated velocity R² near 0.99, but one gives
-# twice the kA of the other. Which one is right?
+# **3.** You have two logs of one robot. Both have a simulated velocity R² near 0.99, but one log
+# gives twice the kA of the other. Which kA is right?
 #
 # <details><summary>Answer</summary>
 #
-# R² does not show it. Look at the code: does it drive all motors, does it log the applied voltage?
-# Then compare kA with the kA that follows from motors and mass (lesson 1).
+# R² does not show which kA is right. Look at the code: does it drive all motors, and does it log
+# the applied voltage? Then compute kA from motors and mass (lesson 1), and compare.
 # </details>
 #
 # **4.** Why does the routine belong inside the subsystem, and why does it get `this`?
 #
 # <details><summary>Answer</summary>
 #
-# The subsystem owns the motors and the encoders that the callbacks use. With `this`, the test
+# The subsystem contains the motors and the encoders that the callbacks use. With `this`, the test
 # commands *require* the subsystem, so no other command can drive it while a test runs.
 # </details>
 
@@ -852,10 +871,10 @@ quick
 # grade exercise4
 # ```
 #
-# It reads your code and says what is wrong. If RobotPy is installed, it also runs Python code in
-# WPILib's simulation. Hints cost nothing: `grade exercise4 --hint`.
+# This command reads your code and says what is wrong. If RobotPy is installed, it also runs Python
+# code in WPILib's simulation. Hints cost nothing: `grade exercise4 --hint`.
 #
-# The exercise asks for 0.5 V/s, 3.5 V and 10 s. On a real robot, choose your own numbers (lesson
+# The exercise asks for 0.5 V/s, 3.5 V and 10 s. For a real robot, choose your own numbers (lesson
 # 3).
 #
 # **Exercise 5** ([exercises/exercise5/README.md](../exercises/exercise5/README.md)). Bind four
@@ -866,11 +885,11 @@ quick
 # ```
 #
 # **While you write code,** leave `grade watch exercise4` running in a terminal next to your editor:
-# it grades each time you save the file.
+# it grades your code each time you save the file.
 #
 # **On your own robot:** write the four bindings and the guard, with a comment on each that names
-# the test and what it measures. Then ask somebody who does not know your code to find the dynamic
-# reverse button.
+# the test and what it measures. Then ask somebody who does not know your code to find the button
+# for the dynamic reverse test.
 #
 # **Next:** [Lesson 5, pre-flight and the first run](05_preflight_and_run.ipynb). Is everything
 # ready?

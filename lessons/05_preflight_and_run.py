@@ -19,9 +19,9 @@
 # **At the end you can**
 #
 # - name the four steps of a characterization;
-# - choose where the tape goes on the floor, and say where the robot will stop;
-# - decide *go* or *no-go* from five checks, and say what each check prevents;
-# - find your log, on a roboRIO of 2026 and on a Systemcore of 2027;
+# - choose the place of the tape on the floor, and say where the robot will stop;
+# - decide *go* or *no-go* from five checks, and say which problem each check prevents;
+# - find your log on a roboRIO (2026) and on a Systemcore (2027);
 # - run the four tests on a real robot, and find out within a minute whether the log is good.
 
 # %% [markdown]
@@ -31,31 +31,30 @@
 # with a constant voltage (the *step*, or dynamic test). The code of the test does not check where
 # the mechanism is. The person at the button has to stop it.
 #
-# So before the test you decide how far the mechanism may go, and you check that everything is
-# ready. Pilots call this a *pre-flight check*. It takes five minutes. In this lesson you skip one
-# check at a time and see what happens.
+# So before the test you decide how far it may move, and check that everything is ready. Pilots call
+# this a *pre-flight check*. You need five minutes for it. In this lesson you skip one check at a
+# time and see what happens.
 #
 # ### The four steps
 #
 # | step | what you do | where you learn it |
 # |---|---|---|
 # | 1. wire the routine | add a `SysIdRoutine` to the subsystem, bind four buttons | lesson 4 |
-# | 2. run the tests | check, run four tests, fetch the log | **this lesson** |
+# | 2. run the tests | make five checks, run four tests, fetch the log | **this lesson** |
 # | 3. inspect and fit | look at the data first, then compute the gains | lessons 6 and 7 |
 # | 4. place the gains | put them into the constants and the feedforward | lesson 8 |
 #
 # The order matters: if nobody looked at the data, you cannot trust the gains.
-#
-# Learn the four steps in order: exercise 6 asks for them.
 #
 # <details><summary>For mentors: where the four steps come from</summary>
 #
 # > **Lesson says:** "The SysId Process: Four Steps … Click each step to understand what you're
 # > doing and why."
 # >
-# > **Source says:** the source lesson's text names only the first step; the other three were behind
-# > a click that did not reach us. The table is our reading. WPILib's pages use the same order:
-# > create the routine, run it, load the data, view diagnostics, analyze. ([WPILib docs: System
+# > **Source says:** the source lesson's text names only the first step. We could not see the
+# > others, because they were on a page that opens with a click. The other three are our
+# > interpretation. WPILib's pages use the same order: create the routine, run it, load the data,
+# > view diagnostics, analyze. ([WPILib docs: System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
 # >
 # > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.
@@ -87,7 +86,7 @@ print(ROBOT.summary)
 Table(
     ("gain", "true value", "unit"),
     (("kS", TRUTH["kS"], "V"), ("kV", TRUTH["kV"], "V·s/m"), ("kA", TRUTH["kA"], "V·s²/m")),
-    caption="Our robot. We know its true gains, because it is simulated.",
+    caption="We know the true gains of our robot, because it is simulated.",
 )
 
 # %% [markdown]
@@ -100,23 +99,22 @@ Table(
 #
 # (The formula ignores a small delay.)
 #
-# You need time to react before you let go of the button, and the motors still drive. Then they
-# brake, if their neutral mode is *Brake* (the neutral mode says what a motor does at 0 V). The
-# wheels can only brake as hard as they grip the carpet. So braking takes at least another `v² /
-# (2·μ·g)` meters, with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a
-# smooth floor).
+# Until you let go of the button, the motors still drive. Then the motors brake, if their neutral
+# mode is *Brake* (the neutral mode says what a motor does at 0 V). The wheels can only brake as
+# hard as they grip the carpet. So the robot needs at least another `v² / (2·μ·g)` meters to stop,
+# with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
 #
 # **Predict:**
 
 # %%
 guess_room = Prediction(
-    "You want to reach 2 m/s. With a ramp half as steep, do you need more room or less?",
+    "The robot should reach 2 m/s. Do you need more room or less if you halve the voltage ramp?",
     "less room",
     "the same",
     "more room",
 )
 guess_ten = Prediction(
-    "0.5 V/s for 10 s is a common setting. How far does our robot go?",
+    "A common test is a ramp of 0.5 V/s for 10 s. How far does our robot drive in this test?",
     "about 1 m",
     "about 3 m (10 feet)",
     "about 9 m (30 feet)",
@@ -145,15 +143,15 @@ slow = drive_test(ROBOT, sim.Routine(ramp=0.5, timeout=10.0), test=RAMP, floor=H
 print(guess_room.reveal("more room"))
 print(guess_ten.reveal("about 9 m (30 feet)"))
 gone = slow.final_position
-print(f"0.5 V/s for 10 s takes the robot {gone:.1f} m, which is {gone / FOOT:.0f} feet.")
+print(f"With 0.5 V/s for 10 s, the robot drives {gone:.1f} m, or {gone / FOOT:.0f} feet.")
 Table(
     ("ramp [V/s]", "2 m/s after [s]", "distance until then [m]", "kV·v²/(2·ramp) [m]"), tuple(rows)
 )
 
 # %% [markdown]
-# "Slow is safe" is wrong here. With a slow ramp the robot drives for a long time, and that takes a
-# lot of room. In a short room, use a steeper ramp. (Its disadvantage: you read off a larger kS, see
-# lesson 3.)
+# "Slow is safe" is wrong here. With a slow ramp the robot drives for a long time and needs more
+# room. In a short room, use a steeper ramp. (But then the kS that you read off is too large: lesson
+# 3.)
 #
 # WPILib asks for "at least 10' of space, ideally closer to 20'" (10 feet are 3 m). CTRE recommends
 # 15 m. How fast is the robot after 10 feet?
@@ -163,8 +161,9 @@ Table(
 # > **Lesson says:** "clear at least 10 feet forward and 10 feet back (more is better for
 # > quasistatic)".
 # >
-# > **Source says:** WPILib: "at least 10' of space, ideally closer to 20'", and the drive "can not
-# > be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib docs: Running the
+# > **Source says:** WPILib recommends "at least 10' of space, ideally closer to 20'", and says that
+# > the drive "can not be accurately characterized while on blocks". CTRE recommends 15 m. ([WPILib
+# > docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html),
 # > [CTRE docs: Plumbing & Running
 # > SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst))
@@ -183,40 +182,40 @@ for ramp in (0.5, 1.0, 2.0):
 Table(
     ("ramp [V/s]", "voltage reached [V]", "speed reached [m/s]", "of its top speed"),
     tuple(rows),
-    caption="Speed after 10 feet",
+    caption="How fast the robot is after 10 feet",
 )
 
 # %% [markdown]
-# Ten feet give you only *some* data, and the robot still needs room to brake. More room allows more
-# speed, and you need speed to measure kV.
+# Ten feet give you only *some* data, and the robot still needs room to brake. With more room it
+# gets faster, and you need speed to measure kV.
 #
-# **And on blocks?** If the robot stands on blocks, its wheels hang in the air. The motors only turn
-# the wheels. Suppose that the load on the motors is then a tenth of the robot's mass:
+# **On blocks**, the wheels are in the air, and the motors turn only the wheels. Suppose that the
+# load on the motors is then a tenth of the robot's mass:
 
 # %%
 routine = sim.Routine(ramp=1.0, step=3.5, timeout=10.0)
 on_blocks = simulate(replace(ROBOT, load=6.0), routine, rng=np.random.default_rng(5))
 lifted = fit(on_blocks, method="sysid").gains
-print(f"On blocks: kV ÷ true = {lifted['kV'] / TRUTH['kV']:.2f}")
-print(f"           kA ÷ true = {lifted['kA'] / TRUTH['kA']:.2f}")
+print(f"On blocks, the fit gives {lifted['kV'] / TRUTH['kV']:.2f} times the true kV")
+print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 
 # %% [markdown]
-# Here kV is almost right (a real robot also has less friction on blocks). But this kA only
-# describes the wheels and the motors. So test on the floor, and compute the room.
+# Here kV is almost right (a real robot also has less friction on blocks). But kA on blocks only
+# describes wheels and motors. So test on the floor, and compute the room.
 
 # %% [markdown]
 # ## 3 Doing it: the runway
 #
-# Now you are the person at the button. The wall is 12 m away. There is a strip of tape on the
-# floor. You let go of the button 0.3 s after the front bumper passes the tape.
+# Now you press the button. The wall is 12 m away, and there is tape on the floor. You let go of the
+# button 0.3 s after the front bumper passes the tape.
 #
-# The ramp is 1 V/s, the step 3.5 V, the timeout 10 s.
+# The ramp is 1 V/s, the step is 3.5 V, and the timeout is 10 s.
 #
 # **Predict:**
 
 # %%
 guess_stop = Prediction(
-    "Tape at 7 m, wall at 12 m, a ramp of 1 V/s. Where does the robot stop?",
+    "The tape is at 7 m, the wall is at 12 m, and the ramp is 1 V/s. Where does the robot stop?",
     "right at the tape",
     "about 1 m past it",
     "about 3 m past it",
@@ -225,8 +224,8 @@ guess_stop = Prediction(
 guess_stop
 
 # %% [markdown]
-# Move the sliders. *Moment* chooses the time that you see: 0 is the start of the test, 1 is the
-# end. The dashed outline shows where the robot stops.
+# Move the sliders. *Moment* sets the time: 0 is the start of the test, 1 is the end. The dashed
+# outline shows where the robot stops.
 
 # %%
 WALL = 12.0  # [m]
@@ -263,31 +262,31 @@ went = drive_test(ROBOT, routine, test=RAMP, floor=Floor(wall=WALL, tape=7.0))
 top = float(went.velocity.max())
 print(guess_stop.reveal("about 1 m past it"))
 let_go = float(np.interp(went.released, went.time, went.position))
-print(f"It stops {went.final_position - 7.0:.2f} m past the tape:")
-print(f"  reaction {let_go - 7.0:.2f} m, braking {went.final_position - let_go:.2f} m.")
-print(f"  v²/(2·μ·g) at {top:.2f} m/s would be {top**2 / (2 * GRIP * 9.81):.2f} m.")
+print(f"The robot stops {went.final_position - 7.0:.2f} m past the tape:")
+print(f"  {let_go - 7.0:.2f} m until you react, and {went.final_position - let_go:.2f} m to brake.")
+print(f"  The formula v²/(2·μ·g) gives {top**2 / (2 * GRIP * 9.81):.2f} m at {top:.2f} m/s.")
 
 # %% [markdown]
-# To place the tape, start at the wall. Go back by the reaction distance, the braking distance and a
-# reserve, and put the tape there. You need tape for each direction.
+# To place the tape, start at the wall and go back by the reaction distance, the braking distance
+# and a reserve. You need tape for each direction.
 #
 # ### Now skip a check
 #
-# The hall and the robot are the same, but you skip one check:
+# Everything stays the same, but you skip one check:
 #
 # | skipped | what was wrong that morning |
 # |---|---|
 # | 1 room | there is no tape on the floor, so you do not know when to let go |
-# | 2 battery | the robot drove all day: 11.6 V at rest, and an old battery (resistance 35 mΩ) |
-# | 3 encoder | the encoder is inverted: when the robot drives forward, the position falls |
+# | 2 battery | the battery is old (35 mΩ) and nearly empty (11.6 V at rest) |
+# | 3 encoder | the encoder is inverted: when the robot drives forward, the logged position falls |
 # | 4 log | nobody knows where the robot saves the log |
-# | 5 guard | nothing locks the tests: in the pit, 1 m from a wall, somebody presses a button |
+# | 5 guard | no guard locks the tests: somebody presses a button in the pit, 1 m from a wall |
 #
 # **Predict:**
 
 # %%
 guess_check = Prediction(
-    "You skip one of these checks. The robot drives as always, but the log is wrong. Which check?",
+    "The robot drives as always, but the log is wrong. Which check did you skip?",
     "room",
     "battery",
     "encoder",
@@ -328,18 +327,18 @@ show_interactive(
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# First look at *2 battery* in the *step*. The step draws so much current that the battery voltage
+# First look at *2 battery* with the *step*. The step draws so much current that the battery voltage
 # falls below the dashed line. Then the robot controller turns the motors off to protect itself:
-# this is a *brownout*. The battery recovers, the motors start again, and so on. The robot hardly
-# moves. (A real robot switches more slowly.) Then try the other checks.
+# this is a *brownout*. The battery recovers, the motors start, and the voltage falls again. The
+# robot hardly moves. (A real robot switches more slowly.) Then try the other checks.
 #
 # If you skip check 3 or 4, the robot drives as always.
 #
-# ### What the log is worth
+# ### Which logs are good?
 #
-# Each row of the next table is one morning: the robot ran all four tests, and SysId's method
-# computed the gains. A value of 1 means that the gain is right. The program `sysid inspect` looks
-# for known faults (lesson 6).
+# For each row of the next table, the robot ran all four tests, and SysId's method computed the
+# gains. A value of 1 means that the gain is right. The program `sysid inspect` looks for known
+# faults (lesson 6).
 
 # %%
 sound = simulate(ROBOT, routine, rng=np.random.default_rng(5))
@@ -375,15 +374,15 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # %% [markdown]
 # ### Explain
 #
-# - **1 room.** The robot hits the wall, and the log is damaged, too: at the wall there is voltage
-#   without speed. One bad ramp ruins all gains.
+# - **1 room.** The robot hits the wall. The log is wrong, too: at the wall there is voltage without
+#   speed. One bad ramp makes all gains wrong.
 # - **2 battery.** The Driver Station shows the brownout. `sysid inspect` finds it, because the
 #   applied voltage drops to 0 again and again.
 # - **3 encoder.** On the floor, *everything looks normal*. Nobody notices the mistake until every
 #   gain is negative.
 # - **4 log.** The tests were perfect, and you have no log.
-# - **5 guard.** A later log is good. But in the step the robot hits the wall, and it may hurt
-#   somebody.
+# - **5 guard.** In the step test the robot hits the wall, and may hurt somebody. A later log is
+#   good.
 
 # %% [markdown]
 # ## 4 Five checks, and the reasons for them
@@ -391,28 +390,26 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # ### Room
 #
 # Clear the way in **both** directions, on the carpet that the robot will drive on. Compute the
-# distance (section 2), put tape down, and let a second person watch the tape. If you test an arm or
-# an elevator, move it by hand from end to end. Nothing may block it, and no cable may be too short.
+# distance (section 2), put tape down, and let a second person watch the tape. Move an arm or an
+# elevator by hand from end to end: nothing may block it, and no cable may be too short.
 #
 # Make the **timeout** only as long as your plan needs: it ends the test if you forget to let go.
-# Begin with a **small step**. The wheels of a strong, light drivetrain slip even below 3 V (lesson
-# 4).
+# Begin with a **small voltage step**. The wheels of a strong, light drivetrain slip even below 3 V
+# (lesson 4).
 #
 # ### Battery
 #
 # A charged battery shows 12.7 V or more at rest. Even 12 V is not yet a brownout: a roboRIO 1
-# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. What does an
-# empty battery do to kA? The next cell runs the tests with two batteries and two steps. It computes
-# kA once from the voltage that was **applied** to the motors, and once from the voltage that the
-# code **commanded**.
+# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. Is kA wrong
+# then? The next cell runs the tests with two batteries and two steps. It computes kA once from the
+# voltage that was **applied** to the motors, and once from the voltage that the code **commanded**.
 #
 # <details><summary>For mentors: batteries below 12 V, with source</summary>
 #
 # > **Lesson says:** "A battery below 12V produces unreliable kA values and may brownout mid-test".
 # >
-# > **Source says:** motors are disabled below 6.3 V on a roboRIO 1; on a roboRIO 2 the threshold
-# > can be set, and is 6.75 V if you do not. Below 12 V is not yet a brownout.
-# > ([WPILib docs: Brownouts, at one
+# > **Source says:** a roboRIO 1 disables the motors below 6.3 V. On a roboRIO 2 you can set this
+# > limit; its default is 6.75 V. Below 12 V is not yet a brownout. ([WPILib docs: Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
 # > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
@@ -452,26 +449,27 @@ Table(
         "kA ÷ true, commanded voltage",
     ),
     tuple(rows),
-    caption=f"Charged: {ROBOT.battery.rest} V at rest. Tired: {TIRED.battery.rest} V, and old.",
+    caption=f"The charged battery has {ROBOT.battery.rest} V at rest. The tired battery is old and "
+    f"has {TIRED.battery.rest} V.",
 )
 
 # %% [markdown]
-# Without a brownout, both columns are right, even with the tired battery: this robot calls
-# `setVoltage`, and its motor controllers compensate for the lower battery voltage. `set` does not
-# (lesson 4). With a brownout, both columns are wrong, and the commanded one is far worse. So charge
-# the battery, begin with a small step, and log the applied voltage.
+# Without a brownout, both kA columns are right, even with the tired battery: this robot calls
+# `setVoltage`, and its motor controllers compensate for the lower battery voltage. With `set` they
+# do not (lesson 4). With a brownout, both are wrong, and kA from the commanded voltage is far
+# worse. So charge the battery, begin with a small step, and log the applied voltage.
 #
-# Require **12.5 V or more at rest**. On a battery tester, require 20 mΩ or less.
+# Require **12.5 V or more at rest**, and 20 mΩ or less on a battery tester.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half flat
+# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half empty
 # or worse: [a table of voltages, at one
 # commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
 # says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
 # battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
-# swapped and charged". They also advise against a battery of more than 20 mΩ in matches.
-# ([WPILib docs: Robot Battery Basics, at one
+# swapped and charged". These docs also say that you should not use a battery of more than 20 mΩ in
+# matches. ([WPILib docs: Robot Battery Basics, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
@@ -480,21 +478,21 @@ Table(
 # Disable the robot and push the mechanism **forward** by hand. On the dashboard or in
 # AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
 # enable the robot and apply a small positive voltage: the mechanism must move forward, too. *Plus
-# volts, plus velocity* is the most important check, because SysId's score R² stays high even if the
-# sign is wrong (lesson 6).
+# volts, plus velocity* is the most important check: a positive voltage must give a positive
+# velocity. SysId's score R² stays high even if the sign is wrong (lesson 6).
 #
 # ### Log
 #
-# Before the first test, fetch an **older** log, as practice. Section 5 shows where the logs are.
+# Before the first test, fetch an **older** log, as practice. Section 5 shows where logs are.
 #
 # ### Guard
 #
 # A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Lock the
-# tests and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable in
-# Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
-# *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables. The **space
-# bar** is the emergency stop: it works even if another window is in front, and you have to reboot
-# the roboRIO afterwards. ([WPILib docs: Driver
+# tests with it and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable
+# in Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
+# *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables the robot. The
+# **space bar** is the emergency stop: it works even if another window is in front, and you have to
+# reboot the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
 #
 # Safety code in your own *commands* does not run during a test. Limits *in the motor controller*
@@ -506,10 +504,11 @@ Table(
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
 # > closed-loop correction."
 # >
-# > **Source says:** half of this is true. Nothing corrects the motion (this is called *open loop*).
-# > But limits *in the motor controller* go on working in a test, if you have set them: "it is up to
-# > you to set up hard or soft limits to prevent injury or damage". What a test bypasses is what
-# > your own **commands** do: it has the subsystem for itself. ([WPILib docs: Running the
+# > **Source says:** half of this is true. During a test, nothing corrects the motion (this is
+# > called *open loop*). But limits *in the motor controller* go on working in a test, if you have
+# > set them: "it is up to you to set up hard or soft limits to prevent injury or damage". Only the
+# > safety code in your own **commands** does not run, because no other command can use the
+# > subsystem during a test. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell sets a current limit of 40 A per motor and runs the tests.
@@ -524,17 +523,18 @@ arrived, asked = (
     fit(one, method="sysid").gains["kA"] / TRUTH["kA"]
     for one in (limited, as_asked(limited, routine))
 )
-print(f"Highest current of a motor in all four tests: {highest:.0f} A. The limit acts.")
-print(f"kA ÷ true: {arrived:.2f} with the applied voltage, {asked:.2f} with the commanded one.")
+print(f"The highest current of a motor in all four tests is {highest:.0f} A: the limit acts.")
+print(f"With the applied voltage, the fit gives {arrived:.2f} times the true kA.")
+print(f"With the commanded voltage, it gives {asked:.2f} times the true kA.")
 
 # %% [markdown]
-# So the limit **protects** you. But while it acts, a log of the commanded voltage is wrong.
+# So the limit **protects** you. But while a limit acts, a log of the commanded voltage is wrong.
 #
 # Two more rules:
 #
-# - **One mechanism per log.** WPILib: if you run a second routine "without extracting the log or
-#   power-cycling the roboRIO in between, analysis will fail".
-# - **Each test once.** If one went wrong, begin a new log and run all four again. (If a log
+# - **One mechanism per log.** WPILib says: if you run a second routine "without extracting the log
+#   or power-cycling the roboRIO in between, analysis will fail".
+# - **Each test once.** If one test went wrong, begin a new log and run all four again. (If a log
 #   contains a test twice, SysId 2026 uses the first one.)
 
 # %% [markdown]
@@ -554,21 +554,22 @@ print(f"kA ÷ true: {arrived:.2f} with the applied voltage, {asked:.2f} with the
 # └─ URCL (REV motors): it is inside the .wpilog → export it with AdvantageScope (section 6)
 # ```
 #
-# The table shows three robots. Which row is yours?
+# The table shows three robots. Which is like yours?
 #
 # <details><summary>For mentors: the log folder, with sources</summary>
 #
 # > **Lesson says:** "the default path is /home/lvuser/logs/. Retrieve them via the Driver Station
 # > log folder tool or AdvantageScope's file fetch feature."
 # >
-# > **Source says:** a USB stick comes first: `/u/logs`. The Driver Station copies logs only if you
-# > ticked *Upload WPILogs* (gear icon), into `C:\Users\Public\Documents\FRC\Log Files\WPILogs`. The
-# > Data Log Tool and AdvantageScope fetch them always, but not through the radio on a competition
-# > field, whose firewall is in the way: use a USB cable there. ([WPILib docs: Downloading Data
+# > **Source says:** if there is a USB stick, the folder is `/u/logs`. The Driver Station copies
+# > logs only if you ticked *Upload WPILogs* (gear icon). It copies them into
+# > `C:\Users\Public\Documents\FRC\Log Files\WPILogs`. The Data Log Tool and AdvantageScope can
+# > always fetch logs. But on a competition field the radio's firewall blocks them: use a USB cable
+# > there. ([WPILib docs: Downloading Data
 # > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog-download.html), [Data
 # > Logs](https://docs.wpilib.org/en/stable/docs/software/telemetry/datalog.html))
 # >
-# > **Try it:** answer for three robots, in the next cell. Then for yours.
+# > **Try it:** find the folder for the three robots in the next cell. Then find it for your robot.
 # </details>
 
 
@@ -596,21 +597,22 @@ Table(
 # USB cable: the firewall of the radio blocks them.) The Driver Station copies logs only if you
 # ticked *Upload WPILogs*.
 #
-# - **AdvantageScope:** *File* > *Download Logs…*. You should see a list, the newest at the top.
-#   Select, then click the ↓ sign. If it finds no robot: set its address and the log folder in the
-#   preferences (*App* > *Show Preferences…*).
+# - **AdvantageScope:** *File* > *Download Logs…*. You should see a list of logs, with the newest at
+#   the top. Select a log, then click the ↓ sign. If AdvantageScope finds no robot, set the robot's
+#   address and the log folder in the preferences (*App* > *Show Preferences…*).
 # - **Data Log Tool:** type your team number, the user `lvuser` and no password, then *Connect*. Go
-#   to the folder, tick the file, *Select Download Folder…*, *Download*. You should see *Download
-#   complete!*
-# - **Driver Station:** gear icon, *Upload WPILogs*, **before** you run. The file then appears on
-#   the laptop, in `C:\Users\Public\Documents\FRC\Log Files\WPILogs`.
-# - **The stick:** switch the robot off and pull the stick out. The logs are in its folder `logs`.
+#   to the log folder, tick the file, and click *Select Download Folder…*, then *Download*. You
+#   should see *Download complete!*
+# - **Driver Station:** click the gear icon and tick *Upload WPILogs* **before** you run the tests.
+#   The file then appears on the laptop, in `C:\Users\Public\Documents\FRC\Log Files\WPILogs`.
+# - **The USB stick:** switch the robot off and pull the USB stick out. The logs are in its folder
+#   `logs`.
 # </details>
 #
 # <details><summary>For 2027: what is not settled yet</summary>
 #
 # Systemcore and its tools are new. The folders above, and file names that begin with WPILIB instead
-# of FRC, come from WPILib's development branch. The folder of the stick on a Systemcore is not
+# of FRC, come from WPILib's development branch. The folder of a USB stick on a Systemcore is not
 # settled: WPILib's code says `/u/logs`, but teams that test a Systemcore report `/U/logs`. If
 # something looks different, follow the docs of your season.
 # </details>
@@ -621,20 +623,22 @@ Table(
 # 1. **Add the routine** (lesson 4), and `DataLogManager.start()` where the robot program starts.
 #    Deploy: in VS Code `Ctrl+Shift+P`, *WPILib: Deploy Robot Code*. *Expect:* the Driver Station
 #    shows *Robot Code* in green.
-# 2. **The five checks.** *Expect:* five times *go*.
+# 2. **Make the five checks.** *Expect:* five times *go*.
 # 3. **Power-cycle** the robot (off and on), so that the log contains nothing else.
-# 4. **Driver Station:** choose *Test*, if that is your guard; *Enable*. *Expect:* nothing moves.
-# 5. Hold **quasistatic forward** until the tape. *Expect:* slow, then faster, for 3 s or more.
-# 6. Hold **quasistatic reverse**. *Expect:* the same, back.
+# 4. **Driver Station:** choose *Test* if Test mode is your guard, then *Enable*. *Expect:* nothing
+#    moves.
+# 5. Hold **quasistatic forward** until the tape. *Expect:* a slow start, then more and more speed,
+#    for 3 s or more.
+# 6. Hold **quasistatic reverse**. *Expect:* the same, but backward.
 # 7. Hold **dynamic forward**, and let go early. *Expect:* a sudden start, then a steady speed.
-# 8. Hold **dynamic reverse**. *Expect:* the same, back.
+# 8. Hold **dynamic reverse**. *Expect:* the same, but backward.
 # 9. **Disable.** Fetch the log (section 5). *Expect:* one new `.wpilog`.
-# 10. `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
-# 11. `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
+# 10. Type `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
+# 11. Type `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
 #
 # You may run the four tests in any order.
 #
-# **Do step 10 before anybody packs up.** Repeating a test takes five minutes now, and an evening
+# **Do step 10 before anybody packs up.** To repeat a test takes five minutes now, and an evening
 # tomorrow.
 #
 # Here are steps 9 to 11 with a simulated log:
@@ -657,7 +661,7 @@ Table(
 )
 
 # %% [markdown]
-# In a terminal, with your own file:
+# In a terminal, with your own file, type:
 #
 # ```
 # sysid inspect FRC_20260214_153000.wpilog
@@ -665,7 +669,7 @@ Table(
 # ```
 #
 # An arm or an elevator needs `--type arm` or `--type elevator`. If your log has several motors,
-# name one: `--motor left`.
+# name one motor: `--motor left`.
 #
 # <details><summary>If the entries in your log have other names</summary>
 #
@@ -679,7 +683,8 @@ Table(
 # 1. *Log Loader*: *Open data log file…*
 # 2. Type `sysid-test-state` into *Filter*. Drag that entry to *Test State*.
 # 3. Drag *Position*, *Velocity* and *Voltage* of one motor to their slots.
-# 4. *Analysis Type*: check it. It starts on *Elevator*. *Units*: those of your log. *Load*.
+# 4. Check the *Analysis Type*: it starts on *Elevator*. Choose the *Units* of your log. Click
+#    *Load*.
 # 5. Look at the plots first (lesson 6), then at the gains.
 #    ([WPILib docs: Loading Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
 # </details>
@@ -687,19 +692,20 @@ Table(
 # %% [markdown]
 # ### Motors from CTRE or REV?
 #
-# The steps above work for all motors. Each maker also has its own logger: open your maker's box.
+# The steps above work for all motors. Each maker also has its own logger: open the box for your
+# motors.
 #
 # <details><summary>If your motors are CTRE's (Phoenix 6)</summary>
 #
-# You can log a TalonFX as in lesson 4. Or use CTRE's *SignalLogger*, which records each signal when
-# it arrives on the CAN bus, and not once per loop.
+# You can log a TalonFX as in lesson 4. You can also use CTRE's *SignalLogger*. It records each
+# signal when it arrives on the CAN bus, and not once per loop.
 #
 # 1. In `Config`, send the state to CTRE's log:
 #    `state -> SignalLogger.writeString("state", state.toString())`. The log callback is `null`.
-# 2. Bind `SignalLogger.start()` and `SignalLogger.stop()` to two buttons. Start, run the four
-#    tests, each once, stop.
-# 3. **Tuner X**, *Log Extractor*: choose the `.hoot` file on the robot and download it. It appears
-#    in the queue on the right. Choose WPILOG, then *Convert*.
+# 2. Bind `SignalLogger.start()` and `SignalLogger.stop()` to two buttons. Press start, run each of
+#    the four tests once, then press stop.
+# 3. Open *Log Extractor* in **Tuner X**. Choose the `.hoot` file on the robot and download it. The
+#    file appears in the queue on the right. Choose WPILOG, then *Convert*.
 # 4. In SysId, the *Test State* is the entry `state`, as you named it in step 1. Load `Position`,
 #    `Velocity` and `MotorVoltage` of that TalonFX. `MotorVoltage` is the applied voltage.
 #
@@ -707,43 +713,44 @@ Table(
 # ([CTRE docs: Plumbing & Running SysId](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/079a28341bc1ed380f3a4bc6e9fcec300517eabb/source/docs/api-reference/wpilib-integration/sysid-integration/plumbing-and-running-sysid.rst),
 # [Extracting Signal Logs](https://v6.docs.ctr-electronics.com/en/stable/docs/tuner/tools/log-extractor.html))
 #
-# Phoenix 6 sets current limits by itself (release 26.3): 120 A stator, which is the current in the
-# motor, and 70 A supply, which is what the controller draws from the battery. You have seen what a
-# limit does to a log of commanded volts.
+# Phoenix 6 (release 26.3) sets two current limits by itself. The stator limit is 120 A: stator
+# current is the current in the motor. The supply limit is 70 A: supply current is what the
+# controller draws from the battery. While a limit acts, a log of the commanded volts is wrong.
 # </details>
 #
 # <details><summary>If your motors are REV's</summary>
 #
 # You can log a SPARK as in lesson 4: `getAppliedOutput() * getBusVoltage()` is the applied voltage.
-# Or use *URCL*, a logger by Team 6328:
+# You can also use *URCL*, a logger by Team 6328:
 #
-# 1. `URCL.start()` after `DataLogManager.start()`; the log callback of `Mechanism` is `null`.
-# 2. Fetch the log, open it in **AdvantageScope**, *File* > *Export Data…*, format *WPILOG*, field
-#    set *Include Generated*. SysId cannot read the file before that.
+# 1. Call `URCL.start()` after `DataLogManager.start()`. The log callback of `Mechanism` is `null`.
+# 2. Fetch the log and open it in **AdvantageScope**. Choose *File* > *Export Data…*, the format
+#    *WPILOG* and the field set *Include Generated*. SysId can read only the exported file.
 # 3. Load `MotorPositionRotations`, `MotorVelocityRPM` and `AppliedOutputVoltage`.
 #    ([AdvantageScope docs: URCL](https://docs.advantagescope.org/more-features/urcl))
 #
 # There are three traps:
 #
 # - A SPARK sends most signals only when the robot program reads them. Read position, velocity and
-#   output once per loop, or switch them on in the SPARK's `SignalsConfig`; otherwise they are not
-#   in the log.
+#   output once per loop, or switch these signals on in the SPARK's `SignalsConfig`. Otherwise they
+#   are not in the log.
 # - The units are rotations and rotations per **minute** (unless you set conversion factors in the
 #   SPARK).
-# - A NEO's own encoder filters its velocity so much that it is about 0.1 s late (lesson 6).
+# - A NEO's own encoder filters the velocity so much that the logged velocity is about 0.1 s late
+#   (lesson 6).
 # </details>
 
 # %% [markdown]
 # ### Watch the tests live
 #
 # `sysid watch` reads the log while the robot writes it. After each test it fits the gains again and
-# says what to do next: which test is missing, which test to repeat, or that you have enough data.
+# says what to do next: run a missing test, repeat a test, or stop because you have enough data.
 #
-# <details><summary>Try it with a simulated robot, or use it with your own</summary>
+# <details><summary>Try it with a simulated robot, or use it with your own robot</summary>
 #
-# `exercises/exercise6/robot.py` is a robot program with a
-# `SysIdRoutine`, as in lesson 4. It runs its four tests in WPILib's simulation. It needs RobotPy:
-# `pip install "sysid-course[robot]"`. Open two terminals in the course folder. In the first type
+# `exercises/exercise6/robot.py` is a robot program with a `SysIdRoutine`, as in lesson 4. This
+# program runs the four tests in WPILib's simulation. It needs RobotPy: `pip install
+# "sysid-course[robot]"`. Open two terminals in the course folder. In the first type
 #
 # ```
 # sysid watch logs --page
@@ -755,13 +762,13 @@ Table(
 # python exercises/exercise6/robot.py logs
 # ```
 #
-# (If there is no folder `logs` yet, make it first.) The option `--page` shows the same in your
-# browser. `Ctrl+C` ends it and prints the gains.
+# (If there is no folder `logs` yet, make it first.) The option `--page` shows the same text in your
+# browser. `Ctrl+C` ends `sysid watch` and prints the gains.
 #
 # With a real robot, your laptop does not see the log file while it grows. Follow *NetworkTables*
 # instead, the values that the robot sends to the dashboard: `sysid watch --nt 1234`, with your own
 # team number. Then the robot program has to send voltage, position, velocity and the name of the
-# test. The example program does it.
+# test. The example program sends all of them.
 # </details>
 #
 # The next table shows what `sysid watch` would say after each test of our simulated robot.
@@ -790,17 +797,17 @@ Table(("after this test", "it says"), tuple(rows))
 
 # %%
 seconds = sum(float(run.time[-1] - run.time[0]) for run in sound.runs)
-print(f"The four tests take {seconds:.0f} s, {seconds / (8 * 60):.0%} of eight minutes.")
-print(f"The ramp needs up to {slow.final_position / FOOT:.0f} feet, at 0.5 V/s.")
+print(f"The four tests take {seconds:.0f} s, which is {seconds / (8 * 60):.0%} of eight minutes.")
+print(f"A ramp test of 0.5 V/s needs up to {slow.final_position / FOOT:.0f} feet.")
 
 # %% [markdown]
-# But it takes long to find room, to charge a battery, to fetch the log and to try again.
+# But it takes long to find room, charge a battery, fetch the log and try again.
 #
 # **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and
 # you still have time to use the gains.
 #
-# Do gains from the shop work at the competition? Only if the robot and the floor stay the same. The
-# next table changes one thing at a time. Which gain changes?
+# Gains from the shop are right at the competition only if the robot and the floor stay the same.
+# The next table changes one thing at a time. Which gain changes?
 #
 # <details><summary>For mentors: do the gains transfer to competition?</summary>
 #
@@ -811,7 +818,7 @@ print(f"The ramp needs up to {slow.final_position / FOOT:.0f} feet, at 0.5 V/s."
 # > test on blocks: the floor under the wheels is part of the gains. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
-# > **Try it:** the next cell changes one thing at a time. Which gain moves?
+# > **Try it:** the next cell changes one thing at a time. Which gain changes?
 # </details>
 
 # %%
@@ -829,19 +836,20 @@ Table(
 # %% [markdown]
 # ## 8 System check
 #
-# Read this list aloud before the first test. If one point is missing, it is *no-go*:
+# Read this list aloud before the first test. If one point is not true, do not start:
 #
 # - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. Tape is on
 #   the floor.
-# - [ ] **Battery.** Charged: 12.5 V or more at rest, 20 mΩ or less.
-# - [ ] **Encoder.** Pushed forward, the position rises smoothly. Plus volts, plus velocity.
-# - [ ] **Log.** You have fetched a log from this robot before, and know its folder. One mechanism
-#   per log.
+# - [ ] **Battery.** It is charged: 12.5 V or more at rest, 20 mΩ or less.
+# - [ ] **Encoder.** When you push forward, the position rises smoothly. A positive voltage gives a
+#   positive velocity.
+# - [ ] **Log.** You have fetched a log from this robot before, and know its folder. Each log holds
+#   one mechanism.
 # - [ ] **Guard.** While the guard locks the tests, no button moves anything. One person only waits
-#   to disable.
+#   to disable the robot.
 #
-# Write down two more things for each log: **brake or coast** (the neutral mode; use the one that
-# you drive with, because it decides how far the robot rolls after a test), and the current limit.
+# For each log, also write down the current limit and the neutral mode, **brake or coast**. (Use the
+# mode that you drive with: it decides how far the robot rolls after a test.)
 #
 # ## 9 Knowledge check
 #
@@ -851,13 +859,13 @@ Table(
 from grader import QuickCheck
 
 quick = QuickCheck(
-    "Which soft limits (limits in software) stop working during a SysId test?",
+    "Which soft limits (limits in software) do not work during a SysId test?",
     {
         "all": "A limit inside the motor controller still works.",
-        "none": "The test replaces your own commands, and the limits in them.",
+        "none": "Your own commands do not run during a test, so the limits in them do not work.",
         "those in your own commands": (
-            "The test has the subsystem for itself. A limit in the motor controller still "
-            "acts, and then your data show it."
+            "No other command can use the subsystem during a test. But a limit in the motor "
+            "controller still works."
         ),
     },
     right="those in your own commands",
@@ -865,64 +873,67 @@ quick = QuickCheck(
 quick
 
 # %% [markdown]
-# **1.** "We take a ramp of 0.25 V/s. Our room is short, so we go slowly." What do you answer?
+# **1.** A teammate says: "Our room is short, so we use a slow ramp of 0.25 V/s." What do you
+# answer?
 #
 # <details><summary>Answer</summary>
 #
-# A slower ramp needs *more* room for the same speed: d = kV·v²/(2·r). Half the ramp, twice the
-# distance. In a short room use a steeper ramp and let go earlier.
+# With a slower ramp the robot needs *more* room to reach the same speed: d = kV·v²/(2·r). With half
+# the ramp, the distance is twice as long. In a short room use a steeper ramp and let go earlier.
 # </details>
 #
-# **2.** A teammate says: "SysId switches all limits off, so watch out." Right?
+# **2.** A teammate says: "SysId switches all limits off, so be careful." Is that right?
 #
 # <details><summary>Answer</summary>
 #
-# Watch out, yes. But limits that you configured in the motor controller work during a test. A test
-# only bypasses your other commands. So set the limits, and if one acts, run that test again, more
-# gently.
+# You must be careful. But limits that you set in the motor controller work during a test. Only the
+# limits in your other commands do not work. So set the limits in the motor controller. If one acts,
+# run that test again with a lower voltage.
 # </details>
 #
-# **3.** The tests went well. The Driver Station's folder holds no `.wpilog`. Where do you look?
+# **3.** The tests went well, but the Driver Station's folder contains no `.wpilog`. Where do you
+# look?
 #
 # <details><summary>Answer</summary>
 #
-# It only copies logs if you ticked *Upload WPILogs*. Look into `/u/logs` if a stick is in. Else
-# look into `/home/lvuser/logs` on a roboRIO, and into `/home/systemcore/logs` on a Systemcore. Use
-# AdvantageScope or the Data Log Tool. If the file's name has TBD in it, no Driver Station was
-# connected: fetch it before the program starts again.
+# The Driver Station copies logs only if you ticked *Upload WPILogs*. If a USB stick is plugged in,
+# look in `/u/logs`. Otherwise look in `/home/lvuser/logs` on a roboRIO, and in
+# `/home/systemcore/logs` on a Systemcore. Use AdvantageScope or the Data Log Tool. If the file's
+# name contains TBD, no Driver Station was connected: fetch this file before the program starts
+# again.
 # </details>
 #
-# **4.** All gains are negative, and R² is 0.99. What happened, and do you have to run again?
+# **4.** All gains are negative, and R² is 0.99. What happened? Do you have to run the tests again?
 #
 # <details><summary>Answer</summary>
 #
-# Plus volts gave minus velocity: an inverted encoder, or an inverted motor. Otherwise the data are
-# good, so you could change the sign in the log. But the robot's code has the same mistake, so fix
-# it there, and run again.
+# A positive voltage gave a negative velocity: the encoder or the motor is inverted. Otherwise the
+# data are good, so you could change the sign in the log. But the robot's code has the same mistake,
+# so fix it there, and run the tests again.
 # </details>
 #
-# **5.** When would you do all this, and why not at the first regional?
+# **5.** When would you run these tests, and why not at the first regional?
 #
 # <details><summary>Answer</summary>
 #
-# In the last two weeks of build season: the robot is finished, there is room, and there is time to
-# use the gains. At an event you have no room, no time and no second try.
+# Run them in the last two weeks of build season: the robot is finished, there is room, and there is
+# time to use the gains. At an event you have no room, no time and no second try.
 # </details>
 
 # %% [markdown]
 # ## 10 Practice
 #
 # **Exercise 6, part (b)** ([exercises/exercise6/README.md](../exercises/exercise6/README.md)). You
-# get a description of a morning, with some mistakes. Decide *go* or *no-go* for each line, put the
-# four steps in order, and say where the log is. (Part (a) belongs to lesson 3.)
+# get a description of a test morning with some mistakes. Decide *go* or *no-go* for each line, put
+# the four steps in order, and say where the log is. (Part (a) belongs to lesson 3.)
 #
 # ```
 # grade exercise6
 # ```
 #
-# <details><summary>Or answer from a notebook</summary>
+# <details><summary>You can also answer in a notebook</summary>
 #
-# This writes into `exercises/exercise6/answers.toml` and shows the result:
+# This code writes your answers into `exercises/exercise6/answers.toml` and shows the result:
 #
 # ```python
 # from grader import submit
