@@ -180,7 +180,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "long median cuts off the start of a step, and kA becomes too small. A sensor that "
         "averages, as a NEO's own encoder does, makes the velocity late, and kA becomes too large.",
         lesson="07_fit_it_yourself",
-        section="A filter is not free",
+        section="A filter has a disadvantage",
     ),
     "M-MORE-ROWS": Misconception(
         "A log knows no more than the sensor sends. Rows that repeat a reading add nothing, and "
