@@ -107,8 +107,9 @@ plot_time_series(sound, dynamic_seconds=0.6)
 #
 # - The voltage jumps and stays constant.
 # - The velocity rises steeply from the first moment. Then it rises less and less, and stays
-#   constant. - The test ends because somebody lets go of the button or presses *Disable*, not
-#   because the robot hits a wall.
+#   constant.
+# - The test ends because somebody lets go of the button or presses *Disable*, not because the robot
+#   hits a wall.
 #
 # In both tests there is a sample every 20 ms, and the slope of the position is the velocity.
 

@@ -557,6 +557,7 @@ print(f"and {used['dynamic-forward']} rows of the dynamic forward test.")
 # > Duration*). The danger of a long test is to the hardware. For kA, it is only a danger if you
 # > write your own fit and do not trim. ([SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# >
 # > **Try it:** choose `trim=False` in the next section.
 # </details>
 
@@ -757,8 +758,9 @@ print(
 # > than in a textbook. ([SysId's source:
 # > AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
 # > (The docs page calls the acceleration the *independent* variable. In the code it is the
-# > *dependent* variable, on the left side.) **Try it:** you computed both scores above. From now
-# > on, always say which R² you mean.
+# > *dependent* variable, on the left side.)
+# >
+# > **Try it:** you computed both scores above. From now on, always say which R² you mean.
 # </details>
 #
 # ### What R² does not show
