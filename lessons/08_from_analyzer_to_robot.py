@@ -605,7 +605,7 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 #
 # A *setpoint* is the target of the profile at one moment. In each loop, the robot program uses two
 # setpoints, the one for *now* and the one for the *next loop*. It adds **feedforward + feedback**.
-# In Java, this is the line that controls a velocity:
+# In Java, this line controls a velocity:
 #
 # ```java
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
@@ -948,9 +948,9 @@ Table(("set", "mechanism", "class", "top speed at 12 V [m/s or rad/s]"), tuple(r
 # %% [markdown]
 # <details><summary>How can you see it?</summary>
 #
-# If there is a kG, gravity acts. (12 − kS)/kV is the top speed (with
-# gravity, subtract kG as well): a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And
-# kA/kV shows how slowly the mechanism reacts: a heavy wheel reacts slowly.
+# If there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract kG as well):
+# a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly the
+# mechanism reacts: a heavy wheel reacts slowly.
 # </details>
 
 # %% [markdown]
