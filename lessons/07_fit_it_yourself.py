@@ -562,7 +562,7 @@ print(f"and {used['dynamic-forward']} rows of the dynamic forward test.")
 # </details>
 
 # %% [markdown]
-# ## 6 Same data, five choices, five kA's
+# ## 6 Same data, five choices, five values of kA
 #
 # A real robot program sometimes misses a loop. So we remove one row in twenty from our log. Then we
 # fit the **same data** several times. Each time we change only one of five choices: the left side,
