@@ -17,7 +17,7 @@
 #
 # **At the end you can**
 #
-# - say what a good log looks like, test by test, and why;
+# - say what a good log of each test looks like, and why;
 # - name thirteen ways to damage a log, and the plots that show them;
 # - cut away samples that the model does not describe, and keep samples that are only noisy;
 # - explain why a good R² does not prove a good log, and name five better checks.
@@ -111,7 +111,7 @@ plot_time_series(sound, dynamic_seconds=0.6)
 # - The test ends because somebody lets go of the button or presses *Disable*, not because the robot
 #   hits a wall.
 #
-# In both tests there is a sample every 20 ms, and the slope of the position is the velocity.
+# Both tests have a sample every 20 ms, and the slope of the position is the velocity.
 
 # %%
 plot_voltage_velocity(sound)
@@ -290,7 +290,7 @@ show_interactive(
 look("current limit", "over time")
 
 # %% [markdown]
-# Here is a velocity filter, in the plot that shows it best:
+# This plot shows a velocity filter best:
 
 # %%
 look("velocity filter", "velocity and position's slope")
@@ -557,7 +557,7 @@ Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tr
 # - **More filtering is not better.** A median of 15 samples flattens the rise, so kA is only half
 #   its true value. A threshold of 1 m/s drops the slow part of the ramp, which shows kS.
 #
-# ### Do not trim for beauty
+# ### Do not cut off good samples
 #
 # The fast end of a ramp is its most valuable part: kV is a slope, and you need a long line to
 # measure a slope. Each row of the next table uses a shorter part of the ramps of the **clean** log.
@@ -576,7 +576,7 @@ Table(
 )
 
 # %% [markdown]
-# ## 5 R² is not a lie detector
+# ## 5 R² does not find every bad log
 #
 # Now you see no plots. You see only one score: SysId's **simulated velocity R²**. SysId simulates
 # the robot with the fitted gains and the voltage of the log. The score compares simulated and
@@ -653,7 +653,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus? Here they are, sorted by the error of kA:
+# No menus? Here are all logs, sorted by the error of kA:
 
 # %%
 grid(sort="error of kA", truth="reveal")
@@ -804,8 +804,8 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 # Before you fit, check all five:
 #
 # - [ ] **Signs:** a positive voltage gives a positive velocity, in all four tests.
-# - [ ] **Over time:** you see nothing that a motor cannot do. After a step, the velocity rises
-#   along a curve from the start.
+# - [ ] **Over time:** you see nothing that a motor cannot do. In the dynamic tests, the velocity
+#   rises along a curve from the start.
 # - [ ] **Time steps:** none is more than 1.5 times as long as usual, or you know how many are
 #   longer.
 # - [ ] **Position:** its slope is the velocity, without a delay.
@@ -830,9 +830,10 @@ quick = QuickCheck(
 quick
 
 # %% [markdown]
-# **1.** Which plot reveals which fault? Match (a) time steps, (b) velocity next to the slope of the
-# position, (c) velocity over time, close up, (d) voltage over time, to (1) a current limit in a log
-# of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a velocity filter.
+# **1.** Which plot shows which fault? The plots are (a) time steps, (b) velocity next to the slope
+# of the position, (c) velocity over time, close up, (d) voltage over time. The faults: (1) a
+# current limit in a log of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a
+# velocity filter.
 #
 # <details><summary>Answer</summary>
 #

@@ -19,7 +19,7 @@
 # **At the end you can**
 #
 # - compute gains from a log with five lines of NumPy;
-# - say why SysId puts the *acceleration* on the left side, and what happens if you do not;
+# - say why SysId puts the *acceleration* on the left side, and what happens without that;
 # - explain SysId's two R², compute both, and say which errors neither of them shows;
 # - explain how kS can become negative, and what a filter does to kA;
 # - explain which three settings determine the suggested kP, and why it is only a first guess.
@@ -750,8 +750,8 @@ print(
 # > **Lesson says:** "R² value is above 0.9 in the analyzer."
 # >
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
-# > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
-# > velocity R²*) should be above 0.9. ([Viewing
+# > datasets"; if it is below about 0.2, do not trust kA. The *simulated velocity* R² (in SysId's
+# > window: *Sim velocity R²*) should be above 0.9. ([Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # > The second is not the R² of textbooks: SysId computes 1 − RMSE / (root mean square of v). SysId
 # > does not square the ratio and does not subtract the mean. So a score of 0.9 is harder to reach
@@ -1136,7 +1136,7 @@ quick
 #
 # If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
 # feedback says so. Hints cost nothing: `grade exercise9 --hint`. You also write your fit into
-# `fit.py`; `grade watch exercise9` in a terminal grades it each time you save.
+# `fit.py`. `grade watch exercise9` in a terminal grades it each time you save.
 #
 # <details><summary>More, if you like</summary>
 #

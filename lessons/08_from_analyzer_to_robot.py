@@ -894,6 +894,7 @@ Table(
 # > **Source says:** kA and kG grow with the mass. kV comes from the motor's back-EMF, the gears and
 # > the drum; mass is not in it. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
+# >
 # > **Try it:** the next cell puts more mass on our simulated elevator.
 # </details>
 

@@ -41,9 +41,9 @@
 #
 # > **Lesson says:** the gains are "grounded in the mechanism's true physics".
 # >
-# > **Source says:** WPILib's docs say of such a model that it "is not perfect", but usually good
-# > enough.
-# > ([WPILib docs: Introduction to System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
+# > **Source says:** WPILib's docs say that such a model "is not perfect", but usually good enough.
+# > ([WPILib docs: Introduction to System
+# > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
 # > **Try it:** today's robot has two hidden effects. Compare its fitted gains with the true gains.
 # </details>
