@@ -99,7 +99,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "does not prove a good log: it can be high on a damaged log, so look at the signals, "
         "too.",
         lesson="06_read_the_data",
-        section="R² is not a lie detector",
+        section="R² does not find every bad log",
     ),
     "M-BIG-STEP": Misconception(
         "A big step spins the wheels, reaches the current limit and drains the battery. A "
@@ -173,14 +173,14 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "Trim where the model is no longer true, not where the picture looks ugly: fast samples"
         " determine kV and the first rise of a step determines kA, however noisy they are.",
         lesson="06_read_the_data",
-        section="Do not trim for beauty",
+        section="Do not cut off good samples",
     ),
     "M-FILTER-FREE": Misconception(
         "A filter has a price: a long one flattens everything that is faster than itself. A "
         "long median cuts off the start of a step, and kA becomes too small. A sensor that "
         "averages, as a NEO's own encoder does, makes the velocity late, and kA becomes too large.",
         lesson="07_fit_it_yourself",
-        section="A filter is not free",
+        section="A filter has a disadvantage",
     ),
     "M-MORE-ROWS": Misconception(
         "A log knows no more than the sensor sends. Rows that repeat a reading add nothing, and "

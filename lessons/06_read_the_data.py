@@ -17,7 +17,7 @@
 #
 # **At the end you can**
 #
-# - say what a good log looks like, test by test, and why;
+# - say what a good log of each test looks like, and why;
 # - name thirteen ways to damage a log, and the plots that show them;
 # - cut away samples that the model does not describe, and keep samples that are only noisy;
 # - explain why a good R² does not prove a good log, and name five better checks.
@@ -32,7 +32,7 @@
 # > The fit believes the log. So you have to check the log first.
 #
 # Today's robot is our simulated drivetrain. We know its true gains, so we can say how wrong a fit
-# is. On your robot you do not know them.
+# is.
 
 # %%
 from dataclasses import replace
@@ -74,7 +74,7 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
 print(
-    f"kA/kV = {1000 * TAU:.0f} ms: after this time, a step reaches nearly two thirds of its speed"
+    f"kA/kV = {1000 * TAU:.0f} ms: after this time, a step has nearly two thirds of its final speed"
 )
 
 # %% [markdown]
@@ -106,10 +106,12 @@ plot_time_series(sound, dynamic_seconds=0.6)
 # **A good dynamic test** (right):
 #
 # - The voltage jumps and stays constant.
-# - The velocity rises at once, steeply, then bends over and goes flat.
-# - The test ends because somebody lets go or presses *Disable*, not because the robot hits a wall.
+# - The velocity rises steeply from the first moment. Then it rises less and less, and stays
+#   constant.
+# - The test ends because somebody lets go of the button or presses *Disable*, not because the robot
+#   hits a wall.
 #
-# In both tests there is a sample every 20 ms, and the slope of the position is the velocity.
+# Both tests have a sample every 20 ms, and the slope of the position is the velocity.
 
 # %%
 plot_voltage_velocity(sound)
@@ -150,12 +152,13 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # ### Explain
 #
 # The voltage that remains for the acceleration is V − kS − kV·v. The faster the robot goes, the
-# less remains. So the acceleration is **largest at the start**. After each time kA/kV, only about
-# 37 % of the acceleration is left. Such a curve is called *exponential*. In the plot above,
-# acceleration over velocity, it is a straight line that falls.
+# less remains. So the acceleration is **largest at the start**. Each time that kA/kV seconds pass,
+# the acceleration drops to about 37 % of its value. Such a curve is called *exponential*. In the
+# plot above, acceleration over velocity, it is a straight line that falls.
 #
 # **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test. A
-# constant acceleration is a warning: you see one in section 3, under *current limit*.
+# constant acceleration means that something is wrong. The log *current limit* in section 3 is an
+# example.
 #
 # <details><summary>For mentors: the rise is exponential, with source</summary>
 #
@@ -165,8 +168,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # > the steady-speed".
 # > ([WPILib docs: Viewing Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
-# > **Try it:** in section 3, choose *current limit*. A **constant** acceleration is what that looks
-# > like. It is a warning, not a good sign.
+# > **Try it:** in section 3, choose *current limit*. In that log the acceleration is **constant**.
+# > It is a warning, not a good sign.
 # </details>
 
 # %% [markdown]
@@ -181,16 +184,16 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # | **the first four** | | |
 # | encoder slip | the encoder slips on its shaft for a while | fix it, run again |
 # | brownout | the battery voltage drops, the controller turns the motors off | charge, run again |
-# | hard stop | the mechanism hits its end, the voltage stays on | cut that part off, or run again |
+# | hard stop | the mechanism hits its end, the voltage stays on | cut off that part, or run again |
 # | loop overrun | the robot program is too slow, samples are missing | find the cause, run again |
 # | **five from real robots** | | |
 # | command logged | the motor got less than the logged voltage | log the applied voltage |
-# | velocity filter | the sensor averages, so its velocity is late | set a shorter filter |
+# | velocity filter | the sensor takes an average, so its velocity is late | set a shorter filter |
 # | current limit | the motor controller reduces the voltage of the step | use a smaller step |
-# | wheel slip | the wheels spin faster than the robot moves | smaller step, on carpet |
+# | wheel slip | the wheels spin faster than the robot moves | use a smaller step, drive on carpet |
 # | stale samples | the log samples faster than the sensor updates | log at the sensor's rate |
 # | **four more** | | |
-# | unit error | the velocity does not fit the position (rpm, not rot/s) | fix the code |
+# | unit error | the velocity does not match the position (rpm instead of rot/s) | fix the code |
 # | mislabelled test | a test has the name of another test | fix the code |
 # | voltage dropout | the log holds 0 V for single samples | fix the logging |
 # | stuck sensor | position and velocity freeze for a while | check the cable, run again |
@@ -287,7 +290,7 @@ show_interactive(
 look("current limit", "over time")
 
 # %% [markdown]
-# Here is a velocity filter, in the plot that shows it best:
+# This plot shows a velocity filter best:
 
 # %%
 look("velocity filter", "velocity and position's slope")
@@ -315,13 +318,13 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # Ask one question about every plot: **could the motor do that?** A robot cannot change its speed
 # within one sample.
 #
-# - **Encoder slip.** From one sample to the next, the velocity drops to a fraction of its value;
-#   later it jumps back. Voltage over velocity shows a second line.
+# - **Encoder slip.** From one sample to the next, the velocity drops to a fraction of its value.
+#   Later it jumps back. The plot of voltage over velocity shows a second line.
 # - **Brownout.** The controller turned the motors off. The velocity falls along a *curve*, and
-#   later rises again along a curve. If the log holds the **commanded** voltage, the log still shows
-#   a voltage. If it holds the **applied** voltage (lesson 4), the voltage drops to 0 and comes
-#   back, again and again. If the log has the **bus voltage** (of the battery), you see it fall
-#   below the threshold of lesson 5.
+#   later rises again along a curve. If the log holds the **commanded** voltage, it shows a voltage
+#   although the motors got none. If it holds the **applied** voltage (lesson 4), the voltage drops
+#   to 0 and comes back, again and again. If the log has the **bus voltage** (of the battery), you
+#   see it fall below the threshold of lesson 5.
 # - **Hard stop.** The velocity goes to zero within a few samples. The position stays the same, and
 #   the voltage stays on.
 # - **Loop overrun.** In *time steps*, some points are far above 20 ms. The other plots hardly show
@@ -333,15 +336,21 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #   gains are small.
 # - **Velocity filter.** The velocity rises later than the slope of the position, because the
 #   position is not filtered.
-# - **Wheel slip.** The velocity jumps up, pauses, then rises slowly: the wheels turned faster than
-#   the robot moved.
-# - **Stale samples.** The curve looks like stairs: the same value two or three times, then a jump.
+# - **Wheel slip.** The velocity jumps up, stays there for a moment, then rises slowly: the wheels
+#   turned faster than the robot moved.
+# - **Stale samples.** The curve looks like stairs: it shows the same value two or three times, and
+#   then it jumps.
+#
+# <details><summary>Four more faults, which are easy to see</summary>
+#
 # - **Unit error.** The velocity has the right shape but the wrong size compared with the slope of
 #   the position.
-# - **Mislabelled test.** A "ramp" starts with a step, or a "forward" test goes backward.
+# - **Mislabelled test.** In a "quasistatic" test the voltage jumps, or a "forward" test goes
+#   backward.
 # - **Voltage dropout.** The voltage drops to zero for single samples, but the velocity does not
 #   react.
-# - **Stuck sensor.** Position and velocity stay at one value, then jump to where they should be.
+# - **Stuck sensor.** Position and velocity stay at one value, then jump to the right value.
+# </details>
 #
 # <details><summary>For mentors: the voltage in a brownout, with source</summary>
 #
@@ -360,8 +369,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #
 # To get the acceleration, SysId divides each change of the velocity by the *mean* time step of the
 # test. So at a gap the acceleration is wrong. The normal time step is 20 ms, and half of all steps
-# are a bit longer. So count only steps that are longer than 1.5 times the usual one. How wrong is
-# kA?
+# are a bit longer. So count only the time steps that are more than 1.5 times as long as usual. How
+# wrong is kA?
 #
 # <details><summary>For mentors: gaps and kA, with source</summary>
 #
@@ -370,10 +379,11 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # >
 # > **Source says:** in principle, yes: SysId divides each difference of velocities by the *mean*
 # > time step of the test. But 20 ms is the normal step, so half of all steps are a bit longer.
-# > Count the steps that are longer than 1.5 times the usual one. ([SysId's source:
+# > Count the time steps that are more than 1.5 times as long as usual. ([SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
-# > **Try it:** the next cell makes ten logs each with few and many, short and long gaps.
+# > **Try it:** the next cell makes ten logs for each row of its table. The gaps are few or many,
+# > short or long.
 # </details>
 
 
@@ -412,8 +422,8 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 #
 # ### How bad are repeated samples?
 #
-# A motor controller sends its readings in *status frames*, 50 to 250 times a second. A program that
-# logs faster writes each reading several times. The next cell logs every 5 ms.
+# A motor controller sends its measurements in *status frames*, 50 to 250 times a second. A program
+# that logs faster writes the same measurement several times. The next cell logs every 5 ms.
 
 # %%
 rows = []
@@ -425,9 +435,9 @@ for rate in (50, 100, 250):
 Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
 
 # %% [markdown]
-# Between two equal readings, SysId sees an acceleration of zero. So log as fast as the frames
-# come, or set faster frames for the test. (`sysid fit` finds the repeated readings and leaves them
-# out.)
+# Between two equal measurements, SysId computes an acceleration of zero. So log at the rate of the
+# status frames, or set faster frames for the test. (`sysid fit` finds the repeated measurements and
+# leaves them out.)
 
 # %% [markdown]
 # ## 4 Doing it: trim what the model does not describe
@@ -439,14 +449,14 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 #   this part off.**
 # - At rest, friction holds the mechanism at any voltage up to kS. The equation does not describe
 #   that either: **drop it**, with a *threshold* (the lowest speed that you keep).
-# - A single wild reading is a sensor error. A **median filter** sorts each value and its neighbors
-#   by size, and keeps the middle one.
+# - A single *wild reading*, far from its neighbors, is a sensor error. A **median filter** sorts
+#   each value and its neighbors by size, and keeps the middle one.
 # - A noisy part looks ugly, but the equation is true there: **keep it.**
 #
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
-# (the median filter) and *Test Duration* (dynamic tests only). None of them sets the end of a ramp;
-# you can do that here. Below is a log with a hard stop, a noisy standstill and three wild readings.
-# Which setting repairs which fault?
+# (the median filter) and *Test Duration* (dynamic tests only). None of them sets where a ramp ends,
+# but you can do that here. Below is a log with a hard stop, a noisy standstill and three wild
+# readings. Which setting repairs which fault?
 #
 # <details><summary>For mentors: trimming in SysId, with source</summary>
 #
@@ -517,7 +527,9 @@ show_interactive(
         style=WHOLE,
         continuous_update=False,
     ),
-    median=widgets.SelectionSlider(options=[1, 3, 5, 9, 15], value=1, description="median of"),
+    median=widgets.SelectionSlider(
+        options=[1, 3, 5, 9, 15], value=1, description="median of samples", style=WHOLE
+    ),
 )
 
 # %% [markdown]
@@ -539,16 +551,17 @@ tries = {
 Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
-# - The threshold drops the noisy standstill, and the samples at the stop. The end cuts off the hard
-#   stop with its bounce. The median removes the wild readings. No setting repairs everything.
+# - The threshold drops the noisy standstill, and the samples at the stop. The setting "ramp ends"
+#   cuts off the hard stop with its bounce. The median removes the wild readings. No single setting
+#   repairs all three faults.
 # - **More filtering is not better.** A median of 15 samples flattens the rise, so kA is only half
-#   its true value. A threshold of 1 m/s drops the part of the ramp that shows kS.
+#   its true value. A threshold of 1 m/s drops the slow part of the ramp, which shows kS.
 #
-# ### Do not trim for beauty
+# ### Do not cut off good samples
 #
 # The fast end of a ramp is its most valuable part: kV is a slope, and you need a long line to
-# measure a slope. The next table keeps less and less of each ramp of the **clean** log. *One
-# standard error* is the typical error that noise alone causes.
+# measure a slope. Each row of the next table uses a shorter part of the ramps of the **clean** log.
+# *One standard error* is the typical error that noise alone causes.
 
 # %%
 rows = []
@@ -558,16 +571,16 @@ for end in (6.0, 4.0, 2.0, 1.0):
     errors = fit(part, method="sysid").errors
     rows.append((f"{end:g} s of each ramp", top, errors["kV"], errors["kS"]))
 Table(
-    ("kept", "fastest sample [m/s]", "one standard error of kV [V·s/m]", "of kS [V]"),
+    ("kept", "fastest sample [m/s]", "standard error of kV [V·s/m]", "standard error of kS [V]"),
     tuple(rows),
 )
 
 # %% [markdown]
-# ## 5 R² is not a lie detector
+# ## 5 R² does not find every bad log
 #
-# Now you see no plots, only a score, SysId's **simulated velocity R²**. SysId simulates the robot
-# with the fitted gains and the voltage of the log. The score compares simulated and measured
-# velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and then
+# Now you see no plots. You see only one score: SysId's **simulated velocity R²**. SysId simulates
+# the robot with the fitted gains and the voltage of the log. The score compares simulated and
+# measured velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and then
 # repaired. In all others something is wrong.
 #
 # The official docs say: "A value north of .9 indicates a good fit" ("north of" means "above").
@@ -640,7 +653,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menus? Here they are, sorted by the error of kA:
+# No menus? Here are all logs, sorted by the error of kA:
 
 # %%
 grid(sort="error of kA", truth="reveal")
@@ -668,8 +681,8 @@ Table(
         )
         for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
     ),
-    caption="Errors of the gains. 60 kg, four Kraken X60; ramp 1 V/s for 7 s, step 3.5 V unless "
-    "the name says otherwise",
+    caption="Errors of the gains. The robot has 60 kg and four Kraken X60. The ramp rises by 1 V/s "
+    "for 7 s. The step is 3.5 V, unless the name of the log gives another voltage.",
 )
 
 # %%
@@ -682,9 +695,9 @@ best = max(wrong, key=lambda case: case.fit.acceleration_r2)
 print(guess_count.reveal("nearly all"))
 print(guess_robust.reveal("kA"))
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
-print("Half of them have larger errors than this:", end=" ")
+print("Half of these logs have larger errors than these:", end=" ")
 print(", ".join(f"{gain} {100 * size:.1f} %" for gain, size in typical.items()))
-print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, {best.name}.")
+print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.name}).")
 
 # %% [markdown]
 # ### Explain
@@ -694,29 +707,33 @@ print(f"The highest {ACC} among the wrong ones: {best.fit.acceleration_r2:.2f}, 
 #   a second. So kA may be wrong by half, and the score hardly changes.
 # - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
 #   information about kV, and only a few about kA.
-# - **The acceleration R² compares accelerations row by row (lesson 7), and it is the more sensitive
-#   of the two.** Sort by it: spikes (wild readings), the lurch (a sudden jump) and the worst slips
-#   are at the bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or a
-#   wrong sign. And a low value proves nothing: many good logs have a low value, too.
+# - **The acceleration R² compares accelerations row by row (lesson 7), and it notices more.** Sort
+#   the logs by it: the logs with spikes (wild readings), the lurch (a sudden jump) and the worst
+#   slips are at the bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or
+#   a wrong sign. And a low value proves nothing: many good logs have one.
 #
 # <details><summary>Want to know more?</summary>
 #
 # - The docs say that the acceleration R² "rarely goes above 0.5, even on very good datasets".
-# - A repaired log can have a **lower** R² than a wrong one, because SysId compares the simulation
-#   with the recorded samples, wild readings included.
-# - These are single simulated logs, and their errors also depend on luck, for example on where a
-#   gap falls. So learn the *kind* of error from this table, not its digits.
+# - A repaired log can have a **lower** R² than a wrong one. The fit no longer uses the wild
+#   readings of the repaired log. But for the score, SysId compares its simulation with all recorded
+#   samples, and the wild readings are among them.
+# - Each row of the table is only one simulated log. Its errors also depend on luck, for example on
+#   where a gap is. So learn the *kind* of error from this table, not its digits.
 # </details>
 #
 # ## 6 Checks that find more
 #
-# A good score proves little. These five checks find more:
+# These five checks find more than a score:
 #
 # 1. **Signs.** kV and kA are positive, kS is not negative.
-# 2. **kV agrees with motors and gears**, within 10 % (lesson 1).
-# 3. **kA agrees with motors and mass**, within 25 %.
+# 2. **kV is right for these motors and gears**: it differs from the computed kV (lesson 1) by less
+#    than 10 %.
+# 3. **kA is right for these motors and this mass**: it differs from the computed kA by less than 25
+#    %.
 # 4. **Acceleration R² is not below 0.2.**
-# 5. **Somebody looked** at the plots of section 3. In the table, the program `inspect` looks.
+# 5. **Somebody looked** at the plots of section 3. In the next table, the program `inspect` does
+#    that.
 
 # %%
 CHECKS = {
@@ -741,12 +758,12 @@ Table(
 # %%
 escaped = [name for name, found in caught.items() if not any(found.values())]
 by_signs = sum(found["signs"] for found in caught.values())
-print(f"Found by their signs alone: {by_signs}.  Found by no check: {'; '.join(escaped)}.")
+print(f"The signs find {by_signs} logs.  No check finds these logs: {'; '.join(escaped)}.")
 
 # %% [markdown]
 # No check reports the clean log, which is right. But the other two logs in that last line are
-# damaged. Only somebody who knows the robot can find that: for example, look for a velocity filter
-# in the settings of your motor controller.
+# damaged. Only somebody who knows the robot can find such damage. For example, look for a velocity
+# filter in the settings of your motor controller.
 #
 # A sixth check: **fit forward and reverse separately.** Friction may differ between the directions.
 # One kS cannot describe both, and R² does not show it:
@@ -769,7 +786,7 @@ for way in ("forward", "reverse"):
 # do:
 
 # %%
-print(f"It knows {len(FAULTS)} faults: most of those of section 3, and some more.")
+print(f"The program knows {len(FAULTS)} faults: most faults of section 3, and some more.")
 seen = inspect(gallery["encoder slip"])
 for damage in seen.damages:
     print(f"{damage.fault} in {damage.where.test}, confidence {damage.confidence:.2f}")
@@ -787,9 +804,9 @@ plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.dama
 # Before you fit, check all five:
 #
 # - [ ] **Signs:** a positive voltage gives a positive velocity, in all four tests.
-# - [ ] **Over time:** you see nothing that a motor cannot do. After a step, the velocity rises
-#   along a curve from the start.
-# - [ ] **Time steps:** none is longer than 1.5 times the usual one, or you know how many are
+# - [ ] **Over time:** you see nothing that a motor cannot do. In the dynamic tests, the velocity
+#   rises along a curve from the start.
+# - [ ] **Time steps:** none is more than 1.5 times as long as usual, or you know how many are
 #   longer.
 # - [ ] **Position:** its slope is the velocity, without a delay.
 # - [ ] **The voltage** is the one applied to the motor.
@@ -813,9 +830,10 @@ quick = QuickCheck(
 quick
 
 # %% [markdown]
-# **1.** Which plot reveals which fault? Match (a) time steps, (b) velocity next to the slope of the
-# position, (c) velocity over time, close up, (d) voltage over time, to (1) a current limit in a log
-# of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a velocity filter.
+# **1.** Which plot shows which fault? The plots are (a) time steps, (b) velocity next to the slope
+# of the position, (c) velocity over time, close up, (d) voltage over time. The faults: (1) a
+# current limit in a log of the applied voltage, (2) a loop overrun, (3) encoder slip, (4) a
+# velocity filter.
 #
 # <details><summary>Answer</summary>
 #
@@ -823,17 +841,18 @@ quick
 # If it holds the commanded voltage, look at the rise of the velocity: it starts as a straight line.
 # </details>
 #
-# **2.** In the quasistatic forward test the velocity jumps halfway through; the mechanism lurched.
+# **2.** In the middle of the quasistatic forward test the mechanism lurched: its velocity jumped.
 # The rest is clean. What was the cause, and what happens to the gains?
 #
 # <details><summary>Answer</summary>
 #
-# Something mechanical stuck and let go: slack in a chain, a skipped tooth, a tight bearing. (It was
-# encoder slip only if the position, a second sensor or the current shows that the mechanism did
-# *not* move.) The few samples of the jump count a lot, because a fit squares the errors: an error
-# three times as large counts nine times. So kS is too small or negative, kA is too large, kV hardly
-# changes, and R² stays above 0.9. See "lurch" in the table. Fix the mechanism and run again. A
-# median filter or a trim is only second best.
+# A mechanical part got stuck and then came free: for example a loose chain, a skipped tooth or a
+# tight bearing. (It was encoder slip only if the position, a second sensor or the current shows
+# that the mechanism did *not* move.) The few samples of the jump matter a lot, because a fit
+# squares the errors: an error that is three times as large counts nine times as much. So kS is too
+# small or negative, kA is too large, kV hardly changes, and R² stays above 0.9. Find the log
+# "lurch" in the table of section 5. Fix the mechanism and run again. A median filter or trimming
+# helps less.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?
@@ -858,11 +877,11 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# If the controller turned the motors off (a brownout): yes, with a charged battery. You see it by
-# the velocity that falls along a curve, or by an applied voltage that drops to 0 and comes back.
-# The bus voltage shows it either way. If the voltage only dropped a little, and the log holds the
-# applied voltage: no, the log is correct. If it holds the commanded voltage: yes, and fix the
-# logging first.
+# If the controller turned the motors off (a brownout), run it again with a charged battery. You see
+# a brownout if the velocity falls along a curve, or if the applied voltage drops to 0 and comes
+# back. The bus voltage shows it in both cases. If the voltage only dropped a little, look at what
+# the log holds. If it holds the applied voltage, the log is correct, and you do not have to run
+# again. If it holds the commanded voltage, fix the logging, then run again.
 # </details>
 
 # %% [markdown]
@@ -870,7 +889,8 @@ quick
 #
 # **Exercise 7, Detective** ([exercises/exercise7/README.md](../exercises/exercise7/README.md)). You
 # get twelve logs, most of them damaged. Name the fault, where it is, and what to do. To look at log
-# 4, run `python exercises/exercise7/look.py 4 --page`. Drag over a part of a plot to get its times.
+# 4, run `python exercises/exercise7/look.py 4 --page`. Drag the mouse over a part of a plot to get
+# its start and end time.
 #
 # ```
 # grade exercise7
@@ -898,7 +918,7 @@ quick
 # If you write into `answers.toml` with an editor, `grade watch exercise7` grades each time you
 # save. Hints cost nothing: `grade exercise7 --hint`.
 #
-# **Want more logs?** `grade mystery` makes a new one whenever you like.
+# **Want more logs?** `grade mystery` makes a new log each time you run it.
 #
 # **On your own robot:** open an old log in AdvantageScope, and go through the list of section 7.
 # Then run `sysid inspect` on it.

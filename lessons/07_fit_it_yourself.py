@@ -18,8 +18,8 @@
 #
 # **At the end you can**
 #
-# - turn a log into gains with five lines of NumPy;
-# - say why SysId puts the *acceleration* on the left side, and what happens if you do not;
+# - compute gains from a log with five lines of NumPy;
+# - say why SysId puts the *acceleration* on the left side, and what happens without that;
 # - explain SysId's two R², compute both, and say which errors neither of them shows;
 # - explain how kS can become negative, and what a filter does to kA;
 # - explain which three settings determine the suggested kP, and why it is only a first guess.
@@ -31,7 +31,7 @@
 # look just as good. When you have built the fit (the calculation that finds the gains) yourself,
 # you know where it can go wrong.
 #
-# Today's robot is our simulated drivetrain. Its gears rattle a little, so its velocity reading is
+# Today's robot is our simulated drivetrain. Its gears rattle a little, so its measured velocity is
 # noisy. We know its true gains.
 
 # %%
@@ -104,7 +104,7 @@ guess_line = Prediction(
     "larger",
 )
 guess_ramp = Prediction(
-    "With a ramp twice as fast, the kS that you read off is…",
+    "The ramp is twice as fast. The kS that you read off the line is now…",
     "smaller",
     "the same",
     "larger",
@@ -160,7 +160,8 @@ print(guess_line.reveal("larger"))
 print(guess_ramp.reveal("larger"))
 print(f"True kS: {truth['kS']:.3f} V. kA/kV = {1000 * timescale:.0f} ms.")
 Table(
-    ("ramp [V/s]", "kS read off [V]", "kS + (kA/kV)·ramp [V]", "… + half a loop [V]"), tuple(rows)
+    ("ramp [V/s]", "kS of the line [V]", "kS + (kA/kV)·ramp [V]", "the same + half a loop [V]"),
+    tuple(rows),
 )
 
 # %% [markdown]
@@ -173,9 +174,9 @@ Table(
 #
 # <details><summary>Want to know why? The last column</summary>
 #
-# The last column adds half a loop, 10 ms: a row contains the current speed and the voltage for the
-# *next* 20 ms, so the voltage is on average half a loop ahead. The remaining difference is noise;
-# section 4 shows how noise bends a line.
+# The last column adds half a loop, 10 ms. A row contains the current speed and the voltage for the
+# *next* 20 ms. So the voltage is on average half a loop ahead. The remaining difference comes from
+# noise. Section 4 shows how noise changes the slope of a line.
 # </details>
 #
 # So this plot is only good for a *first look*. For kS and kA we need all three terms. SysId also
@@ -186,11 +187,11 @@ Table(
 # > **Lesson says:** the analyzer fits a line, "the intercept is kS" and "the slope is kV"; kA comes
 # > from the voltage that is left over in the dynamic test.
 # >
-# > **Source says:** SysId does not read lines off a plot. It fits all four tests in one go, and the
-# > thing it explains is the acceleration. Its window has no voltage–velocity plot either: it shows
-# > velocity over time, acceleration over velocity, and the time steps. (Its predecessor,
-# > frc-characterization, [had one](https://github.com/wpilibsuite/frc-characterization/issues/7).)
-# > ([WPILib docs: Viewing
+# > **Source says:** SysId does not read lines off a plot. It fits all four tests together, and the
+# > model computes the acceleration, not the voltage. Its window has no voltage–velocity plot
+# > either: it shows velocity over time, acceleration over velocity, and the time steps. (Its
+# > predecessor, frc-characterization, [had
+# > one](https://github.com/wpilibsuite/frc-characterization/issues/7).) ([WPILib docs: Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
@@ -228,8 +229,8 @@ Table(
 )
 
 # %% [markdown]
-# The robot is the same each time, but you get four different answers, because each row contains
-# some noise. With a thousand rows, no gains fit all rows exactly. So we take the gains with the
+# The robot is the same, but you get four different answers, because each row contains some noise.
+# With a thousand rows, no gains solve all equations exactly. So we take the gains with the
 # **smallest total error**.
 #
 # How do you add up errors? Square each error and add the squares. Squares are never negative, so
@@ -261,15 +262,15 @@ show_interactive(
 )
 
 # %% [markdown]
-# No sliders? Change the numbers here, a few times:
+# No sliders? Change the numbers here:
 
 # %%
 by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
 # Now let NumPy do it. `np.linalg.lstsq` ("least squares") needs the equations as a table: one row
-# per sample, and one **column per unknown**. A column contains the number that this unknown is
-# multiplied by. For a line, the columns are 1 and v.
+# per sample, and one **column per unknown**. In each row, the column holds the number that
+# multiplies this unknown. For a line, the columns are 1 and v.
 
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
@@ -282,7 +283,7 @@ by_hand(float(intercept), float(slope))
 # %% [markdown]
 # ## 4 The whole fit in five lines
 #
-# Now do the same with three columns and every moving row of all four tests:
+# Now do the same with three columns. Use every row of all four tests in which the robot moves:
 
 
 # %%
@@ -306,7 +307,8 @@ def voltage_left(log: sim.Log) -> dict[str, float]:
 HEADER = ("fit", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]")
 first_try = voltage_left(log)
 Table(
-    HEADER, (("five lines, voltage on the left", *first_try.values()), ("truth", *truth.values()))
+    HEADER,
+    (("five lines, voltage on the left side", *first_try.values()), ("truth", *truth.values())),
 )
 
 # %% [markdown]
@@ -314,8 +316,8 @@ Table(
 #
 # ### Which side is noisy?
 #
-# Try a small experiment. The truth is y = 2·x. We add noise first to **y**, then, in a second data
-# set, to **x**. Least squares finds both slopes.
+# Try a small experiment. The truth is y = 2·x. In the first data set we add noise to **y**, in the
+# second to **x**. Least squares finds both slopes.
 #
 # **Predict:**
 
@@ -335,12 +337,12 @@ print(guess_noise.reveal("with noise in x"))
 print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2")
 
 # %% [markdown]
-# Noise on the **left** side of the equation averages out. Noise in a **column** does not average
-# out: it makes the number found for that column too small. More data does not help.
+# Noise on the **left** side of the equation averages out over many rows. Noise in a **column** does
+# not: it makes the number found for that column too small. More data does not help.
 #
 # Our noisiest signal is the acceleration, because it is computed from differences of noisy
-# velocities. In the five lines above, the acceleration was a column. So move it to the left side:
-# solve the model for a.
+# velocities. In the five lines above, the acceleration was a column. So move it to the left side,
+# and solve the equation of the model for a:
 #
 # > a = −(kV/kA)·v + (1/kA)·V − (kS/kA)·sgn(v)
 #
@@ -349,10 +351,11 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 #
 # <details><summary>Want to know more? With gravity</summary>
 #
-# (This is for the analysis type *Simple*. With gravity, SysId adds columns: ones for *Elevator*,
-# cos θ and sin θ of the arm's angle θ for *Arm*. From them it computes kG, and for an arm also the
-# sensor's offset.
-# [SysId's source: FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
+# (The formula above is for the analysis type *Simple*. With gravity, SysId adds columns. For
+# *Elevator* it adds a column of ones. For *Arm* it adds cos θ and sin θ, where θ is the angle of
+# the arm. From these columns it computes kG, and for an arm also the offset of the sensor. [SysId's
+# source:
+# FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # </details>
 #
 # **Now you write it.** Replace the four `...` in the next cell. Run the cell. Then run the cell
@@ -366,12 +369,12 @@ def my_left(volts, v, a):
 
 
 def my_columns(volts, v, a):
-    """Gap 2: one column each for α, β and γ; the third one is missing."""
+    """Gap 2: one column each for α, β and γ. The third column is missing."""
     return [v, volts, ...]
 
 
 def my_gains(alpha, beta, gamma):
-    """Gap 3: the gains; kV and kA are missing."""
+    """Gap 3: the gains. kV and kA are missing."""
     return {"kS": -gamma / beta, "kV": ..., "kA": ...}
 
 
@@ -394,7 +397,8 @@ print(mine.report)
 # ```
 # </details>
 #
-# The next cell fits with your lines. For an answer that is not right yet, it uses ours.
+# The next cell fits the log with your lines. If one of your answers is not right yet, the cell uses
+# ours instead.
 
 
 # %%
@@ -438,33 +442,35 @@ plot_curves(
 )
 
 # %% [markdown]
-# Acceleration on the left is the better choice, so SysId uses it. But this choice is not perfect:
-# the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA, which is
-# 1/β, becomes larger.
+# The acceleration on the left side is the better choice, so SysId uses it. But this choice is not
+# perfect: the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA,
+# which is 1/β, becomes larger.
 #
 # <details><summary>Want to know more? What SysId's source says</summary>
 #
 # SysId's source says that least squares "performs best with the noisiest variable as the dependent
-# variable". The dependent variable is the one on the left.
+# variable". The dependent variable is the signal on the left side of the equation, here the
+# acceleration.
 # ([FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp);
-# why noise in a column shrinks its number: Fuller, *Measurement Error Models* (1987), section 1.1)
+# the book that explains why noise in a column makes its number too small: Fuller, *Measurement
+# Error Models* (1987), section 1.1)
 # </details>
 
 # %% [markdown]
 # ## 5 What SysId does before it fits
 #
-# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four steps (in
-# italics: its settings).
+# SysId's fit is the five lines above. Before the fit, SysId prepares the data in four stages. The
+# names of its settings are in italics.
 #
-# 1. **Threshold** (*Velocity Threshold*). SysId drops quasistatic rows that are slower than a
-#    threshold: at standstill, friction holds the robot at any voltage up to kS, so these rows do
-#    not show how large kS is.
+# 1. **Threshold** (*Velocity Threshold*). In the quasistatic tests, SysId drops the rows that are
+#    slower than a threshold. At standstill, friction holds the robot at any voltage up to kS, so
+#    these rows do not show how large kS is.
 # 2. **Median filter** of the velocity, if you switch it on (*Window Size*, up to 15 samples). It
 #    sorts each value and its neighbors by size, and keeps the middle one.
-# 3. **Acceleration**: SysId subtracts the velocity of the row before from that of the row after,
-#    and divides by two **mean** time steps of the test.
-# 4. **Trim the dynamic tests** (*Test Duration*): SysId keeps only the rows from the largest
-#    acceleration to 90 % of the top speed, unless you change the setting.
+# 3. **Acceleration**: SysId takes the velocity one row later minus the velocity one row earlier. It
+#    divides by two **mean** time steps of the test.
+# 4. **Trim the dynamic tests** (*Test Duration*): Unless you change the setting, SysId keeps only
+#    the rows from the largest acceleration to 90 % of the top speed.
 #
 # ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 
@@ -514,16 +520,16 @@ recipe = fit(log, method="sysid")
 Table(
     HEADER,
     (
-        ("five lines, nothing prepared", *second_try.values()),
-        ("my fit, four steps", *my_fit(log).values()),
+        ("five lines, data not prepared", *second_try.values()),
+        ("my fit, four stages", *my_fit(log).values()),
         ("SysId's recipe", *recipe.gains.values()),
         ("truth", *truth.values()),
     ),
 )
 
 # %% [markdown]
-# Your gains and SysId's gains are close. SysId finds its threshold from the noise, and drops a few
-# more rows. If your five lines use exactly the rows that SysId keeps, the gains are the same:
+# Your gains and SysId's gains are close. SysId computes its threshold from the noise, so it drops a
+# few more rows. If your five lines use exactly the rows that SysId keeps, the gains are the same:
 
 # %%
 kept = list(prepare_rows(log).rows.values())
@@ -535,30 +541,32 @@ v, volts, a = (
 print(f"five lines: kS = {-gamma / beta:.9f}   kV = {-alpha / beta:.9f}   kA = {1 / beta:.9f}")
 print("SysId's:    " + "   ".join(f"{name} = {value:.9f}" for name, value in recipe.gains.items()))
 used = recipe.samples_used
-print(f"rows used, forward: ramp {used['quasistatic-forward']}, step {used['dynamic-forward']}")
+print("SysId uses", end=" ")
+print(f"{used['quasistatic-forward']} rows of the quasistatic forward test", end=" ")
+print(f"and {used['dynamic-forward']} rows of the dynamic forward test.")
 
 # %% [markdown]
-# The last line shows: SysId uses only a few rows of the dynamic test, because this robot reaches
-# its speed so fast. kA depends mostly on these few rows.
+# The last line shows that SysId uses only a few rows of the dynamic test, because this robot
+# reaches its speed so fast. kA depends mostly on these few rows.
 #
-# <details><summary>For mentors: does a long test hide kA?</summary>
+# <details><summary>For mentors: does a long test make kA wrong?</summary>
 #
-# > **Lesson says:** run the dynamic test too long, and "kA becomes unobservable".
+# > **Lesson says:** if you run the dynamic test too long, "kA becomes unobservable".
 # >
 # > **Source says:** SysId cuts the dynamic test at 90 % of the top speed by itself (*Test
-# > Duration*). The danger of a long test is to the hardware. It *is* a danger to home-made fits
-# > that do not trim.
-# > ([SysId's source: FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
+# > Duration*). The danger of a long test is to the hardware. For kA, it is only a danger if you
+# > write your own fit and do not trim. ([SysId's source:
+# > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
-# > **Try it:** `trim=False` in the next section.
+# > **Try it:** choose `trim=False` in the next section.
 # </details>
 
 # %% [markdown]
-# ## 6 Same data, five choices, five kA's
+# ## 6 Same data, five choices, five values of kA
 #
-# A real robot program sometimes misses a loop. So we remove one row in twenty from our log. We fit
-# the **same data** and change five choices, one at a time: the left side, the threshold, the
-# filter, the time step and the trim.
+# A real robot program sometimes misses a loop. So we remove one row in twenty from our log. Then we
+# fit the **same data** several times. Each time we change only one of five choices: the left side,
+# the threshold, the filter, the time step or the trim.
 #
 # **Predict:**
 
@@ -587,7 +595,7 @@ WAYS = {
     "threshold: 1 m/s": {"threshold": 1.0},
     "filter: median of 5": {"median": 5},
     "filter: median of 15": {"median": 15},
-    "time step: each row's own": {"mean_dt": False},
+    "time step: measured at each row": {"mean_dt": False},
     "trim: none": {"trim": False},
 }
 gappy = []
@@ -606,8 +614,9 @@ plot_choices(
 )
 
 # %% [markdown]
-# Each dot is the mean of eight logs, and its bar shows how much the logs differ. None of these
-# choices is a calculation error. They are decisions that SysId makes for you. Try other choices:
+# Each dot is the mean of eight logs, and its bar shows how much the results of the logs differ.
+# None of these choices is a mistake in the calculation. They are decisions that SysId makes for
+# you. Try other choices:
 
 
 # %%
@@ -648,16 +657,17 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # ### Explain
 #
 # - **Filter** and **side** matter most. A filter window that is longer than the rise makes kA too
-#   small (section 9), and so does noise in the column of the acceleration (section 4).
+#   small (section 9). Noise in the column of the acceleration makes it too small, too (section 4).
 # - **Time step.** SysId uses the mean time step, which is wrong for the rows next to a gap. So gaps
 #   in the log make kA less accurate. kV hardly changes.
-# - **Trim.** At full speed the acceleration is zero, so these rows only add noise.
+# - **Trim.** At full speed the acceleration is zero, so the rows at full speed only bring noise
+#   into the fit.
 #
 # <details><summary>Want to know more? The threshold</summary>
 #
-# - **Threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy one,
-#   standstill rows have a random sgn(v), and kA gets worse the longer the robot stands. (Try it:
-#   the last point of section 14.)
+# - The **threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy
+#   encoder, sgn(v) is random in the rows at standstill. The longer the robot stands, the worse kA
+#   gets. (To try it, see the last point of section 14.)
 # </details>
 
 # %% [markdown]
@@ -665,8 +675,8 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 #
 # You now have gains. Are they good? There are two kinds of error, and SysId has a score for each.
 #
-# - **Equation error:** in each row, how far is the measured acceleration from the acceleration of
-#   the model? SysId's score is the **acceleration R²**.
+# - **Equation error:** in each row, how far is the measured acceleration from the acceleration that
+#   the model computes? SysId's score is the **acceleration R²**.
 # - **Simulation error:** give the model only the *voltage* of a whole test, and simulate. How far
 #   is the simulated velocity from the measured one? Here errors add up over time. SysId's score is
 #   the **simulated velocity R²**.
@@ -692,8 +702,8 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect, and 0 is no better than guessing the mean every time. (For the simulation we take
-# the two forward tests; SysId takes all four.)
+# So 1 is perfect. 0 is no better than if you guess the mean every time. (For the simulation we use
+# the two forward tests. SysId uses all four.)
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -715,15 +725,17 @@ print(
 )
 print(f"  the same, textbook R²:     by hand {textbook:.4f}")
 print(f"RMSE, the typical error:     {rmse:.4f} m/s")
-print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} with squares, as in the textbook's formula.")
+print(
+    f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} in the textbook's formula, which uses squares."
+)
 
 # %% [markdown]
 #
 # <details><summary>Want to know more? What “adjusted” means</summary>
 #
-# *Adjusted* means that the score is a little lower for each unknown, because every additional
-# column fits some of the noise by chance. With hundreds of rows it hardly matters. ([SysId's
-# source:
+# *Adjusted* means that each unknown makes the score a little lower. The reason: every additional
+# column matches some of the noise by chance. With hundreds of rows the difference is very small.
+# ([SysId's source:
 # OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
 # </details>
 #
@@ -738,17 +750,17 @@ print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} with squares, as in the te
 # > **Lesson says:** "R² value is above 0.9 in the analyzer."
 # >
 # > **Source says:** there are two. The *acceleration* R² "rarely goes above 0.5, even on very good
-# > datasets"; below about 0.2, doubt kA. The *simulated velocity* R² (in SysId's window: *Sim
-# > velocity R²*) should be above 0.9. ([Viewing
+# > datasets"; if it is below about 0.2, do not trust kA. The *simulated velocity* R² (in SysId's
+# > window: *Sim velocity R²*) should be above 0.9. ([Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
-# > And the second is not the textbook's: SysId computes 1 − RMSE / (root mean square of v). The
-# > ratio is not squared, no mean is taken off, so its 0.9 asks for more than it seems to. ([SysId's
-# > source:
+# > The second is not the R² of textbooks: SysId computes 1 − RMSE / (root mean square of v). SysId
+# > does not square the ratio and does not subtract the mean. So a score of 0.9 is harder to reach
+# > than in a textbook. ([SysId's source:
 # > AnalyzerPlot.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/AnalyzerPlot.cpp))
-# > (The docs page calls the acceleration the *independent* variable. In the code it is the one that
-# > is explained, on the left.)
+# > (The docs page calls the acceleration the *independent* variable. In the code it is the
+# > *dependent* variable, on the left side.)
 # >
-# > **Try it:** you just did. From now on, never write "R²" without saying which.
+# > **Try it:** you computed both scores above. From now on, always say which R² you mean.
 # </details>
 #
 # ### What R² does not show
@@ -776,7 +788,7 @@ def changed(log: sim.Log, *, speed: float = 1.0, asked: bool = False) -> sim.Log
 suspects = {
     "clean": quiet,
     "clean, logged at 200 Hz": fast_log,
-    "gear ratio typed in wrong (÷ 1.25)": changed(quiet, speed=1 / 1.25),
+    "wrong gear ratio in the code (÷ 1.25)": changed(quiet, speed=1 / 1.25),
     "encoder inverted": changed(quiet, speed=-1.0),
     "commanded voltage logged, 7 V step": changed(sag, asked=True),
 }
@@ -799,7 +811,7 @@ Table(("log", "acceleration R²", "simulated velocity R²", "kV ÷ true", "kA ÷
 # %% [markdown]
 # ## 8 How can kS be negative?
 #
-# Friction never pushes a robot, so a true kS is never negative. But SysId sometimes prints a
+# Friction only brakes a robot, so a true kS is never negative. But SysId sometimes prints a
 # negative kS. To see how, we add more and more noise to the velocity, and look at kS, kA, and the
 # sum **kS + kA·(ramp/kV)**.
 
@@ -815,18 +827,18 @@ print(f"true kS {truth['kS']:.3f} V, true kA {truth['kA']:.3f} V·s²/m")
 Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tuple(rows))
 
 # %% [markdown]
-# The sum in the last column hardly changes while the noise is moderate. You know this sum from
-# section 2: it is the voltage of the straight line at velocity 0. The ramp has many rows, and they
-# determine the **sum** well. But they do not show how much of the sum comes from kS and how much
-# from kA. Only the few rows of the step show that. So when noise makes kA too large, kS becomes too
-# small, or even negative.
+# As long as the noise is moderate, the sum in the last column hardly changes. You know this sum
+# from section 2: it is the voltage of the straight line at velocity 0. The ramp has many rows, and
+# they determine the **sum** well. But they do not show how much of the sum comes from kS and how
+# much from kA. Only the few rows of the step show that. So when noise makes kA too large, kS
+# becomes too small, or even negative.
 #
 # So if kS is negative, do not look at friction first. Ask: **why is kA too large?** Possible causes
 # are noise, a log of the commanded voltage, a slipping wheel, or a sudden jump. (With gravity,
 # first check the analysis type: lesson 2.)
 
 # %% [markdown]
-# ## 9 A filter is not free
+# ## 9 A filter has a disadvantage
 #
 # Noise makes kA too large, and a median filter removes noise. So should you use a large window?
 #
@@ -834,7 +846,10 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 
 # %%
 guess_filter = Prediction(
-    "With a window of 15 samples, kA is…", "still right", "a little too small", "less than half"
+    "With a window of 15 samples, kA is…",
+    "still right",
+    "a little too small",
+    "less than half of the truth",
 )
 guess_filter
 
@@ -848,7 +863,7 @@ for name, level in levels.items():
         fits = [fit(one, method="sysid", median=window).gains["kA"] for one in logs]
         by_window[name].append(float(np.mean(fits)))
 
-print(guess_filter.reveal("less than half"))
+print(guess_filter.reveal("less than half of the truth"))
 print(f"kA/kV = {1000 * timescale:.0f} ms, which is {timescale / 0.02:.1f} samples of 20 ms.")
 plot_curves(
     WINDOWS,
@@ -868,8 +883,8 @@ plot_curves(
 #
 # <details><summary>Want to know more? What WPILib's docs say</summary>
 #
-# They warn about this for mechanisms that are light for their motors: the filter may "eat" the
-# acceleration data, and kA tends toward zero. ([Viewing Diagnostics, at one
+# They warn about this for mechanisms with strong motors and a small load: the filter may "eat" the
+# acceleration data. Then kA tends toward zero. ([Viewing Diagnostics, at one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # </details>
 
@@ -877,17 +892,18 @@ plot_curves(
 # ## 10 From gains to a first kP
 #
 # SysId also suggests a feedback gain, kP. A feedback loop compares the measured velocity with the
-# wanted one; kP is the voltage that it adds per unit of velocity error. SysId computes kP from kV,
-# kA and **three settings** (in italics: their names in SysId's window):
+# target. kP is the voltage that it adds for each unit of velocity error. SysId computes kP from kV,
+# kA and **three settings**. Their names in SysId's window are in italics:
 #
 # - **q**, the velocity error that you accept (*Max Velocity Error*);
-# - **r**, the volts that the feedback may use for it (*Max Control Effort*);
+# - **r**, the volts that the feedback may use to correct this error (*Max Control Effort*);
 # - the **delay** of the measurement (*Measurement Delay*).
 #
 # <details><summary>Want to know more? Gain presets</summary>
 #
-# A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit
-# of its output. Here we keep WPILib's own loop: 20 ms, and volts.
+# A *Gain Preset* for your motor controller sets the delay, how often the loop runs, and the unit of
+# its output. Here we use the preset for WPILib's own loop: it runs every 20 ms, and its output is
+# in volts.
 # </details>
 #
 # A method called LQR (*linear-quadratic regulator*) finds the kP that balances q and r. A small q
@@ -956,9 +972,9 @@ at_load = allowed_velocity_error(ks=0.14, kv=lesson_kv)
 rows = []
 for name, q, delay in (
     ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
-    ("a quarter of the top speed, which SysId's window sets first", at_load, 0.0),
+    ("a quarter of the top speed, the first value in SysId's window", at_load, 0.0),
     ("the q that gives kP = 0.62", 3.43, 0.0),
-    ("1.5 m/s, with a delay of 112 ms: SysId's number for a NEO's encoder", 1.5, 0.112),
+    ("1.5 m/s, and a delay of 112 ms, which SysId uses for a NEO's encoder", 1.5, 0.112),
 ):
     kp = design_velocity_loop(
         kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay
@@ -1041,7 +1057,7 @@ for doubt in best.doubts:
 # - [ ] kV and kA are positive, kS is not negative.
 # - [ ] kV and kA are close to the values you expect from motors, gears and mass.
 # - [ ] You know the window of the median filter, and it is shorter than kA/kV.
-# - [ ] When you write R², you say which one.
+# - [ ] When you write R², you say which R² it is.
 #
 # ## 13 Knowledge check
 #
@@ -1066,45 +1082,46 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# It is the noisiest signal. Noise on the left averages out; noise in a column makes that column's
-# gain too small, however long the log is.
+# The acceleration is the noisiest signal. Noise on the left side averages out. Noise in a column
+# makes the number found for that column too small, and a longer log does not help.
 # </details>
 #
-# **2.** Somebody's kS is −0.1 V, kA is three times what you expect, the simulated velocity R² is
-# 0.93. Where do you look?
+# **2.** In somebody's fit, kS is −0.1 V, kA is three times as large as you expect, and the
+# simulated velocity R² is 0.93. Where do you look for the mistake?
 #
 # <details><summary>Answer</summary>
 #
-# At kA, not at friction. The ramp determines kS + kA·(ramp/kV), so if kA is too large, kS is too
-# small. Look for noise in the velocity, for a log of the commanded voltage, for slip. R² does not
-# show any of these well.
+# Look at kA, not at friction. The ramp determines the sum kS + kA·(ramp/kV). So if kA is too large,
+# kS is too small. Look for noise in the velocity, for a log of the commanded voltage, and for slip.
+# R² does not show any of these well.
 # </details>
 #
 # **3.** Your acceleration R² is 0.35. Is the fit bad?
 #
 # <details><summary>Answer</summary>
 #
-# Not necessarily. WPILib's docs call values above 0.5 rare even for good data. Below about 0.2, do
-# not trust kA. Compare kA with motors and mass, and forward with reverse.
+# Not necessarily. WPILib's docs say that values above 0.5 are rare, even for good data. Below about
+# 0.2, do not trust kA. Compare kA with motors and mass, and forward with reverse.
 # </details>
 #
-# **4.** Your flywheel has kA/kV = 400 ms, your turret 15 ms. For which one is a median window of 5
-# (at 20 ms) harmless?
+# **4.** Your flywheel has kA/kV = 400 ms, and your turret has 15 ms. For which of them can you use
+# a median window of 5 samples (one sample is 20 ms)?
 #
 # <details><summary>Answer</summary>
 #
 # For the flywheel: five samples are 100 ms, a quarter of its time constant. The turret reaches its
-# speed within a few samples, so the filter destroys its kA. Even without a filter, 20 ms is too
-# slow for it.
+# speed within a few samples, so the filter destroys its kA. Even without a filter, one sample every
+# 20 ms is too slow for the turret.
 # </details>
 #
 # **5.** A teammate pastes SysId's kP and the drivetrain shakes. "So SysId is wrong." Is it?
 #
 # <details><summary>Answer</summary>
 #
-# Not necessarily. kP depends on q, r and the delay. Did they choose the preset of the right motor
-# controller, and with it the right delay? Are the gains per meter while the controller counts
-# rotations? If all that is right, start with a lower kP. It is only a starting point.
+# Not necessarily. kP depends on q, r and the delay. Did your teammate choose the preset of the
+# right motor controller, and with it the right delay? Are the gains per meter, while the motor
+# controller counts rotations? If all of that is right, start with a lower kP. It is only a starting
+# point.
 # </details>
 
 # %% [markdown]
@@ -1119,13 +1136,14 @@ quick
 #
 # If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
 # feedback says so. Hints cost nothing: `grade exercise9 --hint`. You also write your fit into
-# `fit.py`; `grade watch exercise9` in a terminal grades it each time you save.
+# `fit.py`. `grade watch exercise9` in a terminal grades it each time you save.
 #
 # <details><summary>More, if you like</summary>
 #
-# - Make `my_fit` print how far forward-only and reverse-only gains differ.
-# - Fit the shooter with a window of 15. Why are its gains still good?
-# - Give the robot a noisy standstill and a slow ramp, and find the threshold that helps kA:
+# - Fit the forward tests alone and the reverse tests alone. Print how much the gains differ.
+# - Fit a log of the shooter with a median window of 15. Why are its gains still good?
+# - Give the robot an encoder that is noisy at rest, and a slow ramp. Find the threshold that gives
+#   the best kA:
 #
 #   ```python
 #   noisy = replace(robot, sensor=replace(robot.sensor, noise_speed=1e-9))

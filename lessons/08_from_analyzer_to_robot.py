@@ -17,9 +17,9 @@
 #
 # **At the end you can**
 #
-# - turn a fit into constants with units that somebody else understands;
+# - write the gains of a fit as constants, with units that somebody else understands;
 # - choose the feedforward class, and pass its arguments in the right order;
-# - recognize a wrong unit or a wrong argument order from what the robot does;
+# - recognize a wrong unit or a wrong argument order by watching the robot;
 # - write the loop that uses the gains, and say what kP can and cannot fix;
 # - decide which mechanisms to characterize, and when.
 
@@ -27,8 +27,8 @@
 # ## 1 Why: no error message
 #
 # SysId shows three or four numbers, and you put them into your code. Much can go wrong: the gain is
-# per rotation but the code uses radians, kG and kV are swapped, somebody uses the suggested kP
-# without a test. **There is no error message.** The robot just moves wrong.
+# per rotation but the code uses radians, kG and kV are swapped, or somebody uses the suggested kP
+# without a test. **There is no error message.** The robot only moves in a wrong way.
 #
 # A *feedforward* computes the voltage from the motion that you **want**: "for 40 rotations per
 # second I need 5 V". *Feedback* measures the motion that you **get**, and corrects the voltage.
@@ -77,7 +77,7 @@ from sim.teaching.profile_loop import (
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
 log = simulate(shooter, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(8))
 found = fit(log).in_log_units()
-print(f"{shooter.summary}; gains per rotation:")
+print(f"The mechanism: {shooter.summary}. Its gains are per rotation:")
 Table(
     ("gain", "value", "one standard error", "unit"),
     tuple(
@@ -87,8 +87,8 @@ Table(
 )
 
 # %% [markdown]
-# *One standard error* is the typical error from noise alone. On a real robot, effects that are not
-# in the model cause larger errors (lesson 9). So trust two or three digits.
+# *One standard error* is the typical error that noise alone causes. On a real robot, effects that
+# are not in the model cause larger errors (lesson 9). So trust only two or three digits.
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
@@ -96,17 +96,19 @@ Table(
 # Put the numbers into `Constants.java`, in a class of their own. Write the unit of each number in a
 # comment. Above the numbers, write *when to measure again*.
 #
-# Do not copy somebody else's constants. Example: a drivetrain with TalonFX motors, ratio 8.46, 4
-# inch wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is 2.68 above it?
+# Do not copy somebody else's constants. Example: somebody's drivetrain has TalonFX motors, ratio
+# 8.46, 4 inch wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is 2.68
+# above it?
 #
 # <details><summary>For mentors: the source lesson's constants</summary>
 #
 # > **Lesson says:** a drivetrain with TalonFX motors, ratio 8.46 and 4 in wheels has `kV = 2.68`,
 # > and "SysId suggests kP = 0.62".
 # >
-# > **Source says:** kV pays for the back-EMF ("the counter-electromotive force") and for friction
-# > that grows with speed. So a measured kV lies *above* what the motor's free speed suggests
-# > (within a percent or two: data sheets are rounded). ([WPILib docs: Introduction to DC Motor
+# > **Source says:** kV contains the back-EMF ("the counter-electromotive force") and the friction
+# > that grows with speed. So a measured kV is *larger* than the kV that you compute from the
+# > motor's free speed. (It can be one or two percent smaller, because data sheets are rounded.)
+# > ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
 # > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
@@ -120,11 +122,11 @@ for name in ("falcon500", "krakenX60", "krakenX44"):
     per_second = MOTORS[name].free_speed / (2 * math.pi)  # turns of the motor, at 12 V
     theory = 12.0 / (per_second * METERS)
     rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
-Table(("motor", "kV from its free speed [V·s/m]", "2.68 is off by"), tuple(rows))
+Table(("motor", "kV from its free speed [V·s/m]", "difference of 2.68"), tuple(rows))
 
 # %% [markdown]
-# For a Falcon 500 or a Kraken X60, 2.68 is too low; only the X44 fits. If kV is more than a few
-# percent below the theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
+# For a Falcon 500 or a Kraken X60, 2.68 is too low. It is possible only for the X44. If kV is more
+# than a few percent below the theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
 #
 # `sysid fit` can write the constants, with their errors as comments:
 #
@@ -156,22 +158,21 @@ for language in ("java", "python"):
         write_robot_code(found, language=language, season=season, name="shooter").splitlines()
         for season in (2026, 2027)
     )
-    print(f"{language}, lines that are in one season only:")
+    print(f"{language}: these lines are different in the two seasons:")
     print("\n".join(f"  2026  {line.strip()}" for line in old if line not in new))
     print("\n".join(f"  2027  {line.strip()}" for line in new if line not in old))
 print(guess_season.reveal("the package and a method's name"))
 
 # %% [markdown]
-# The gains do not change with the season, but names in the code do. (The names for 2027 may still
-# change.)
+# The gains do not change with the season, but names in the code do. (They may still change.)
 #
 # **Units.** `kS` and `kG` are always in volts. `kV` and `kA` are per meter, per rotation or per
 # radian: *use the unit of the velocity that your code passes to the feedforward*. Two rules:
 #
 # - **Convert a unit in one place:** in the constant or at the call, never in both.
 # - **kP belongs to its loop.** A PIDController whose output you give to `setVoltage` needs a kP in
-#   volts per unit of error. The loop in a motor controller may output a duty cycle from −1 to 1
-#   instead of volts: then divide kP by 12.
+#   volts per unit of error. The output of a motor controller's own loop may be a duty cycle from −1
+#   to 1 instead of volts. Then divide kP by 12.
 
 # %% [markdown]
 # ## 3 The class, and its arguments
@@ -197,25 +198,26 @@ print(guess_season.reveal("the package and a method's name"))
 # > are plain numbers, so a compiler accepts them in any order.
 # > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
-# > **Try it:** an elevator is told to hold still. Somebody learned "kS, kV, kA" and puts kG last.
+# > **Try it:** somebody learned "kS, kV, kA" and puts kG last. The next cells show what an elevator
+# > does then.
 # </details>
 #
-# Somebody remembers "kS, kV, kA" and puts kG last. The code asks the carriage, the moving part of
-# the elevator, to hold still. **Predict:**
+# Somebody remembers "kS, kV, kA" and puts kG last. The target of the *carriage* (the moving part of
+# the elevator) is to hold still. **Predict:**
 
 # %%
 lift = elevator.gains
 guess_slot = Prediction(
-    "new ElevatorFeedforward(kS, kV, kA, kG), target: hold still. The carriage…",
-    "it holds",
-    "it sinks",
-    "it rises",
+    "new ElevatorFeedforward(kS, kV, kA, kG) should hold the carriage still. What happens?",
+    "the carriage holds still",
+    "the carriage sinks",
+    "the carriage rises",
     "the program stops with an error",
 )
 guess_slot
 
 # %% [markdown]
-# The function `moved` simulates a mechanism; every 20 ms it asks the function `volts` for a
+# The function `moved` simulates a mechanism. Every 20 ms it calls the function `volts` to get a
 # voltage.
 
 
@@ -261,33 +263,31 @@ for name, order in orders.items():
     slot = lift[order[ORDER["elevator"].index("kG")]]
     seconds = moved(lift, lambda *_, slot=slot: slot, loops=50)
     rows.append((name, slot, 100 * float(seconds[0, -1])))
-print(guess_slot.reveal("it rises"))
-print(f"The carriage needs {lift['kG']:.2f} V to hold still, ± {lift['kS']:.2f} V of friction.")
-Table(("arguments", "volts while holding still [V]", "after one second [cm]"), tuple(rows))
+print(guess_slot.reveal("the carriage rises"))
+print(f"The carriage needs {lift['kG']:.2f} V to hold still.", end=" ")
+print(f"Friction allows {lift['kS']:.2f} V more or less.")
+Table(("arguments", "voltage at zero speed [V]", "height after one second [cm]"), tuple(rows))
 
 # %% [markdown]
-# (A real elevator would hit its stop with force.)
-#
 # ### `calculate`: velocities, not an acceleration
 #
-# In Java, use `calculateWithVelocities(velocity, nextVelocity)`: the velocity now, and the velocity
-# in the next loop. Python's `calculate` takes two velocities, too. If you pass an acceleration
-# instead, the voltage is wrong.
+# In Java, use `calculateWithVelocities(velocity, nextVelocity)`. Its arguments are the velocity now
+# and the velocity in the next loop. Python's `calculate` takes two velocities, too. If you pass an
+# acceleration instead, the voltage is wrong.
 #
 # <details><summary>Want to know more? The old call, and the first loop</summary>
 #
-# In Java, `calculate(velocity, acceleration)` is deprecated (it will be removed); some pages of
+# In Java, `calculate(velocity, acceleration)` is deprecated (it will be removed). Some pages of
 # WPILib's docs still show it. WPILib gives kS the sign of the *current* velocity (if kA is not 0).
 # At the start this velocity is zero, so there is no kS in the first loop. (The simulation below
-# adds kS at once.)
-# ([WPILib's source:
+# adds kS at once.) ([WPILib's source:
 # SimpleMotorFeedforward.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpimath/src/main/java/edu/wpi/first/math/controller/SimpleMotorFeedforward.java))
 # </details>
 #
 # ### Gains inside the motor controller
 #
 # A motor controller can add the feedforward itself, a thousand times a second. It has its own
-# units, and it does not warn you if you use others:
+# units, and it does not warn you if you use other units:
 #
 # | where | kV is volts per | set also |
 # |---|---|---|
@@ -295,7 +295,8 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 # | REVLib, `FeedForwardConfig` | your unit/s | both conversion factors; an arm: `kCosRatio` |
 # | YAGSL 2026 (a swerve library) | m/s of a wheel | `replaceSwerveModuleFeedforward` |
 #
-# `sysid fit` writes each of them and converts the units. If your log is in meters, add the radius:
+# `sysid fit` writes the code for each of them and converts the units. If your log is in meters, add
+# the radius:
 #
 # ```
 # sysid fit my_log.wpilog --paste phoenix6 --radius 0.0508
@@ -305,8 +306,8 @@ Table(("arguments", "volts while holding still [V]", "after one second [cm]"), t
 print(write_controller_code(found, target="phoenix6", name="shooter"))
 foc = replace(shooter, motor=find_motor("krakenX60FOC")).gains
 share = {gain: 100 * (foc[gain] / shooter.gains[gain] - 1) for gain in ("kV", "kA")}
-print("FOC is a mode of CTRE's motors. With it, the same wheel has", end=" ")
-print(f"kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
+print("FOC is a mode of CTRE's motors. With FOC, the gains of the same wheel change:", end=" ")
+print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 
 # %% [markdown]
 # If `SensorToMechanismRatio` is set, the gains are in volts per rotation of the *mechanism*. Put
@@ -315,24 +316,25 @@ print(f"kV {share['kV']:+.1f} % and kA {share['kA']:+.0f} %.")
 #
 # <details><summary>If your motors are CTRE's: FOC, and sources</summary>
 #
-# Use **FOC as in the tests.** FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With
-# the license, `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were
-# measured with FOC are wrong without it. (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6,
-# release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
+# **FOC as in the tests.** If FOC was on in the tests, use it on the robot, too. FOC is a mode of
+# CTRE's motors that needs a Phoenix Pro license. With the license, `setVoltage` and `VoltageOut`
+# turn it on unless you say otherwise. Gains that were measured with FOC are wrong without it.
+# (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
 # FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 # </details>
 #
 # <details><summary>If your swerve drive uses a newer YAGSL</summary>
 #
-# YAGSL's newer pages say that `replaceSwerveModuleFeedforward` is gone. There, kS, kV and kA are
-# the numbers `s`, `v` and `a` in the file `pidfproperties.json`.
+# YAGSL's newer pages say that `replaceSwerveModuleFeedforward` is gone. In newer versions, kS, kV
+# and kA are the numbers `s`, `v` and `a` in the file `pidfproperties.json`.
 # </details>
 
 # %% [markdown]
 # ## 4 A profile follower, and wrong units
 #
 # The shooter should spin up smoothly, hold its speed, and spin down. A **profile** is such a plan:
-# a target velocity v for each moment. Each loop of the robot program applies
+# a target velocity v for each moment. In each loop, the robot program sends the motor this voltage:
 #
 # > kS·sgn(v) + kV·v + kA·(v_next − v)/0.02 s &nbsp; + &nbsp; kP·(v − measured)
 #
@@ -375,8 +377,8 @@ GAINS = {
     "per radian, gets rotations": scaled(1 / (2 * math.pi)),
     "per rotation, gets radians": scaled(2 * math.pi),
     "kV and kA swapped": measured | {"kV": measured["kA"], "kA": measured["kV"]},
-    "kA left out": measured | {"kA": 0.0},
-    "volts taken for duty cycle (÷ 12)": {name: gain / 12 for name, gain in measured.items()},
+    "without kA": measured | {"kA": 0.0},
+    "gains divided by 12 by mistake": {name: gain / 12 for name, gain in measured.items()},
 }
 
 # %% [markdown]
@@ -386,8 +388,8 @@ GAINS = {
 guess_radian = Prediction(
     "kV is per radian, but the target is in rotations. How fast does the wheel turn?",
     "about 6 times too fast",
-    "about a sixth of the target",
-    "the target, but later",
+    "at about a sixth of the target speed",
+    "at the target speed, but late",
 )
 guess_rotation = Prediction(
     "kV is per rotation, but the target is in radians, a number 6.28 times as large. The wheel…",
@@ -425,11 +427,11 @@ show_interactive(
 follower("per radian, gets rotations", 0.0)
 
 # %% [markdown]
-# All sets of gains, without and with feedback:
+# The next table compares all sets of gains, without and with feedback:
 
 # %%
 SOME = 0.2  # [V per rot/s]
-print(guess_radian.reveal("about a sixth of the target"))
+print(guess_radian.reveal("at about a sixth of the target speed"))
 print(guess_rotation.reveal("runs as fast as 12 V can make it"))
 Table(
     ("gains", "top speed [rot/s]", "error [rot/s], kP = 0", f"error [rot/s], kP = {SOME}"),
@@ -438,7 +440,7 @@ Table(
          measure_tracking_error(TARGET, follow(one, SOME)).typical)
         for name, one in GAINS.items()
     ),
-    caption=f"The profile's top is {TARGET.max():.0f} rot/s; with 12 V the wheel "
+    caption=f"The highest target is {TARGET.max():.0f} rot/s. With 12 V the wheel "
     f"reaches {(12 - wheel['kS']) / wheel['kV']:.0f} rot/s.",
 )  # fmt: skip
 
@@ -451,14 +453,13 @@ Table(
 #   12 V, so the wheel runs as fast as it can. With a drivetrain or an arm this is dangerous.
 # - **kV and kA swapped:** there is far too much voltage while the wheel speeds up, and far too
 #   little while it holds its speed.
-# - **Without kA:** the wheel is right while the target is constant, and late while it changes. For
-#   many mechanisms that is enough.
-# - **kP hides the mistake.** Look at the table's right column. With feedback, wrong units give a
-#   smaller error: the robot "works", but badly. So if feedback does not help enough, check the
-#   units before you change kP.
+# - **Without kA:** the speed is right while the target is constant, and late while the target
+#   changes. For many mechanisms that is good enough.
+# - **kP hides the mistake.** With feedback, wrong units cause a smaller error: the robot "works",
+#   but badly. So if feedback does not help enough, check the units before you change kP.
 #
-# The easiest check is to compute one voltage by hand: `kS + kV · (a speed you know)` must be
-# between 0 and 12 V, and it must make sense.
+# The easiest check is to compute one voltage by hand. `kS + kV · (a speed you know)` must be
+# between 0 and 12 V, and you must be able to believe it.
 #
 # <details><summary>Want to know more? When you may leave out kA</summary>
 #
@@ -482,7 +483,7 @@ Table(
 
 # %%
 guess_kp = Prediction(
-    "With kP as large as kV, how much of the error of 100 rpm remains?",
+    "kP is as large as kV. How much of the error of 100 rpm remains?",
     "all of it",
     "half of it",
     "a tenth of it",
@@ -536,7 +537,7 @@ droop(0.12)
 # %%
 print(guess_kp.reveal("half of it"))
 Table(
-    ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "remaining share"),
+    ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "share of the error that remains"),
     tuple(
         (f"{times}", times * wheel["kV"], left_over(times * wheel["kV"]),
          f"{100 * left_over(times * wheel['kV']) / DROOP[0]:.0f} %")
@@ -545,7 +546,7 @@ Table(
 )  # fmt: skip
 
 # %% [markdown]
-# Feedback with kP only acts when there is an error. So it never removes the whole error: about
+# Feedback with kP acts only if there is an error. So it never removes the whole error: about
 # **error ÷ (1 + kP/kV)** remains. This remaining error is called *droop*. With a larger kP, less
 # remains. So why not use a very large kP?
 
@@ -572,14 +573,14 @@ away = [
 Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error [rot/s]")
 
 # %% [markdown]
-# If the measurement is late, the feedback corrects an error that is already gone. Then a large kP
-# makes the error larger, until the speed oscillates (swings up and down). So choose SysId's *Gain
-# Preset* for your motor controller, and start from the suggested kP.
+# If the measurement is late, the feedback may correct an error that is already gone. Then a large
+# kP makes the error larger, until the speed oscillates (swings up and down). So choose SysId's
+# *Gain Preset* for your motor controller, and start from the suggested kP.
 #
 # <details><summary>Want to know more? How late motor controllers are</summary>
 #
-# In SysId's presets the velocity of Phoenix 6 is 1 ms late, and the velocity of a NEO's own encoder
-# 112 ms. ([SysId's source:
+# In SysId's presets the velocity of Phoenix 6 is 1 ms late. The velocity of a NEO's own encoder is
+# 112 ms late. ([SysId's source:
 # FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
 # </details>
 #
@@ -592,19 +593,19 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # > Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/analyzing-gains.html))
 # > Which number it suggests depends on settings (lesson 7), among them the delay.
 # >
-# > **Try it:** choose the preset of your motor controller, and see whether kP changes.
+# > **Try it:** in SysId, choose the preset of your motor controller, and see whether kP changes.
 # </details>
 #
-# So for the 3900 rpm: **keep the gains**, use `setVoltage` instead of `set(volts / 12)`, then add
-# feedback for the rest. Do *not* make kV larger: it would be right for one speed and one battery
-# only.
+# So if the shooter reaches 3900 rpm instead of 4000: **keep the gains**, use `setVoltage` instead
+# of `set(volts / 12)`, then add feedback to correct the rest. Do *not* make kV larger: the larger
+# kV would be right only for one speed and one battery voltage.
 
 # %% [markdown]
 # ## 6 Use the gains: one loop, one move
 #
 # A *setpoint* is the target of the profile at one moment. In each loop, the robot program uses two
-# setpoints, *now* and *in the next loop*, and applies **feedforward + feedback**. For a velocity,
-# in Java:
+# setpoints, the one for *now* and the one for the *next loop*. It adds **feedforward + feedback**.
+# In Java, this line controls a velocity:
 #
 # ```java
 # setVoltage(ff.calculateWithVelocities(v, next) + pid.calculate(measured, v));
@@ -613,7 +614,7 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # Our elevator should rise by one meter. Its feedforward uses velocities, and its feedback uses
 # positions.
 #
-# **Now you write it.** `one.now` and `one.after` are the two setpoints; each has a `position` and a
+# **Now you write it.** `one.now` and `one.after` are the two setpoints. Each has a `position` and a
 # `velocity`. `one.position` is measured. Replace the `...`, then run the cell below.
 
 
@@ -637,15 +638,15 @@ print(mine.report)
 # ```
 # </details>
 #
-# A rubber tube pulls at this elevator, and the elevator's friction is larger at very low speed. The
-# model contains neither. We have three sets of gains:
+# A rubber tube pulls at this elevator like a spring, and the friction is larger at very low speed.
+# The model contains neither of these. We have three sets of gains:
 #
-# - **guessed:** kV from the motor's free speed, kA and kG from the mass in CAD (17 kg; the true
-#   mass is 20 kg), no kS;
-# - **measured:** `fit` of four tests;
-# - **reconciled:** `reconcile` of the same tests. It finds the tube, too (lesson 9 shows how).
+# - **guessed:** kV comes from the motor's free speed. kA and kG come from the mass in CAD, which is
+#   17 kg (the true mass is 20 kg). kS is 0.
+# - **measured:** `fit` finds the gains from four tests.
+# - **reconciled:** `reconcile` finds them from the same tests. It finds the tube, too (lesson 9).
 #
-# **Predict.** All three with kP = 5 V/m:
+# **Predict.** All three sets of gains use kP = 5 V/m:
 
 # %%
 guess_move = Prediction(
@@ -699,13 +700,13 @@ animate_mechanism(
         ),
     ),
     panels=(
-        Panel("error", "ahead of the target by [cm]", scale=100.0),
+        Panel("error", "distance ahead of the target [cm]", scale=100.0),
         Panel("voltage", "voltage [V]"),
     ),
     span=(0.0, 1.2),
-    alt="Four elevators rise by one meter beside a dashed target, all with kP = 5 V/m. "
+    alt="Four elevators rise by one meter. A dashed line shows the target. All use kP = 5 V/m. "
     + " ".join(
-        f"{name}: at most {100 * one.worst_error:.1f} cm off." for name, one in moves.items()
+        f"{name}: the worst error is {100 * one.worst_error:.1f} cm." for name, one in moves.items()
     ),
 )
 
@@ -728,20 +729,21 @@ Table(
 )
 
 # %% [markdown]
-# - **Guessed:** kG and kA are too small, kS is missing.
-# - **Measured:** the worst error is about a third. But kS is nearly zero! The model has no tube, so
-#   the fit put the force of the tube into the gains.
+# - **Guessed:** kG and kA are too small, and kS is missing.
+# - **Measured:** the worst error is about a third of the one with guessed gains. But kS is nearly
+#   zero! The model has no tube, so the fit put the force of the tube into the gains.
 # - **Reconciled:** kS is right again. But the tube still pulls. So add **one more term** ("+
-#   tube"), the volts that balance the tube: `+ kTubeRate * position + kTubePreload`. Then the worst
-#   error is only two millimeters.
+#   tube"), the voltage that balances the tube: `+ kTubeRate * position + kTubePreload`. Then the
+#   worst error is only two millimeters.
 #
 # ### ProfiledPIDController and Motion Magic: the same sum
 #
-# `ProfiledPIDController` makes the profile itself; you only add the feedforward.
+# `ProfiledPIDController` makes the profile itself. You only add the feedforward.
 #
 # <details><summary>The code in Java</summary>
 #
-# Its `calculate` first moves the setpoint one loop ahead, so store the velocity before you call it:
+# The method `calculate` first moves the setpoint one loop ahead. So store the velocity before you
+# call this method:
 #
 # ```java
 # double v = pid.getSetpoint().velocity;
@@ -750,9 +752,9 @@ Table(
 # ```
 # </details>
 #
-# **Motion Magic** does all of it inside the motor controller, a thousand times a second, with the
-# gains of `Slot0Configs`: volts per rotation of the *mechanism*, here of the drum that winds up the
-# rope.
+# **Motion Magic** does all of this inside the motor controller, a thousand times a second. It uses
+# the gains of `Slot0Configs`, in volts per rotation of the *mechanism*. Here that is the drum that
+# winds up the rope.
 
 # %%
 DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
@@ -798,10 +800,13 @@ Table(
 )
 
 # %% [markdown]
+# <details><summary>Want to know why? The last three rows</summary>
+#
 # With ProfiledPIDController the elevator is about a centimeter ahead, because the feedback uses the
 # setpoint of the next loop. The last row is a common mistake: `SensorToMechanismRatio` is set, but
 # the gains are per rotation of the *rotor* (the motor's shaft). So they are too small by the gear
 # ratio.
+# </details>
 #
 # <details><summary>Sources</summary>
 #
@@ -814,9 +819,9 @@ Table(
 # %% [markdown]
 # ## 7 An arm that droops
 #
-# Droop also happens with gravity. Somebody measured the gains of an **empty** arm. Now the arm is
-# level and holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for
-# each radian of error.
+# Gravity also causes droop. Somebody measured the gains of an **empty** arm. Now the arm is level
+# and holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for each
+# radian of error.
 #
 # **Predict:**
 
@@ -853,9 +858,14 @@ def sag(kp: float, *, told: dict[str, float]) -> float:
 print(guess_arm.reveal("kG and kA"))
 for name, one in (("Empty: ", bare), ("Loaded:", loaded)):
     print(f"{name} kG {one['kG']:.2f} V, kA {one['kA']:.3f} V·s²/rad.")
-print("kV and kS stay.")
+print("kV and kS stay the same.")
 Table(
-    ("kP [V/rad]", "empty arm's gains [°]", "missing kG ÷ kP [°]", "loaded arm's gains [°]"),
+    (
+        "kP [V/rad]",
+        "gains of the empty arm [°]",
+        "missing kG ÷ kP [°]",
+        "gains of the loaded arm [°]",
+    ),
     tuple(
         (
             f"{kp:.0f}",
@@ -869,7 +879,7 @@ Table(
 )
 
 # %% [markdown]
-# The arm hangs at most (missing kG)/kP below level, or less because friction helps. A larger kP
+# The arm hangs (missing kG)/kP below level, or less, because friction helps to hold it. A larger kP
 # makes the droop smaller, but never zero. The right kG removes it. So measure **with and without**
 # the piece (or compute the second kG), and switch the gains when a sensor detects the piece.
 #
@@ -881,11 +891,11 @@ Table(
 # > **Lesson says:** run the elevator with full payload "since kA and kV change significantly with
 # > load mass".
 # >
-# > **Source says:** kA and kG grow with the mass. kV is the motor's back-EMF, seen through gears
-# > and drum; mass is not in it.
-# > ([WPILib docs: Introduction to DC Motor Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
+# > **Source says:** kA and kG grow with the mass. kV comes from the motor's back-EMF, the gears and
+# > the drum; mass is not in it. ([WPILib docs: Introduction to DC Motor
+# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** the next cell loads our simulated elevator.
+# > **Try it:** the next cell puts more mass on our simulated elevator.
 # </details>
 
 # %%
@@ -896,7 +906,7 @@ for kilograms in (elevator.load, 1.25 * elevator.load, 1.5 * elevator.load):
 Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(rows))
 
 # %% [markdown]
-# ## 8 Place three gain sets
+# ## 8 Which gains belong to which mechanism?
 #
 # Here are three sets of gains without names. One is from a **drivetrain**, one from an **elevator**
 # and one from a **shooter**. kV and kA are per meter or per radian. Match each set with its
@@ -934,17 +944,21 @@ for name, one in fits.items():
     cls = CLASSES.get(one.type, "SimpleMotorFeedforward")
     top = (12.0 - one.gains["kS"] - one.gains.get("kG", 0.0)) / one.gains["kV"]
     rows.append((name, sets[name][::-1], f"{cls}({', '.join(ORDER[one.type])})", top))
-Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(rows))
+Table(("set", "mechanism", "class", "top speed at 12 V [m/s or rad/s]"), tuple(rows))
 
 # %% [markdown]
-# The clues: if there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract
-# kG as well): a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly
-# the mechanism reacts: a heavy wheel reacts slowly.
+# <details><summary>How can you see it?</summary>
+#
+# If there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract kG as well):
+# a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly the
+# mechanism reacts: a heavy wheel reacts slowly.
+# </details>
 
 # %% [markdown]
 # ## 9 Which mechanisms, and when
 #
-# A test takes time and wears the robot. Ask: **what would be worse with gains that are 5 % off?**
+# A test takes time, and parts of the robot wear out. Ask: **what would be worse with gains that are
+# 5 % off?**
 #
 # | mechanism | characterize? | because |
 # |---|---|---|
@@ -958,27 +972,28 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #
 # <details><summary>Want to know more? Drivetrain, arm and elevator</summary>
 #
-# - **Drivetrain:** kS and kV do most of the work. From kA you also get the mass, and from a second
-#   kA, measured while turning on the spot, the moment of inertia (below).
-# - **Arm:** first without the game piece, then with it (section 7). For a light, short arm,
+# - **Drivetrain:** kS and kV are the most important. From kA you also get the mass. From a second
+#   kA, measured while turning on the spot, you get the moment of inertia (below).
+# - **Arm:** test it first without the game piece, then with it (section 7). For a light, short arm,
 #   computed gains may be enough.
-# - **Elevator:** with its load. kA and kG change with the mass, kV does not.
+# - **Elevator:** test it with its load. kA and kG change with the mass, kV does not.
 # - **Optional** means that it depends on the task on *your* robot. Either answer is right if you
 #   give the reason.
 # </details>
 #
-# If nothing would be worse, do not test. Without room or time you can compute kG, kV and kA; you
-# must measure kS.
+# If nothing would be worse, do not test. If you have no room or no time, you can compute kG, kV and
+# kA. But you must measure kS.
 #
 # <details><summary>For mentors: does every team characterize everything?</summary>
 #
 # > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
 # > closed-loop control."
 # >
-# > **Source says:** we could not verify that, and experienced people differ. WPILib's docs name
-# > another way for those without room or time: "reasonable estimates of kG, kV, and kA can be
-# > obtained by fairly simple computation", while kS "must be measured".
-# > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# > **Source says:** we could not verify that, and experienced people have different opinions.
+# > WPILib's docs name another way for teams that have no room or no time: "reasonable estimates of
+# > kG, kV, and kA can be obtained by fairly simple computation", while kS "must be measured".
+# > ([WPILib docs: Feedforward Control in
+# > WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
 # > **Try it:** for each row of the table, say what your robot would do worse. If you find nothing,
 # > do not test it.
@@ -987,34 +1002,36 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 # ### PathPlanner, Choreo, AdvantageKit: where the gains are used
 #
 # PathPlanner does not ask for kS or kV, but for mass, moment of inertia, wheels, motors and top
-# speed. From these it plans speeds, and your drive code needs the feedforward to reach them. If the
-# robot is late, it leaves its path in every curve.
+# speed. With these numbers it plans speeds, and your drive code needs the feedforward to reach
+# these speeds. If the robot is late, it leaves its path in every curve.
 #
 # <details><summary>For mentors: what PathPlanner needs, with source</summary>
 #
 # > **Lesson says:** "The payoff is compounding: a characterized drivetrain lets PathPlanner produce
 # > accurate autonomous trajectories."
 # >
-# > **Source says:** PathPlanner does not ask for kS or kV. It asks what the robot *is*: mass,
-# > moment of inertia, wheels, motors, true top speed. With that it plans speeds, and your drive
-# > code has to reach them. For that it needs the feedforward. ([PathPlanner docs: Robot
-# > Config](https://pathplanner.dev/robot-config.html))
+# > **Source says:** PathPlanner does not ask for kS or kV. It asks for properties of the robot:
+# > mass, moment of inertia, wheels, motors, true top speed. With these numbers it plans speeds.
+# > Your drive code has to reach these speeds, and it needs the feedforward for that. ([PathPlanner
+# > docs: Robot Config](https://pathplanner.dev/robot-config.html))
 # >
-# > **Try it:** in section 4, how far from its profile does the shooter stay without kA? A robot
-# > that is late whenever its speed changes leaves its path in every curve.
+# > **Try it:** in section 4, choose "without kA". How large is the difference between the shooter's
+# > speed and its target? A robot with such a difference at each change of speed leaves its path in
+# > every curve.
 # </details>
 #
 # <details><summary>Want to know more? The moment of inertia, Choreo and AdvantageKit</summary>
 #
-# - **PathPlanner's moment of inertia** follows from two kA values: one measured while turning on
-#   the spot, one while driving straight. One kA gives the mass, the other the inertia:
+# - **PathPlanner's moment of inertia**: you compute it from two kA values. You measure one while
+#   the robot turns on the spot, and the other while it drives straight. One kA gives the mass, the
+#   other the inertia:
 #
 #   > I = mass · r · kA_angular / kA_linear
 #
-#   Here r is the lever of a wheel: how far its push passes from the middle of the robot. For a
-#   **tank** that is half the trackwidth, r = trackwidth/2. The modules of a **square swerve** stand
-#   in the corners and push across the diagonal: r = trackwidth/√2. Both planners' pages give
-#   trackwidth/2 for every robot.
+#   Here r is the lever of a wheel. The wheel pushes along a line, and r is the distance of this
+#   line from the middle of the robot. For a **tank drive** that is half the trackwidth, r =
+#   trackwidth/2. The modules of a **square swerve** stand in the corners and push across the
+#   diagonal: r = trackwidth/√2. The pages of both planners use trackwidth/2 for every robot.
 #   ([PathPlanner](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
 #   [Choreo](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md),
 #   each at one commit)
@@ -1023,24 +1040,24 @@ Table(("set", "of the", "goes into", "top speed at 12 V [m/s or rad/s]"), tuple(
 #   is only as good as the drive code that follows it. ([WPILib docs:
 #   Choreo](https://docs.wpilib.org/en/latest/docs/software/pathplanning/choreo/index.html))
 # - **AdvantageKit's** swerve templates contain a simple routine for kS and kV of the drive, and
-#   SysId's four tests if you want kA. Its log uses **radians**, Phoenix uses **rotations**: a
-#   factor of 2π again. ([AdvantageKit docs: TalonFX Swerve
+#   SysId's four tests if you want kA. Its log uses **radians**, and Phoenix uses **rotations**, so
+#   the gains differ by a factor of 2π. ([AdvantageKit docs: TalonFX Swerve
 #   Template](https://docs.advantagekit.org/getting-started/template-projects/talonfx-swerve-template/))
 #
-# Why does the formula work? Driving straight, the wheels accelerate the mass. Turning on the spot,
-# they accelerate the inertia, with the lever r. The motors are the same, so the ratio of the kA
-# values is the ratio of the loads.
+# Why does the formula work? When the robot drives straight, the wheels accelerate the mass. When it
+# turns on the spot, they accelerate the moment of inertia, with the lever r. The motors are the
+# same, so the ratio of the kA values is the ratio of the loads.
 # </details>
 #
-# The moment of inertia (how hard it is to turn the robot) follows from two kA values, I = mass · r
-# · kA_angular / kA_linear. The next cell checks which lever r is right for a square swerve:
+# You compute the moment of inertia (how hard it is to turn the robot) from two kA values: I = mass
+# · r · kA_angular / kA_linear. The next cell checks which lever r is right for a square swerve:
 
 # %%
 drivetrain, TRACK, INERTIA = MECHANISMS["drivetrain"], 0.6, 5.0  # [m], [kg·m²]
 linear, lever = drivetrain.gains["kA"], TRACK / np.sqrt(2)
 # turning: the wheels feel a mass of I / lever², and meters at the wheel are radians · lever
 turning = replace(drivetrain, load=INERTIA / lever**2).gains["kA"] * lever
-print(f"kA straight {linear:.4f} V·s²/m, turning {turning:.4f} V·s²/rad")
+print(f"kA is {linear:.4f} V·s²/m straight ahead, and {turning:.4f} V·s²/rad while turning.")
 for name, r in (("half the trackwidth", TRACK / 2), ("trackwidth/√2", lever)):
     print(f"with {name}: I = {drivetrain.load * r * turning / linear:.2f} kg·m²")
 print(f"The truth is {INERTIA:.2f} kg·m².")
@@ -1048,9 +1065,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # %% [markdown]
 # ### When
 #
-# Plan two evenings in the last two weeks of build season: one to measure, one to measure again.
-# Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or if something
-# rubs (kS). Keep the old log and compare.
+# Plan two evenings in the last two weeks of build season: measure on the first, and measure again
+# on the second. Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or
+# if something rubs (kS). Keep the old log and compare.
 #
 # <details><summary>For mentors: the schedule, with source</summary>
 #
@@ -1058,28 +1075,30 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > build season, when the robot is mechanically done but the software is still being written." And
 # > the gains from the shop "will transfer directly to competition".
 # >
-# > **Source says:** the first is good advice; WPILib's docs ask for at least 10 feet to drive,
-# > ideally 20, and a pit does not have that. The second is true only with a condition: the gains
-# > describe *that* robot on *that* floor. The source lesson says so itself: measure again if
-# > gearing, wheels or carpet contact change. ([WPILib docs: Characterizing Your Robot
+# > **Source says:** the first sentence is good advice. WPILib's docs ask for at least 10 feet to
+# > drive, ideally 20, and a pit does not have that. The second sentence is true only under one
+# > condition: the robot and the floor must be the same as in the test. The source lesson says so
+# > itself: measure again if gearing, wheels or carpet contact change. ([WPILib docs: Characterizing
+# > Your Robot
 # > Drive](https://docs.wpilib.org/en/stable/docs/software/pathplanning/trajectory-tutorial/characterizing-drive.html))
 # >
-# > **Try it:** count back from your first competition. Write two evenings into the calendar: one to
-# > measure, one to measure again.
+# > **Try it:** count back from your first competition. Write two evenings into the calendar:
+# > measure on the first, and measure again on the second.
 # </details>
 #
 # <details><summary>Want to know more? Gains during a match</summary>
 #
-# Gains also change during a match. Copper that is 50 °C warmer has 20 % more resistance, so the
-# same force takes 20 % more volts: kS, kA and kG grow, kV hardly changes. An empty battery
-# changes no gain of a loop whose output is in volts, but then the battery can give only 10 V. kP
+# Gains also change during a match. If copper is 50 °C warmer, it has 20 % more resistance. Then the
+# same force needs 20 % more volts: kS, kA and kG grow, and kV hardly changes. If the output of the
+# loop is in volts, an empty battery changes no gain. But an empty battery can give only 10 V. kP
 # corrects small changes.
 # </details>
 
 # %% [markdown]
 # ## 10 Your own robot
 #
-# 1. Fetch the log (lesson 5), look at it (lesson 6), inspect it: `sysid inspect my_log.wpilog`
+# 1. Copy the log from the robot (lesson 5), look at its plots (lesson 6), then inspect it: `sysid
+#    inspect my_log.wpilog`
 # 2. Fit it with its type, in the unit that your code uses:
 #
 #    ```
@@ -1093,9 +1112,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #    sysid fit my_log.wpilog --paste python --season 2027
 #    ```
 #
-# 4. Compute one voltage by hand before you enable. Then use small targets, with the robot on the
-#    floor and a hand on Disable. Start with kP = 0, and check that the mechanism *nearly* follows.
-#    Then add kP.
+# 4. Compute one voltage by hand before you enable. Then use small targets. The robot is on the
+#    floor, and somebody is ready to press *Disable*. Start with kP = 0, and check that the
+#    mechanism *nearly* follows. Then add kP.
 #
 # If the gains cannot be right, the command writes no code and explains why.
 #
@@ -1108,11 +1127,12 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # ```
 #
 # The command fits each log alone, compares the gains, and averages them. Compare the spread with
-# the error bars. If the spread is larger, something changes between the recordings: the battery,
-# the heat of the motors, a bearing.
+# the error bars: how much the gains of the logs differ, and how large the standard errors are. If
+# the spread is larger, something changes between the recordings: the battery, the heat of the
+# motors, a bearing.
 #
-# For an arm the code is per radian, with the offset that turns your sensor's reading into the angle
-# from horizontal.
+# For an arm, the code uses radians. It contains the offset between the angle that your sensor
+# measures and the angle from horizontal.
 # </details>
 
 # %% [markdown]
@@ -1120,12 +1140,12 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # Before you enable with new gains, check all five:
 #
-# - [ ] Every constant has its unit in a comment, and a note when it was measured.
-# - [ ] The class fits the analysis type, and **kG** is the second argument.
+# - [ ] For every constant, a comment gives its unit and the date of the measurement.
+# - [ ] The class is the right one for the analysis type, and **kG** is the second argument.
 # - [ ] The unit of kV is the unit of the velocities that your code passes.
 # - [ ] One voltage, computed by hand, is between 0 and 12 V and makes sense.
-# - [ ] kP is marked as a starting value and fits the output of its loop. The first try is with kP =
-#   0.
+# - [ ] A comment says that kP is a first guess, and kP has the right unit for its loop (volts or
+#   duty cycle). The first try is with kP = 0.
 #
 # ## 12 Knowledge check
 #
@@ -1138,10 +1158,10 @@ quick = QuickCheck(
     "new ElevatorFeedforward(kS, kV, kA): what does the elevator do at zero speed?",
     {
         "it holds still": "Count the arguments: kG is the second.",
-        "it gets kV as kG": "The second argument is kG: it gets kV volts, whatever gravity needs.",
-        "it does not compile": "All are numbers, and three are enough: the compiler accepts them.",
+        "it gets kV volts": "The second argument is kG: it gets kV volts, not what gravity needs.",
+        "nothing, the code does not compile": "Three numbers are enough for the compiler.",
     },
-    right="it gets kV as kG",
+    right="it gets kV volts",
 )
 quick
 
@@ -1152,35 +1172,36 @@ quick
 # <details><summary>Answer</summary>
 #
 # No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. Without
-# feedback, an error of 2.5 % is normal. Keep the gains; check the units, and that the motor gets
-# the full voltage (`set(volts / 12)` on an 11.7 V battery causes exactly this error); then add
-# feedback. kP alone does not remove the whole error.
+# feedback, an error of 2.5 % is normal. Keep the gains, and check the units. Check also that the
+# motor gets the full voltage: `set(volts / 12)` on an 11.7 V battery causes exactly this error.
+# Then add feedback. kP alone does not remove the whole error.
 # </details>
 #
-# **2.** An arm, characterized empty, droops with a game piece. What changed, and what is the fix?
+# **2.** A team characterized an empty arm. With a game piece, the arm droops. What changed, and
+# what do you do?
 #
 # <details><summary>Answer</summary>
 #
-# kG and kA are larger with the piece; kV and kS hardly change. Measure (or compute) the loaded
-# gains and switch to them when a sensor sees the piece. A larger kP makes the droop smaller, not
-# zero.
+# kG and kA are larger with the piece. kV and kS hardly change. Measure (or compute) the gains of
+# the loaded arm, and use them when a sensor sees the piece. A larger kP makes the droop smaller,
+# but not zero.
 # </details>
 #
-# **3.** `new ArmFeedforward(0.2, 1.2, 0.08, 1.5)` of an arm with kS 0.2, kV 1.2, kA 0.08, kG 1.5.
-# What is wrong?
+# **3.** An arm has kS 0.2, kV 1.2, kA 0.08 and kG 1.5. Its code says `new ArmFeedforward(0.2, 1.2,
+# 0.08, 1.5)`. What is wrong?
 #
 # <details><summary>Answer</summary>
 #
-# The order. It should be kS, kG, kV, kA: `new ArmFeedforward(0.2, 1.5, 1.2, 0.08)`. Now the class
-# uses 1.2 V as kG and 0.08 as kV.
+# The order of the arguments is wrong. It must be kS, kG, kV, kA: `new ArmFeedforward(0.2, 1.5, 1.2,
+# 0.08)`. In the wrong order, the class uses 1.2 V as kG and 0.08 as kV.
 # </details>
 #
 # **4.** In week 3 a brace of 4 kg is added to the drivetrain. Which constants do you measure again?
 #
 # <details><summary>Answer</summary>
 #
-# kA, and what follows from it: kP, and the mass and moment of inertia in the path planner. kV and
-# kS stay nearly the same.
+# Measure kA again. Then compute again what depends on kA: kP, and the mass and moment of inertia in
+# the path planner. kV and kS stay nearly the same.
 # </details>
 #
 # **5.** With kP = 0 your turret hardly moves. With a large kP it reaches the target late, and
@@ -1188,8 +1209,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The unit of the feedforward: the gains are per radian, but the code passes rotations, so the
-# voltage is 2π times too small. kP hid that. Compute one voltage by hand.
+# The unit of the feedforward is probably wrong: the gains are per radian, but the code passes
+# rotations. So the voltage is 2π times too small. The large kP hid this mistake. Compute one
+# voltage by hand.
 # </details>
 
 # %% [markdown]
@@ -1223,8 +1245,8 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# Set kP = 0.2 in section 4. Which of the wrong gain sets would you still
-# notice by eye? What would you log on your robot to notice it there?
+# Set kP = 0.2 in section 4. Which wrong sets of gains can you still see in the plot? What would
+# you log on your robot to see them there?
 # </details>
 #
 # **Next:** [Lesson 9, the reality gap](09_reality_gap.ipynb). What does your model not know?

@@ -18,12 +18,12 @@
 #
 # **At the end you can**
 #
-# - measure how far a simulation with your gains is from your robot: the **gap**;
+# - measure the **gap**: how much a simulation with your gains differs from your robot;
 # - plot the remaining error in four ways, and say which effect could cause it;
 # - add an effect to the model, and decide with *other* data whether to keep it;
 # - explain how a slow sensor makes a robot look heavy;
-# - say when your data cannot decide, and which test would;
-# - use `sysid reconcile`, which does all this, and judge its answer.
+# - say when your data cannot decide, and which test can;
+# - use `sysid reconcile`, which does all of this, and judge its answer.
 
 # %% [markdown]
 # ## 1 Why: a good fit of the wrong model
@@ -35,17 +35,17 @@
 #
 # This model contains dry friction, back-EMF and inertia, and nothing else. On a real robot, the
 # battery voltage drops, grease sticks, or a sensor is late. Each of these is called an **effect**.
-# WPILib's docs say of this model that it "is not perfect", but usually good enough.
+# WPILib's docs say that this model "is not perfect", but usually good enough.
 #
-# <details><summary>For mentors: how true are the gains?</summary>
+# <details><summary>For mentors: do the gains describe the real robot?</summary>
 #
 # > **Lesson says:** the gains are "grounded in the mechanism's true physics".
 # >
-# > **Source says:** WPILib's docs say of such a model that it "is not perfect", but usually good
-# > enough.
-# > ([WPILib docs: Introduction to System Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
+# > **Source says:** WPILib's docs say that such a model "is not perfect", but usually good enough.
+# > ([WPILib docs: Introduction to System
+# > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/introduction.html))
 # >
-# > **Try it:** today's robot has two hidden effects. See what the gains are worth.
+# > **Try it:** today's robot has two hidden effects. Compare its fitted gains with the true gains.
 # </details>
 #
 # You work in five steps: **fit, simulate, look at the remaining error, name the effect, add it to
@@ -87,7 +87,7 @@ from sim.teaching.prediction import Prediction
 
 drivetrain = MECHANISMS["drivetrain"]
 truth = drivetrain.gains
-# What is hidden is written backward, so that nobody reads it by accident.
+# The names of the hidden effects are written backward, so that nobody reads them by accident.
 robot = drivetrain.hide("retlif-yticolev"[::-1], 1.5).hide("kcebirts"[::-1], 1.0)
 
 FOUR = ("quasistatic", "dynamic")
@@ -100,8 +100,8 @@ held_out = simulate(
 print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
-# Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain
-# with four Kraken X60 and 60 kg, and it does not follow its paths.
+# Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain.
+# It has four Kraken X60 and a mass of 60 kg, and it does not follow its paths.
 #
 # The team recorded **three logs**, and each has one job:
 #
@@ -111,9 +111,9 @@ print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 9
 # | `validation` | the four tests, 2 V step | it decides which effects we **keep** |
 # | `held_out` | other motions | we look at it **once**, at the end |
 #
-# Why three? On the data that you fitted, a model with more parameters always looks better. (A
+# Why three logs? On the data that you fitted, a model with more parameters always looks better. (A
 # *parameter* is a number in the model, such as kS.) Only new data can show whether the model
-# describes the robot or just this one log.
+# describes the robot, or only this one log.
 
 # %% [markdown]
 # ## 2 Measure the gap
@@ -122,7 +122,7 @@ print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 9
 # to its last. The simulation never uses the measured velocity. `replay_log` does that.
 #
 # **Fit:** change kS, kV and kA until the simulated velocity is as close as possible to the measured
-# one. In lesson 7 you fitted accelerations row by row; this fit compares whole tests.
+# one. In lesson 7 you fitted accelerations row by row. This fit compares whole tests.
 
 
 # %%
@@ -168,17 +168,21 @@ def fitted(names: Sequence[str], begin: Model, one: sim.Log) -> Model:
 base = fitted((), Model("simple", truth), log)
 
 # %% [markdown]
-# (`fitted` is long, but one line does the work, `least_squares`: it changes all parameters a
-# little, sees which changes make the sum of squared errors smaller, and repeats.)
+#
+# <details><summary>Want to know more? How the function works</summary>
+#
+# The function `fitted` is long, but the call of `least_squares` does the work. It changes all
+# parameters a little, sees which changes make the sum of squared errors smaller, and repeats.
+# </details>
 #
 # **Predict:**
 
 # %%
 guess_ka = Prediction(
-    "Two effects are missing in the model. How does the fit change kA?",
-    "about right",
-    "too small by a third or more",
-    "too large by a third or more",
+    "Two effects are missing in the model. How good is the kA that the fit finds?",
+    "it is about right",
+    "it is too small by a third or more",
+    "it is too large by a third or more",
 )
 guess_ka
 
@@ -208,7 +212,7 @@ def beside_its_model(test: str, seconds: float) -> Scene:
     return Scene(time[shown], (real, model), target=run.velocity[shown])
 
 
-print(guess_ka.reveal("too large by a third or more"))
+print(guess_ka.reveal("it is too large by a third or more"))
 knobs = [
     Knob(name, f"{name} [{unit}]", low=0.0, high=high, step=0.005, value=round(base.gains[name], 3))
     for name, unit, high in (("kS", "V", 0.6), ("kV", "V·s/m", 4.0), ("kA", "V·s²/m", 0.8))
@@ -220,26 +224,29 @@ animate_mechanism(
     panels=(Panel("velocity", "velocity [m/s]", low=0.0, high=1.4),),
     knobs=knobs,
     score=Score("model"),
-    alt="The robot of the log and, dashed, its model with the same voltage. After the step the "
-    "model is ahead at first, and behind later: its velocity has another shape.",
+    alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
+    "the step the model is ahead at first, and behind later. Its velocity curve has another shape.",
 )
 
 # %% [markdown]
-# The solid robot shows the log, the dashed one shows the model. The two curves have different
-# *shapes*. Move the sliders: no kS, kV or kA makes the curves agree.
+# The solid robot shows the log. The dashed robot shows the model. Their two curves have different
+# *shapes*. Move the sliders: no values of kS, kV and kA make the curves equal.
 #
-# (SysId's kA is right by luck: its kS is twice the true one, and its kV is too small.)
+# <details><summary>Want to know more? SysId's kA in the table</summary>
 #
-# ### How large is that?
+# SysId's kA is right only by luck: SysId's kS is twice the true kS, and its kV is too small.
+# </details>
+#
+# ### How large is the gap?
 #
 # The **gap** is the typical error of the simulated velocity. A gap in meters per second is hard to
-# judge. So we divide it by the **noise** of the sensor. Then a gap of 1 means: only noise is left,
+# judge. So we divide it by the **noise** of the sensor. A gap of 1 means that only noise remains,
 # and the model explains all of this log.
 #
-# <details><summary>Want to know how we measure the noise?</summary>
+# <details><summary>Want to know more? How we measure the noise</summary>
 #
-# Take the change from sample to sample, then the change of these changes, and once more. For a
-# smooth motion almost nothing remains after three times, so the rest is noise.
+# Compute the changes from sample to sample. Then compute the changes of these changes, and then
+# once more. For a smooth motion almost nothing remains after three times. So what remains is noise.
 # </details>
 
 
@@ -265,21 +272,22 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 #
 # <details><summary>Want to know why? The numbers in this cell</summary>
 #
-# (1.4826 turns a median into a standard deviation, the usual measure of scatter. A third difference
-# multiplies the square of the noise by 1² + 3² + 3² + 1² = 20.)
+# (The standard deviation is the usual measure of noise. It is 1.4826 times the median of the errors
+# without their signs. A third difference multiplies the square of the noise by 1² + 3² + 3² + 1² =
+# 20.)
 # </details>
 
 # %% [markdown]
 # ## 3 The residual microscope
 #
-# Subtract the simulation from the log: the rest is called the **residual**. If the residual is
-# large, something is missing in the model. *Where* the residual is large shows you *what* is
+# Subtract the simulation from the log. The difference is called the **residual**. If the residual
+# is large, something is missing in the model. *Where* the residual is large shows you *what* is
 # missing.
 #
 # We convert the residual into a **voltage residual**: the volts that you would have to add to the
-# simulation so that it moves like the robot. Below zero, the robot moves as if it got too few
-# volts: volts are *missing*. Above zero, it moves as if it got too many. We plot the voltage
-# residual in four ways:
+# simulation so that it moves like the robot. If it is below zero, the robot moves as if it got too
+# few volts: volts are *missing*. If it is above zero, the robot moves as if it got too many volts.
+# We plot the voltage residual in four ways:
 #
 # | plotted over | an effect that you see there |
 # |---|---|
@@ -288,10 +296,10 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # | battery voltage | volts that did not reach the motor |
 # | direction | something that pulls in one direction only |
 #
-# (Over the position you would see a spring, or a bump in the gears: section 7.)
+# (If you plot it over the position, you see a spring, or a bump in the gears: section 7.)
 #
-# First practice on four robots with **one** effect each. Here we use the true gains, so you only
-# see the effect.
+# First practice on four robots with **one** effect each. Here we use the true gains, so the
+# residual shows nothing but this effect.
 
 
 # %%
@@ -329,7 +337,7 @@ suspects = {
 # - **breakaway friction**: the friction is larger at very low speed (also called *Stribeck*
 #   friction).
 #
-# Look at each robot below, then match robots and effects.
+# Look at each robot below. Then say which robot has which effect.
 
 # %%
 NAMES = ("one-way friction", "averaged velocity", "battery", "breakaway friction")
@@ -348,7 +356,7 @@ def under_the_microscope(which: str) -> Picture:
 
 
 show_interactive(
-    under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="look at")
+    under_the_microscope, which=widgets.Dropdown(options=list(suspects), description="robot")
 )
 
 # %% [markdown]
@@ -359,7 +367,7 @@ under_the_microscope("robot B")
 
 # %% [markdown]
 # The line shows the mean of nearby samples. The percentage above each plot says how much of the
-# (squared) voltage residual this line explains. The next table shows all sixteen percentages:
+# (squared) voltage residual follows this line. The next table shows all sixteen percentages:
 
 # %%
 rows = []
@@ -379,31 +387,32 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# - **A, direction.** Forward, volts are missing; in reverse, there are too many. (A sloping floor
-#   looks the same. To find out which it is, turn the robot around.)
+# - **A, direction.** Volts are missing when the robot goes forward. In reverse, there are too many
+#   volts. (A floor with a slope looks the same in the plot. To find out which of the two it is,
+#   turn the robot around.)
 # - **B, time since the jump.** An averaged velocity is *late*. Right after a jump of the voltage,
 #   many volts seem to be missing. A moment later, none are missing.
 # - **C, battery.** The lower the battery voltage, the more volts are missing. The plot over time
 #   shows this, too, because the battery voltage is lowest just after a jump. If two plots show an
 #   effect, take the plot with the higher percentage.
-# - **D, speed.** Volts are missing at very low speed and nowhere else. (The points in a straight
-#   row are the start of the ramp: the simulation already moves, but the robot still stands.)
+# - **D, speed.** Volts are missing only at very low speed. (The points in a straight row come from
+#   the start of the ramp. There the simulation already moves, but the robot still stands.)
 #
 # No plot explains 100 %. The rest is noise.
 
 # %% [markdown]
 # ## 4 Doing it: name, add, fit again
 #
-# Now look at the team's robot. Its gains were **fitted**: they hide a part of the effects, so the
-# pattern is less clear. On a real robot it is the same.
+# Now look at the team's robot. Its gains were **fitted**. So they contain a part of the effects,
+# and the pattern is less clear. On a real robot it is the same.
 
 # %%
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
 # The plot over the time since the jump explains most. Look at its shape, too: first volts are
-# missing, then there are too many. A late sensor looks like that; a weak battery does not. At very
-# low speed, about 0.1 V is missing, too.
+# missing, then there are too many. A late sensor causes such a shape. A weak battery does not. At
+# very low speed, about 0.1 V is missing, too.
 #
 # **Predict** the first effect to add:
 
@@ -419,9 +428,9 @@ guess_first = Prediction(
 guess_first
 
 # %% [markdown]
-# The next cell adds one of seven effects at a time, and fits all gains again each time. Compare two
-# numbers: the gap of the `log`, which was fitted, and the gap of the `validation`, which the fit
-# never used.
+# The next cell tries seven effects. It adds one effect at a time, and fits all gains again. Compare
+# two numbers: the gap of the `log`, which was fitted, and the gap of the `validation`, which the
+# fit never used.
 
 # %%
 TRIED = (
@@ -446,10 +455,10 @@ print(guess_first.reveal("velocity-filter"))
 plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 
 # %% [markdown]
-# **Read the bars.**
+# **What the bars show:**
 #
-# - The gap of the *log* is smaller, or the same, with every effect, because another parameter never
-#   makes the fit worse. If you judge by this gap, every effect looks like an improvement.
+# - No effect makes the gap of the *log* larger, because another parameter never makes the fit
+#   worse. If you judge by this gap, every effect looks like an improvement.
 # - The gap of the *validation* shows which models are really better. `current-limit` makes the gap
 #   of the log smaller, but the gap of the validation larger. So do not keep it.
 # - `delay` is almost as good as `velocity-filter`, because it also makes the velocity late (section
@@ -479,7 +488,7 @@ display(*with_it("+ velocity-filter"))
 
 # %% [markdown]
 # With the filter in the model, the error right after the jumps is gone. Now the plot over the speed
-# shows something else: missing volts at very low speed. So add a second effect:
+# shows something else: volts are missing at very low speed. So add a second effect:
 
 # %%
 first = models["+ velocity-filter"]
@@ -497,7 +506,7 @@ plot_voltage_residual(log, simulated(second, log), second.gains)
 # Now no plot shows a pattern, and the gap is about 1 for both logs. **Stop here.** A third effect
 # would only describe the noise.
 #
-# ### What the sensor did to the inertia
+# ### A slow sensor makes the robot look heavy
 
 # %%
 last = {part.effect: part.parameters for part in second.parts}
@@ -525,32 +534,32 @@ Table(
 
 # %% [markdown]
 # Look at the column *kA ÷ true*. With gains alone, kA is far too large: the robot seems heavier
-# than it is. But the **sensor is slow**, and then the robot looks heavy. In the model, only kA can
-# make the robot react slowly, so the fit made kA too large.
+# than it is. But it is the **sensor that is slow**. In the model, only kA can make the robot react
+# slowly, so the fit made kA too large.
 #
 # The **position** confirms this. The fits did not use the position, and the filter does not change
 # it. With gains alone, the position error is much larger than with the filter.
 #
 # So if a kA is too large, look for filters first: a motor controller that averages its velocity, or
-# a log that is late. (kS also became right when the model got breakaway friction.)
+# a log that is late. (With breakaway friction in the model, kS is right, too.)
 
 # %% [markdown]
 # ## 5 The held-out log, once
 #
-# Until now you have not looked at `held_out`. In this log the voltage follows a triangle, and jumps
-# of many sizes. **Predict:**
+# Until now you have not looked at `held_out`. In one test of this log the voltage rises and falls
+# in a straight line. In the other test it makes jumps of many sizes. **Predict:**
 
 # %%
 guess_held = Prediction(
-    "With gains alone, the gap of the held-out log, compared with the fitted log, is…",
-    "about the same",
-    "twice as large or more",
-    "smaller",
+    "With gains alone, compare the gap of the held-out log with the gap of the fitted log.",
+    "it is about the same",
+    "it is twice as large or more",
+    "it is smaller",
 )
 guess_held
 
 # %%
-print(guess_held.reveal("twice as large or more"))
+print(guess_held.reveal("it is twice as large or more"))
 every = {
     "gains alone": base,
     "+ current-limit": models["+ current-limit"],
@@ -562,15 +571,16 @@ plot_gap_bars(
 )
 
 # %% [markdown]
-# The gap becomes smaller with the filter, and again with breakaway friction, on motions that you
-# never fitted. So these two effects are in the robot. The current limit looked good on the log, but
-# here it is worse than no effect at all: that model describes the log, not the robot.
+# You never fitted these motions. Even so, the gap becomes smaller when the filter is in the model,
+# and smaller again when breakaway friction is in it, too. So these two effects are in the robot.
+# The current limit looked good on the log, but here it is worse than no effect at all: that model
+# describes the log, not the robot.
 
 # %% [markdown]
 # ## 6 When your data cannot decide
 #
-# The drivetrain of another team *does* have a current limit: its motors cannot push harder than a
-# certain force. (In the model, this limit is in volts: the voltage minus the back-EMF.) The team
+# The drivetrain of another team *does* have a current limit: its motors cannot push with more than
+# a certain force. (In the model, this limit is in volts: the voltage minus the back-EMF.) The team
 # records a gentle log with a 2.5 V step. Later it records a 6 V step.
 #
 # The next cell tries limits from very low to very high, and plots the gap of both logs.
@@ -605,7 +615,7 @@ print(guess_limit.reveal("you only know that it is above some value"))
 plot_curves(
     LIMITS,
     {"2.5 V step (fitted)": gaps_of(gentle), "6 V step (other data)": gaps_of(hard)},
-    xlabel="limit in the model [V that drive the current]",
+    xlabel="limit in the model [V above the back-EMF]",
     ylabel="gap [times the noise]",
     levels={"the noise": 1.0},
     log_scale=True,
@@ -614,12 +624,12 @@ plot_curves(
 # %% [markdown]
 # Follow the curve of the gentle log to the right: above about 2 V it is **flat**. The gentle test
 # never reached the limit, so every higher limit is equally good. The data do not contain the
-# answer, and no program can find it. We say: the parameter is *not identifiable* from these data.
-# (About experiments that do contain it: Ljung, *System Identification*, 2nd edition (1999), chapter
-# 13.)
+# answer, so no program can find it. We say that the parameter is *not identifiable* from these
+# data. (A book about tests that do contain the answer: Ljung, *System Identification*, 2nd edition
+# (1999), chapter 13.)
 #
 # The curve of the 6 V step has a clear minimum at the true limit, 3 V. You do not need a better
-# method; you need **another test.** (On your robot you know the limit, because you set it. Choose
+# method. You need **another test.** (On your robot you know the limit, because you set it. Choose
 # the limit first, then measure: lesson 3.)
 #
 # Many pairs of effects look alike. For each pair, a test can separate them:
@@ -636,8 +646,8 @@ Table(
 #
 # `sim.reconcile` does what you did, with all effects that it knows: fit, simulate, try every
 # effect, keep the effect that the *validation* confirms, and repeat until no further effect helps.
-# It uses the position as well as the velocity. In the next table, the last column is the gap
-# without this effect, and with it.
+# It uses the position as well as the velocity. In the next table, the last column shows the gap
+# without each effect, and with it.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
@@ -647,14 +657,15 @@ make_findings_table(story)
 plot_gap_by_round(story)
 
 # %% [markdown]
-# These maps show where simulation and log disagree, with gains alone (left) and with both effects
-# (right). Blue: the robot is slower than the model. Orange: it is faster.
+# The next maps show where simulation and log differ, with gains alone (left) and with both effects
+# (right). Where a map is blue, the robot is slower than the model. Where it is orange, the robot is
+# faster.
 
 # %%
 plot_residual_maps(story)
 
 # %% [markdown]
-# ### Compare with yours
+# ### Compare its numbers with your numbers
 
 # %%
 true_parts = {part.effect: part.parameters for part in robot.hidden}
@@ -677,11 +688,11 @@ rows += [
 Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 
 # %% [markdown]
-# Both ways give nearly the same numbers. One thing differs: the base model of reconcile (gains
-# alone) has a *larger* gap than yours. Reconcile also fits the position, which the filter does not
-# change, so kA cannot hide the slow sensor.
+# Both ways give nearly the same numbers. One thing is different: with gains alone, reconcile has a
+# *larger* gap than your fit. Reconcile also fits the position, which the filter does not change, so
+# kA cannot hide the slow sensor.
 #
-# **How to read its verdict**
+# **What its verdict means**
 #
 # | verdict | what it means | what you do |
 # |---|---|---|
@@ -690,9 +701,10 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
 # | unexplained | a gap remains that no known effect explains | look at the robot |
 #
-# Reconcile can be wrong. So it says how likely each effect is: of ten effects with "90 % likely",
-# about nine are real. (This was counted on hundreds of simulated logs with known effects.) So ask:
-# does the gap of other data become smaller (section 4)? And can you find the cause on the robot?
+# Reconcile can be wrong. So it says how likely each effect is: if it says "90 % likely" for ten
+# effects, about nine of them are real. (We counted this on hundreds of simulated logs with known
+# effects.) So ask two questions. Does the gap of other data become smaller (section 4)? And can you
+# find the cause on the robot?
 
 # %% [markdown]
 # ## 8 Your own robot
@@ -706,12 +718,12 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # sysid reconcile monday.wpilog --validation faster.wpilog --held-out other.wpilog --html gap.html
 # ```
 #
-# The first line looks for damage in the log (lesson 6). `gap.html` contains every picture of
+# The first command looks for damage in the log (lesson 6). `gap.html` contains every picture of
 # section 7 and works offline. For an arm or an elevator, add `--type arm` or `--type elevator`.
 #
 # The next cell plots the voltage residual of your log of exercise 12. To use another log, write its
-# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, that plot is
-# missing.)
+# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, the plot over
+# the battery voltage is missing.)
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
@@ -749,8 +761,8 @@ quick = QuickCheck(
         "What is the cause?"
     ),
     {
-        "drag": "Drag grows with speed, and acts at a steady speed, too.",
-        "a late or filtered sensor": "You see it where the velocity changes fast, nowhere else.",
+        "drag": "Drag grows with speed, and it also acts while the speed is constant.",
+        "a late or filtered sensor": "You see it only where the velocity changes fast.",
         "a weak battery": "That depends on the battery voltage, not on the time since the jump.",
     },
     right="a late or filtered sensor",
@@ -763,17 +775,18 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Something is late: a delay, or an averaged velocity. Look at the position: a delay makes the
-# position late, too; a velocity filter does not.
+# The velocity is late, because of a delay or because it is averaged. Look at the position. A delay
+# makes the position late, too. A velocity filter does not.
 # </details>
 #
-# **2.** kA is 60 % above the value from motors and mass, kV is right. A teammate wants to weigh the
-# robot. What do you check first?
+# **2.** The fitted kA is 60 % larger than the kA that you compute from motors and mass. kV is
+# right. A teammate wants to weigh the robot. What do you check first?
 #
 # <details><summary>Answer</summary>
 #
-# The velocity filter in the motor controller, and how the log is written. A slow sensor looks like
-# inertia. (Other causes that you know: the commanded voltage in the log, a slipping wheel, noise.)
+# First check the velocity filter in the motor controller, and how the log is written. A slow sensor
+# looks like inertia. (Other causes that you know: the commanded voltage in the log, a slipping
+# wheel, noise.)
 # </details>
 #
 # **3.** You add "cogging" and the gap of your log falls from 1.3 to 1.1. The gap of the validation
@@ -785,20 +798,21 @@ quick
 # nothing.
 # </details>
 #
-# **4.** Reconcile says "battery-sag or drag". Your log has one step voltage. What do you do?
+# **4.** Reconcile says "battery-sag or drag". Your log has only one step voltage. What do you do?
 #
 # <details><summary>Answer</summary>
 #
-# Record the four tests with a second step voltage, or log the applied voltage. Sag grows with the
-# step, drag with the speed. The old log cannot decide it.
+# Record the four tests with a second step voltage, or log the applied voltage. The battery sag
+# grows with the step, and drag grows with the speed. The old log cannot show which of them it is.
 # </details>
 #
 # **5.** The gap is 1.05 times the noise. Are your gains the true ones?
 #
 # <details><summary>Answer</summary>
 #
-# They explain *these* motions. They do not include what your tests never reached: a current limit,
-# heat, a battery at the end of a match. Before you drive harder than you tested, test harder.
+# Your gains explain *these* motions. They do not contain what did not happen in your tests: a
+# current limit, heat, a battery at the end of a match. Before you drive with more voltage than in
+# your tests, test with more voltage, too.
 # </details>
 
 # %% [markdown]
@@ -824,18 +838,18 @@ quick
 # ```
 # </details>
 #
-# If you use an editor, `grade watch exercise12` grades each time you save. `grade mystery` makes a
-# new log with a hidden problem whenever you like.
+# If you use an editor, `grade watch exercise12` grades each time you save. Each time you run `grade
+# mystery`, it makes a new log with a hidden problem.
 #
 # **Practice: characterize one mechanism**
 # ([exercises/practice/README.md](../exercises/practice/README.md), `grade practice`). Do everything
 # once, from the first line of code to the final gains. Use your own robot, or the drivetrain in
-# that folder: you get the same points.
+# that folder. You get the same points for both.
 #
 # <details><summary>More, if you like</summary>
 #
-# Give section 2 a robot that hides `drag` and `stribeck`. Both change with
-# speed. Can you separate them with a 1 V step?
+# Change the robot in section 1 so that it hides `drag` and `stribeck`. Both change with speed. Can
+# you separate them with a 1 V step?
 # </details>
 #
 # Now you can measure gains, say how far to trust them, and find out what is missing in your model.

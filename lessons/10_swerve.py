@@ -25,12 +25,12 @@
 # - put these numbers into PathPlanner and Choreo.
 
 # %% [markdown]
-# ## 1 Why: a planner believes your numbers
+# ## 1 Why: a planner uses the numbers that you give it
 #
-# A swerve drive has four **modules**. Each has a wheel, a **drive motor** that turns the wheel, and
-# a **steer motor** that points it. A swerve robot can drive in any direction and turn at the same
-# time. PathPlanner and Choreo plan such paths for you. But they know only what you tell them: mass,
-# moment of inertia, wheel radius, current limit.
+# A swerve drive has four **modules**. Each module has a wheel, a **drive motor** that rolls the
+# wheel, and a **steer motor** that sets its direction. A swerve robot can drive in any direction
+# and turn at the same time. PathPlanner and Choreo plan such paths for you. But they know only what
+# you tell them: mass, moment of inertia, wheel radius, current limit.
 #
 # If you tell a planner that your robot is easier to turn than it really is, the planner plans turns
 # that the wheels cannot do. Then the robot turns too late. So today you measure what the planners
@@ -44,15 +44,17 @@
 # > **Source says:** neither planner asks for kV. PathPlanner asks for mass, moment of inertia,
 # > wheel radius, gearing, true top speed, wheel friction and current limit. Choreo asks for mass,
 # > moment of inertia, wheel radius, wheel friction, gearing, and the speed and torque of a motor.
-# > kV and kA stay in your drive code, which has to follow the plan.
-# > ([PathPlanner docs: Robot Config, at one commit](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md);
-# > [Choreo docs: Robot Configuration, at one commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md))
+# > kV and kA belong in your drive code, which has to follow the plan. ([PathPlanner docs: Robot
+# > Config, at one
+# > commit](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md);
+# > [Choreo docs: Robot Configuration, at one
+# > commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md))
 # >
-# > **Try it:** open your planner's settings. Which of them did you measure, and which did you
+# > **Try it:** open your planner's settings. Which numbers did you measure, and which did you
 # > guess?
 # </details>
 #
-# Our robot has four Kraken X60, 4 inch wheels, 60 kg. Its wheels stand in a square.
+# Our robot has four Kraken X60, 4 inch wheels and a mass of 60 kg. Its wheels stand in a square.
 
 # %%
 import numpy as np
@@ -87,29 +89,31 @@ print(f"A square robot: {robot.trackwidth} m wide, {robot.mass:.0f} kg.")
 # ## 2 The model: three routines, three loads
 #
 # CTRE's Tuner X writes a program for your swerve drive. It contains three SysId routines. Only one
-# is active; you choose it in the code.
+# is active. You choose it in the code.
 #
 # | routine | what moves | the "voltage" | gives |
 # |---|---|---|---|
 # | translation | the robot, wheels **locked straight** | volts of the drive motors | kS, kV, kA |
 # | steer | the wheels, in place | volts of the steer motors | gains of the steering |
-# | rotation | the robot, on the spot | **a rate in rad/s** | heading control; inertia |
+# | rotation | the robot, on the spot | **a rate in rad/s** | heading control, inertia |
 #
 # ([CommandSwerveDrivetrain.java, at one commit](https://github.com/CrossTheRoadElec/Phoenix6-Examples/blob/53fa17baa4abc0105a03b9ea602a6af730353939/java/SwerveWithPathPlanner/src/main/java/frc/robot/subsystems/CommandSwerveDrivetrain.java))
 #
 # Look at the third line. SysId knows only volts, so the program writes "volts". But the number is a
 # rate: how fast the robot should turn. The program does not control this rate. It computes a
-# voltage from it, once, and gives that to the drive motors. Section 5 shows what follows.
+# voltage from this rate and gives it to the drive motors. Section 5 shows what that means for the
+# log.
 #
 # <details><summary>Want to know more? From the rate to the voltage</summary>
 #
-# The request computes rate · distance of the module from the middle / top speed · 12 V. The top
-# speed is `kSpeedAt12Volts` in your constants. So the test is open loop, as a SysId test must be,
-# and the drive motors get a ramp or a step of *volts*.
-# (`SysIdSwerveRotation` in `phoenix6/swerve/requests.py` of [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
+# The program computes the voltage like this: rate · distance of the module from the middle / top
+# speed · 12 V. The top speed is `kSpeedAt12Volts` in your constants. So the test is open loop, as a
+# SysId test must be, and the drive motors get a ramp or a step of *volts*. (`SysIdSwerveRotation`
+# in `phoenix6/swerve/requests.py` of [Phoenix 6, release
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
 # </details>
 #
-# The motors are the same in translation and rotation. Only the **load** differs:
+# The same motors move the robot in both tests, translation and rotation. Only the **load** differs:
 #
 # - straight, the wheels push the **mass**;
 # - on the spot, they push against the **moment of inertia**. It says how hard it is to turn the
@@ -142,19 +146,21 @@ animate_mechanism(
     },
     choices=(Choice("routine", ("translation", "rotation")),),
     panels=(Panel("velocity", "velocity [m/s, rad/s]"),),
-    alt="A swerve robot from above. In translation its four wheels point forward and it drives "
-    "ahead. In rotation they stand across the diagonals and it turns on the spot.",
+    alt="A swerve robot from above. In the translation test its four wheels point forward, and the "
+    "robot drives ahead. In the rotation test the wheels point across the diagonals, and the robot "
+    "turns on the spot.",
 )
 
 # %% [markdown]
 # ## 3 Going straight: each module, and all
 #
-# In the translation test all four wheels point forward. A log of it has four voltages, four
-# positions and four velocities. You can fit each module alone. You can also **pool** them: fit each
-# one, then take the mean.
+# In the translation test all four wheels point forward. A log of this test has four voltages, four
+# positions and four velocities. You can fit each module alone. You can also **pool** the modules:
+# fit each one, then take the mean.
 #
 # On the back left module of our robot the wheel's rubber is worn, so that wheel is smaller. The
-# code does not know it. All wheels roll on the same floor, and all motors get the same voltage.
+# code still uses the old radius. All wheels roll on the same floor, and all motors get the same
+# voltage.
 #
 # **Predict:**
 
@@ -185,23 +191,23 @@ Table(
 # ### Explain
 #
 # A smaller wheel turns more often over the same distance. The code multiplies these turns by the
-# radius of a *new* wheel, so this module reports more meters than there were. More meters per
-# second at the same voltage: a smaller kV.
+# radius of a *new* wheel, so this module reports more meters than there were. If the voltage is the
+# same and there are more meters per second, kV is smaller.
 #
-# The three other modules agree almost to the last digit. That is no accident: all motors get the
-# same voltage, and the floor forces all wheels to the same speed. A module that rubs slows down
-# *all* of them, and its own fit looks like the others. To find a module that rubs, lift the robot
+# The gains of the three other modules are almost equal. There is a reason: all motors get the same
+# voltage, and the floor forces all wheels to the same speed. If one module rubs, it slows down
+# *all* modules, and its fit looks like the other fits. To find a module that rubs, lift the robot
 # and turn each wheel by hand, or compare the currents.
 #
-# So **compare the modules first, then pool**. The mean of three good wheels and a worn one is right
-# for none of them. `sysid fit` compares them for you and prints the kV and kA of each.
+# So **compare the modules first, then pool**. The mean of three good wheels and a worn wheel is
+# wrong for all four. `sysid fit` compares the modules for you and prints the kV and kA of each.
 
 # %% [markdown]
 # ## 4 A slow spin: how large is a wheel?
 #
-# Rubber wears, and the wheel sinks into the carpet. A tape measure does not show that, but a spin
-# does. Turn the robot slowly on the spot, a few times round. The gyro counts the angle, and each
-# drive motor counts its turns.
+# The rubber of a wheel gets thinner with use, and the wheel sinks into the carpet. Both make the
+# radius smaller. A tape measure does not show that, but a spin shows it. Turn the robot slowly on
+# the spot, several full turns. The gyro measures the angle, and each drive motor counts its turns.
 #
 # Each wheel rolls on a circle around the middle of the robot:
 #
@@ -223,22 +229,22 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
 # The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
-# into the code. Spin on carpet: on a hard floor the wheel does not sink in, and you measure another
-# radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit docs:
-# TalonFX Swerve Template, at one
+# into the code. Do the spin on carpet. On a hard floor the wheel does not sink in, so you measure
+# another radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit
+# docs: TalonFX Swerve Template, at one
 # commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 
 # %% [markdown]
 # ## 5 Turning on the spot: the moment of inertia
 #
-# Now each wheel points across the line from the middle to it, and the robot turns on the spot. Two
-# tests, the same motors:
+# Now each wheel points across the line from the middle to it, and the robot turns on the spot. Both
+# tests use the same motors:
 #
 # - straight, kA is a constant of the motors times the **mass**;
 # - turning, kA is the same constant times **moment of inertia / lever**.
 #
 # A wheel pushes along a line. The **lever** is the distance of this line from the middle of the
-# robot. Divide one kA by the other, and the constant is gone:
+# robot. If you divide one kA by the other, the constant disappears:
 #
 # > I = mass · lever · kA_turning / kA_straight
 #
@@ -246,14 +252,15 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 #
 # ### CTRE's log: a rate and degrees
 #
-# For kA_turning you need **volts**. CTRE's log has two columns that invite a mistake:
+# For kA_turning you need **volts**. In CTRE's log, two columns often cause a mistake:
 #
 # - `Rotational_Rate` is the rate that the program asks for, in rad/s. Take the `MotorVoltage` of a
 #   drive motor instead.
 # - The gyro (Pigeon 2) logs **degrees**. Motors log rotations. The formula needs **radians**.
 #
-# (CTRE says so, too: "scaled by pi/180", and `MotorVoltage` for the moment of inertia.
-# `SysIdSwerveRotation` in [Phoenix 6, release 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
+# (CTRE also writes that the angle must be "scaled by pi/180", and that you need `MotorVoltage` for
+# the moment of inertia: see `SysIdSwerveRotation` in [Phoenix 6, release
+# 26.3.0](https://pypi.org/project/phoenix6/26.3.0/))
 #
 # ### Which lever?
 #
@@ -269,10 +276,10 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %%
 guess_lever = Prediction(
-    "You use half the trackwidth for a square swerve. What do you get?",
-    "too little, about 3.7 kg·m²",
+    "You use half the trackwidth for a square swerve. Which moment of inertia do you get?",
+    "too small, about 3.7 kg·m²",
     "about right",
-    "too much, about 7 kg·m²",
+    "too large, about 7 kg·m²",
 )
 guess_lever
 
@@ -286,7 +293,7 @@ found = {
 }
 print(f"kA straight {straight.gains['kA']:.4f} V·s²/m")
 print(f"kA turning  {turning.gains['kA']:.4f} V·s²/rad")
-print(guess_lever.reveal("too little, about 3.7 kg·m²"))
+print(guess_lever.reveal("too small, about 3.7 kg·m²"))
 Table(
     ("lever", "lever [m]", "moment of inertia [kg·m²]"),
     tuple((name, one.lever, one.value) for name, one in found.items()),
@@ -297,8 +304,8 @@ Table(
 #
 # ### The log shows the lever
 #
-# You can check the lever without a tape measure. A wheel runs at lever · ω, where ω is the robot's
-# rate in rad/s. So the ratio of the two kV is the lever:
+# You can check the lever without a tape measure. The speed of a wheel is lever · ω, where ω is the
+# robot's rate in rad/s. So the ratio of the two kV is the lever:
 
 # %%
 quotient = turning.gains["kV"] / straight.gains["kV"]
@@ -307,19 +314,20 @@ for doubt in found["half the trackwidth, T/2"].doubts:
     print(doubt.message)
 
 # %% [markdown]
-# This check also finds degrees that were taken for radians: then the "lever" is 7 mm.
+# This check also finds an angle in degrees where you need radians: then the "lever" is 7 mm.
 #
 # ### Why 5.2 and not 5.0?
 #
-# Wheels, gears and rotors also have to spin up. They are part of both kA, but not equally. Usually
-# they count like 3 to 10 % of the mass. Then the result is a few percent too large. Do not trust
-# the third digit.
+# The motors must also speed up wheels, gears and rotors. These are part of both kA, but not
+# equally. Usually they act like an additional mass of 3 to 10 %. Then the result is a few percent
+# too large. So do not trust the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
 #
-# Say the wheels and rotors count like a mass m_w. Straight, they add m_w to the mass; turning, they
-# add m_w · lever² to the inertia. The robot's own inertia is about I − s · (mass · lever² − I),
-# with s = m_w / mass. `sysid fit` prints the range for s from 3 to 10 %.
+# The wheels and rotors act like an additional mass m_w. When the robot drives straight, they add
+# m_w to the mass. When it turns, they add m_w · lever² to the inertia. The robot's own inertia is
+# about I − s · (mass · lever² − I), with s = m_w / mass. `sysid fit` prints the range for s from 3
+# to 10 %.
 # </details>
 
 # %%
@@ -337,8 +345,8 @@ print(f"Without wheels and rotors: {least:.2f} to {most:.2f} kg·m².")
 # %%
 guess_step = Prediction(
     "At 4 V, what do the wheels of this robot do in the first tenth of a second?",
-    "they roll, and the robot speeds up with them",
-    "they spin up almost at once, and the robot comes later",
+    "they roll, and the robot gets as fast as they are",
+    "they spin fast almost at once, and the robot is much slower",
 )
 guess_step
 
@@ -362,7 +370,7 @@ def launch(step: float) -> Scene:
 
 
 limit = slip_voltage(robot.translation)
-print(guess_step.reveal("they spin up almost at once, and the robot comes later"))
+print(guess_step.reveal("they spin fast almost at once, and the robot is much slower"))
 print(f"The wheels of this robot slip above {limit:.1f} V.")
 STEPS = {f"{step:g} V": launch(step) for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0)}
 animate_mechanism(
@@ -370,12 +378,12 @@ animate_mechanism(
     {(name,): scene for name, scene in STEPS.items()},
     choices=(Choice("step", tuple(STEPS), value="4 V"),),
     panels=(Panel("velocity", "speed [m/s]"),),
-    alt="A robot from above and, dashed, the place where its log says it is. With a step of 1 V "
-    "the two are together. With 4 V the wheels spin, and the log is ahead of the robot.",
+    alt="A robot from above. A dashed robot shows the place that its log gives. With a step of 1 V "
+    "the two are at the same place. With 4 V the wheels spin, and the log is ahead of the robot.",
 )
 
 # %% [markdown]
-# The same in numbers, 20 ms after the step:
+# The next table shows these speeds 20 ms after the step:
 
 # %%
 Table(
@@ -384,23 +392,24 @@ Table(
 )
 
 # %% [markdown]
-# A fit of such a log finds a far too large kA: after the first jump the wheels get faster only
-# slowly, until the robot catches up. Choose a step that does not make the wheels slip, here about
-# 1.8 V. A heavier robot, or weaker motors, allow a larger step.
+# A fit of such a log finds a kA that is far too large: after the first jump the wheels get faster
+# only slowly, until the robot is as fast as they are. Choose a step that does not make the wheels
+# slip, here about 1.8 V. If the robot is heavier or the motors are weaker, the step may be larger.
 #
 # ### Measure it
 #
-# Put the robot against a **wall**, bumpers on, wheels straight. Raise the voltage slowly. At first
-# nothing turns, and the current grows with the voltage. Then the wheels break loose.
+# Put the robot with its bumpers against a **wall**. The wheels point straight at the wall. Raise
+# the voltage slowly. At first nothing turns, and the current grows with the voltage. Then the
+# wheels start to slip.
 #
-# *Safety: nobody stands near the robot or behind the wall. Stop at once when the wheels spin; they
-# burn the carpet. Do it once or twice, not ten times.*
+# *Safety: nobody stands near the robot or behind the wall. Stop at once when the wheels spin,
+# because they burn the carpet. Do this test once or twice, not ten times.*
 
 # %%
 push = record_wall_push(robot, rng=np.random.default_rng(5))
 first = int(np.argmax(push.velocity > 0.0))
 slip_current = float(push.current[first - 1])
-print(f"Just before the wheels turn, one motor takes {slip_current:.0f} A.")
+print(f"Just before the wheels turn, the current of one motor is {slip_current:.0f} A.")
 plot_curves(
     push.time,
     {"current of a motor ÷ 10 [A]": push.current / 10, "speed of its wheel [m/s]": push.velocity},
@@ -412,10 +421,11 @@ plot_curves(
 
 # %% [markdown]
 # This is the **slip current**. Set the stator current limit of the drive motors a little below it.
-# (The *stator* current is the current in the motor. CTRE's name is `kSlipCurrent`; its program
-# starts with 120 A.) Then a driver can push the stick as hard as they like, and the wheels keep
-# their grip on a straight start. The current *falls* when the wheels slip: rubber that slides holds
-# less. Take the largest value before that. ([CTRE docs: current limits, at one
+# (The *stator* current is the current in the motor. CTRE's name for the limit is `kSlipCurrent`,
+# and its program starts with 120 A.) Then the wheels do not slip when the robot starts straight
+# ahead, even if the driver pushes the joystick as far as possible. The current *falls* when the
+# wheels slip, because rubber that slides has less grip. Use the largest current before that. ([CTRE
+# docs: current limits, at one
 # commit](https://github.com/CrossTheRoadElec/Phoenix6-Documentation/blob/f062dd86318acfb997ffd5945601f65d1f2848c1/source/docs/hardware-reference/talonfx/improving-performance-with-current-limits.rst))
 #
 # ### The grip, for "Wheel COF"
@@ -425,9 +435,9 @@ plot_curves(
 # you µ, in three steps:
 #
 # 1. A part of the current only turns the gears. It is kS divided by the resistance of a motor (12 V
-#    / stall current). Subtract it.
-# 2. The rest is torque: stall torque · current / stall current, for each motor.
-# 3. Torque · gear ratio / wheel radius is the push of one wheel. There are four:
+#    / stall current). Subtract this part.
+# 2. Compute the torque of each motor from the rest: stall torque · current / stall current.
+# 3. The push of one wheel is torque · gear ratio / wheel radius. There are four wheels:
 #
 # > µ = 4 · torque · gear ratio / (wheel radius · mass · 9.81 m/s²)
 #
@@ -435,10 +445,10 @@ plot_curves(
 
 # %%
 guess_grip = Prediction(
-    "You forget step 1. What does the planner do with your µ?",
-    "µ is too small: it plans slow curves, and the wheels could do more",
+    "You forget number 1 of this list. What does the planner do with your µ?",
+    "µ is too small: the planner plans curves that are slower than necessary",
     "nothing changes: µ does not depend on friction in the gears",
-    "µ is too large: it plans curves in which the wheels slip",
+    "µ is too large: the planner plans curves in which the wheels slip",
 )
 guess_grip
 
@@ -452,13 +462,13 @@ def grip_of(current: float) -> float:
     return 4 * push_of_wheel / (robot.mass * 9.81)
 
 
-print(guess_grip.reveal("µ is too large: it plans curves in which the wheels slip"))
-print(f"Of {slip_current:.0f} A, {idle:.1f} A only turn the gears.")
+print(guess_grip.reveal("µ is too large: the planner plans curves in which the wheels slip"))
+print(f"The current is {slip_current:.0f} A, but {idle:.1f} A of it only turn the gears.")
 Table(
     ("current", "µ"),
     (
-        ("all of it", grip_of(slip_current)),
-        ("without what turns the gears", grip_of(slip_current - idle)),
+        ("all the current", grip_of(slip_current)),
+        ("without the current that turns the gears", grip_of(slip_current - idle)),
         ("the truth", robot.grip),
     ),
 )
@@ -479,24 +489,29 @@ Table(
 # | distances between the wheels [m] | tape measure | Module Offsets | Wheelbase, Trackwidth |
 #
 # A motor's torque is proportional to its current. So the torque at the slip current is stall torque
-# · slip current / stall current. It is the *most* that makes sense. If your current limit is lower,
+# · slip current / stall current. A larger torque makes no sense. If your current limit is lower,
 # use the torque at that limit. For the top speed, PathPlanner's page says: drive as fast as you can
-# on a charged battery and read the speed. Without room, use the formula. It is an upper limit,
-# because the slow tests do not show what is lost at high speed. The page's own guess is 85 % of the
-# free speed. Choreo advises about 80 % for its *Motor Speed Limit*, to leave something for
-# corrections.
+# with a charged battery, and write down the speed. If you have no room for that, use the formula.
+# The real top speed is lower, because there are losses at high speed that the slow tests do not
+# show.
 #
-# <details><summary>For mentors: which current, which torque, with sources</summary>
+# <details><summary>For mentors: which speed, which current and which torque, with sources</summary>
 #
-# PathPlanner's page calls *Drive Current Limit* a supply limit. But its library takes it as the
-# current *in the motor*: it computes torque from it. So give the stator limit that you set.
-# ([Robot Config, at one commit](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
-# [ModuleConfig.java, at one commit](https://github.com/mjansen4857/pathplanner/blob/c8ac86828f398c73cc945206dcd519279b3e50df/pathplannerlib/src/main/java/com/pathplanner/lib/config/ModuleConfig.java))
-# Choreo's page proposes the torque at 1.5 times the breaker's rating, 60 A for a 40 A breaker, to
-# leave something for corrections; above the slip current no torque is of use. Its window has *Wheel
-# COF*, too.
-# ([Robot Configuration, at one commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
-# [ModuleConfigPanel.tsx, at one commit](https://github.com/SleipnirGroup/Choreo/blob/083dd735db2cc0fe83d62bd8a6edbeb6ad9e7138/src/components/config/robotconfig/ModuleConfigPanel.tsx))
+# If you do not measure the top speed, PathPlanner's page proposes 85 % of the free speed. For its
+# *Motor Speed Limit*, Choreo proposes about 80 %, so that some speed remains for corrections.
+#
+# PathPlanner's page calls *Drive Current Limit* a supply limit. But its library uses this number as
+# the current *in the motor*, and computes the torque from it. So enter the stator limit that you
+# set. ([Robot Config, at one
+# commit](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
+# [ModuleConfig.java, at one
+# commit](https://github.com/mjansen4857/pathplanner/blob/c8ac86828f398c73cc945206dcd519279b3e50df/pathplannerlib/src/main/java/com/pathplanner/lib/config/ModuleConfig.java))
+# Choreo's page proposes the torque at 1.5 times the current of the breaker: 60 A for a 40 A
+# breaker. Then some torque remains for corrections. But a torque above the one at the slip current
+# does not help. Choreo's window has *Wheel COF*, too. ([Robot Configuration, at one
+# commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
+# [ModuleConfigPanel.tsx, at one
+# commit](https://github.com/SleipnirGroup/Choreo/blob/083dd735db2cc0fe83d62bd8a6edbeb6ad9e7138/src/components/config/robotconfig/ModuleConfigPanel.tsx))
 # </details>
 
 # %%
@@ -515,14 +530,15 @@ Table(
 
 # %% [markdown]
 # kS, kV and kA do not go into a planner. They go into your drive code (lesson 8). In CTRE's program
-# they are the gains of the drive motor, per rotation of the *motor*; in AdvantageKit's template per
-# rotation of the *wheel*; in YAGSL and WPILib per meter.
+# they are the gains of the drive motor, per rotation of the *motor*. In AdvantageKit's template
+# they are per rotation of the *wheel*. In YAGSL and WPILib they are per meter.
 #
 # ### Now you write it
 #
 # Another team asks you for help. Their robot has four NEO Vortex motors, and they have run all
-# tests. Write the three formulas of this lesson: replace the dots in the next cell. Run it, then
-# run the cell below it: it checks each formula, and uses ours for one that is not right yet.
+# tests. Write the three formulas of this lesson: replace the dots in the next cell, and run it.
+# Then run the cell below it. That cell checks each formula. If a formula is not right yet, the cell
+# uses ours.
 
 
 # %%
@@ -560,7 +576,7 @@ print(mine.report)
 # ```
 # </details>
 #
-# Here are their tests. Two of the numbers in their code are wrong. Which?
+# Here are the results of their tests. Two of the numbers in their code are wrong. Which ones?
 
 # %%
 theirs = SwerveDrive(
@@ -600,21 +616,22 @@ Table(
 )
 
 # %% [markdown]
-# Their wheels are worn, so the robot drives 2.6 % less far than its code believes. And their wheels
-# hold less than they hoped: with µ = 1.2 a planner plans curves in which they slip. The moment of
-# inertia is good enough: the measured one is a few percent too large, because wheels and rotors are
-# in it (section 5).
+# Their wheels are worn, so the robot drives 2.6 % less far than its code computes. And their wheels
+# have less grip than the number in their code: with µ = 1.2 a planner plans curves in which the
+# wheels slip. Their moment of inertia is good enough: the measured value is a few percent too
+# large, because it contains wheels and rotors (section 5).
 
 # %% [markdown]
 # ## 8 Your own robot
 #
-# 1. **Straight.** Mark 5 meters of carpet. Lock the wheels straight, and run the four tests of the
-#    translation routine, with a step below the slip.
-# 2. **Compare the modules:** `sysid fit straight.wpilog`. Look for the sentence with the modules.
-# 3. **Spin** slowly, five turns or more, on carpet. Write down gyro and motor turns.
+# 1. **Straight.** Mark 5 meters of carpet. Lock the wheels straight. Run the four tests of the
+#    translation routine with a step voltage at which the wheels do not slip.
+# 2. **Compare the modules:** `sysid fit straight.wpilog`. Read the sentence about the modules.
+# 3. **Spin** slowly, five turns or more, on carpet. Write down the angle of the gyro and the turns
+#    of each motor.
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
 #    robot, and nobody in it. Use a small step here, too. CTRE's own, π rad/s, is 3.4 V on our
-#    robot, and its wheels slip above 2.4 V. With 2 rad/s they do not.
+#    robot, and its wheels slip above 2.4 V. At 2 rad/s they do not slip.
 # 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
 #    names in your log. Replace V by a `MotorVoltage`, P by the gyro's `Yaw`, and W by its
 #    `AngularVelocityZWorld`:
@@ -630,13 +647,14 @@ Table(
 #
 # <details><summary>For mentors: AdvantageKit and YAGSL</summary>
 #
-# AdvantageKit's templates have one routine, for going straight. Its page shows the two lines to
-# change so that the modules stand across the diagonals: drive open loop, steer to the angle of the
-# module's place plus 90°. Then a *voltage* turns the robot, and the log contains that voltage.
-# ([TalonFX Swerve Template, at one commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
-# YAGSL's `SwerveDriveTest` has a drive and an angle routine; the drive routine centers the modules
-# first, and each module logs itself in meters. For the gyro's angle add your own entries.
-# ([SwerveDriveTest.java, at one
+# AdvantageKit's templates have only one routine: it drives the robot straight. AdvantageKit's page
+# shows which two lines you change so that the modules point across the diagonals. The first drives
+# open loop. The second steers each module to the angle of its place plus 90°. Then a *voltage*
+# turns the robot, and the log contains this voltage. ([TalonFX Swerve Template, at one
+# commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
+# YAGSL's `SwerveDriveTest` has a drive routine and an angle routine. The drive routine first
+# centers the modules, and the log of each module is in meters. The gyro's angle is not in the log,
+# so add your own entries for it. ([SwerveDriveTest.java, at one
 # commit](https://github.com/BroncBotz3481/YAGSL/blob/4bc6978a20dc2a036b3f562bf3c23c46f6da9361/swervelib/SwerveDriveTest.java))
 # </details>
 
@@ -646,7 +664,7 @@ Table(
 # Before you type a number into a planner, check all five:
 #
 # - [ ] The wheels were locked straight, and no module differs from the others.
-# - [ ] The step was below the slip: no jump at the start of the dynamic tests (lesson 6).
+# - [ ] The wheels did not slip: you see no jump at the start of the dynamic tests (lesson 6).
 # - [ ] The "voltage" of the rotation log is a voltage, and the angle is in the unit that you gave.
 # - [ ] kV turning / kV straight is the lever, within a few percent.
 # - [ ] The robot had battery and bumpers on, as in a match.
@@ -661,9 +679,9 @@ from grader import QuickCheck
 quick = QuickCheck(
     "You moved the battery from the middle of the robot to its edge. Which kA changes?",
     {
-        "kA straight": "The mass is the same, and going straight pushes only the mass.",
-        "kA turning": "The mass is the same, but it is further from the middle: harder to turn.",
-        "both": "Going straight pushes the mass, and that did not change.",
+        "kA straight": "Straight ahead, the wheels push only the mass, and it did not change.",
+        "kA turning": "The mass is further from the middle, so the robot is harder to turn.",
+        "both": "Straight ahead, the wheels push the mass, and the mass did not change.",
     },
     right="kA turning",
 )
@@ -674,32 +692,34 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The size of its wheel: a worn wheel turns more often. (Then its gear ratio, if somebody built in
-# another module.) A module that rubs would *not* look different: the floor forces all wheels to the
-# same speed.
+# Look at the size of its wheel: a worn wheel turns more often. (If somebody has replaced the
+# module, look at its gear ratio, too.) A module that rubs would *not* look different: the floor
+# forces all wheels to the same speed.
 # </details>
 #
-# **2.** A rotation log gives kV = 1.02 and no unit that makes sense. What did you load as voltage?
+# **2.** The fit of a rotation log gives kV = 1.02, and its unit makes no sense. Which signal did
+# you load as the voltage?
 #
 # <details><summary>Answer</summary>
 #
-# `Rotational_Rate`. It is the commanded rate, and the robot turns at about that rate, so kV is
-# about 1. You cannot compute a moment of inertia from it. Load a `MotorVoltage`.
+# You loaded `Rotational_Rate`. It is the commanded rate, and the robot turns at about that rate, so
+# kV is about 1. You cannot compute a moment of inertia from it. Load a `MotorVoltage`.
 # </details>
 #
 # **3.** PathPlanner's formula gives 3.5 kg·m² for your square swerve. What do you check first?
 #
 # <details><summary>Answer</summary>
 #
-# The lever. With half the trackwidth the result is too small by √2: 3.5 · 1.41 = 5.0.
+# Check the lever. With half the trackwidth the result is too small by a factor of √2, and 3.5 ·
+# 1.41 = 5.0.
 # </details>
 #
 # **4.** Your robot gets 10 kg heavier. What happens to the slip current?
 #
 # <details><summary>Answer</summary>
 #
-# It grows: more weight presses the wheels on the carpet, so they hold more. Measure it again, and
-# measure both kA again.
+# The slip current grows: more weight presses the wheels on the carpet, so they have more grip.
+# Measure it again, and measure both kA again.
 # </details>
 
 # %% [markdown]
@@ -725,8 +745,8 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# Give the robot of section 1 a mass of 68 kg, at the same inertia, and run the lesson again. Which
-# numbers of section 7 change?
+# Give the robot of section 1 a mass of 68 kg, but the same moment of inertia, and run the lesson
+# again. Which numbers of section 7 change?
 # </details>
 #
 # **Next:** `grade` in a terminal shows which exercises are left.
