@@ -53,7 +53,8 @@ def _told(variant: Variant) -> str:
     rows = "".join(f"- {row.name}: {row.told}\n" for row in ROWS)
     reasons = "".join(f"- **{one}** {REASONS[name]}\n" for one, name in variant.reasons.items())
     parts.append(
-        f"## Seven mechanisms\n\n{rows}\nShould a team characterize this mechanism? {', '.join(DECISIONS)}.\n"
+        f"## Seven mechanisms\n\n{rows}\n"
+        f"Should a team characterize this mechanism? {', '.join(DECISIONS)}.\n"
     )
     parts.append(f"### Reasons\n\n{reasons}")
     return "\n".join(parts)
