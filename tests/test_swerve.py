@@ -154,7 +154,7 @@ def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step,
 def test_the_rotation_step_of_ctres_generator_slips_too_and_two_radians_a_second_do_not():
     """Phoenix 6 26.3.0 turns a rate into rate · lever / top speed · 12 V."""
     top = KRAKEN.motor.free_speed / KRAKEN.ratio * KRAKEN.wheel_radius
-    theirs, gentle = (rate * KRAKEN.lever / top * 12.0 for rate in (math.pi, 2.0))
+    theirs, gentle = (rate * KRAKEN.lever_arm / top * 12.0 for rate in (math.pi, 2.0))
 
     assert theirs == pytest.approx(3.4, abs=0.05)
     assert gentle < slip_voltage(KRAKEN.rotation) < theirs
