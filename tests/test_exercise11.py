@@ -123,7 +123,7 @@ def test_every_wrong_option_says_why_and_names_no_right_one(copy, name):
 @pytest.mark.parametrize(
     ("name", "words", "share"),
     [
-        ("KC2_answer", "Add a kP", 0.6),
+        ("KC2_answer", "Only add a kP", 0.6),
         ("KC3_answer", "Raise kP", 0.4),
         ("KC3_answer", "Add kI", 0.3),
         ("KC3_answer", "Use the mean", 0.5),

@@ -77,7 +77,7 @@ def test_every_misconception_points_to_a_section_that_is_there(root, code):
 
 
 def test_every_exercise_has_a_place_in_the_plans(text, root):
-    told = text.partition("Which exercise belongs to which lesson:")[2].partition("\n\n")[0]
+    told = text.partition("Each exercise belongs to a lesson:")[2].partition("\n\n")[0]
     named = {int(number) for number in re.findall(r"\d+", told)}
 
     assert "practice" in told

@@ -30,7 +30,7 @@ def share(log, gain="kA", **how):
 def test_a_long_median_makes_ka_too_small_and_an_average_too_large(reads):
     said = MISCONCEPTIONS["M-FILTER-FREE"].says
     reads(said)
-    assert "A sensor that averages" in said
+    assert "Some sensors average the velocity" in said
 
     log = recorded()
     found = [share(log, median=window) for window in (1, 5, 9, 15)]

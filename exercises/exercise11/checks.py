@@ -53,7 +53,8 @@ def _told(variant: Variant) -> str:
     rows = "".join(f"- {row.name}: {row.told}\n" for row in ROWS)
     reasons = "".join(f"- **{one}** {REASONS[name]}\n" for one, name in variant.reasons.items())
     parts.append(
-        f"## Seven mechanisms\n\n{rows}\nIs it worth characterizing? {', '.join(DECISIONS)}.\n"
+        f"## Seven mechanisms\n\n{rows}\n"
+        f"Should a team characterize this mechanism? {', '.join(DECISIONS)}.\n"
     )
     parts.append(f"### Reasons\n\n{reasons}")
     return "\n".join(parts)
@@ -92,7 +93,7 @@ def _chosen(name: str, answers: Answers) -> Option:
 q0_guess = _question("Q0_guess", "The question of somebody who guesses gains.", points=SINGLE)
 q0_sysid = _question("Q0_sysid", "The question of somebody who runs SysId.", points=SINGLE)
 q0_brace = _question("Q0_brace", "The gain that a brace changes.", points=SINGLE)
-ka_use = _question("kA_use", "What else a drivetrain's kA is good for.", points=SINGLE)
+ka_use = _question("kA_use", "What else a drivetrain's kA tells.", points=SINGLE)
 ks_flag = _question("kS_flag", "What to do when kS has grown.", points=SINGLE)
 step_shape = _question("step_shape", "What a long steady acceleration means.", points=SINGLE)
 step_length = _question("step_length", "What a longer dynamic test gives.", points=SINGLE)
@@ -101,7 +102,7 @@ status_frames = _question("status_frames", "What repeated readings do to kA.", p
 three_logs = _question("three_logs", "What the spread of three recordings says.", points=SINGLE)
 match_heat = _question("match_heat", "Which gains a match's heat changes.", points=SINGLE)
 schedule = _question("schedule", "When a team characterizes.", points=SINGLE)
-kc1_answer = _question("KC1_answer", "KC1: what happened when it lurched.", points=TIER)
+kc1_answer = _question("KC1_answer", "KC1: what happened when the mechanism jumped.", points=TIER)
 kc1_reason = _question("KC1_reason", "KC1: what that does to the gains.", points=TIER)
 
 
@@ -121,8 +122,8 @@ def kc2_volts(answers: Answers) -> str | None:
 
 kc2_answer = _question("KC2_answer", "KC2: what to do about the missing speed.", points=TIER)
 kc2_reason = _question("KC2_reason", "KC2: why it is missing.", points=TIER)
-kc3_answer = _question("KC3_answer", "KC3: how to stop the loaded arm drooping.", points=TIER)
-kc3_reason = _question("KC3_reason", "KC3: why it droops.", points=TIER)
+kc3_answer = _question("KC3_answer", "KC3: what to do when the loaded arm sinks.", points=TIER)
+kc3_reason = _question("KC3_reason", "KC3: why the arm sinks.", points=TIER)
 
 
 def _decision(row: Row) -> Check[Answers]:

@@ -2,21 +2,22 @@
 
 from .question import Option, Question
 
-KC1 = """A team runs the quasistatic test forward. Halfway through, the velocity jumps: everybody
-saw the mechanism lurch. The rest of the log looks clean."""
+KC1 = """A team runs the forward quasistatic test. In the middle of the test, the velocity
+suddenly jumps up. Everybody saw the mechanism jump forward. The rest of the log looks clean."""
 
-KC2 = """A shooter has kS = {ks:.2f} V, kV = {kv:.3f} V·s/rot and kA = 0.003 V·s²/rot, measured with
-SysId. They go into SimpleMotorFeedforward, and nothing else moves the wheel. Its target is
-{target:d} rpm, but it always ends up at {reached:d} rpm."""
+KC2 = """A shooter has kS = {ks:.2f} V, kV = {kv:.3f} V·s/rot and kA = 0.003 V·s²/rot, measured
+with SysId. The code uses these gains in a SimpleMotorFeedforward, and uses no feedback. The
+target speed is {target:d} rpm, but the wheel always reaches only {reached:d} rpm."""
 
-KC3 = """An arm is characterized without a game piece. At the competition it droops as soon as it
-holds one."""
+KC3 = """A team measures the gains of an arm that holds no game piece. At the competition the arm
+sinks a little as soon as it holds a game piece."""
 
 SLIP = Option(
-    "The encoder slipped, if a second sensor or the current shows that nothing moved.",
+    "The encoder slipped, but only if a second sensor or the current shows that the mechanism "
+    "did not jump.",
     (
-        "Accepted, because you ask for a second measurement. Without one, believe the people who "
-        "saw the mechanism lurch"
+        "This answer is accepted, because you ask for a second measurement. Without a second "
+        "measurement, believe the people who saw the mechanism jump"
     ),
     share=1.0,
 )
@@ -27,56 +28,59 @@ CHECKS = (
         "What most likely happened?",
         (
             Option(
-                "Something stuck and broke loose: a belt or chain skipped, a tight bearing let go.",
+                "Some part got stuck and then suddenly came free, such as a tight bearing, or a "
+                "belt or chain that skipped.",
                 share=1.0,
             ),
             SLIP,
             Option(
                 "The battery browned out.",
-                "Then the voltage would drop as well, and a mechanism without voltage gets "
-                "slower. This one jumped ahead",
+                "In a brownout the voltage would drop, too, and a mechanism without voltage gets "
+                "slower. But this mechanism jumped forward",
             ),
             Option(
                 "The log has a gap in time.",
-                "A gap shows in the time stamps. And people do not see a gap: they saw it lurch",
+                "You would see a gap in the time stamps of the log. And people cannot see such a "
+                "gap, but they saw the mechanism jump",
             ),
             Option(
                 "The mechanism hit its hard stop.",
-                "At a hard stop the velocity falls to zero and stays there. The rest of this log "
-                "goes on as if nothing had been",
+                "At a hard stop the velocity falls to zero and stays there. But the rest of this "
+                "log looks normal",
             ),
         ),
     ),
     Question(
         "KC1_reason",
-        "What does it do to the gains?",
+        "What does this jump do to the gains?",
         (
             Option(
-                "A few samples with a large acceleration count a lot, because errors are "
-                "squared: kS too small, kA too large, kV about right.",
+                "kS is too small, kA is too large, and kV is about right: a few samples with a "
+                "large acceleration have a large effect, because errors are squared.",
                 share=1.0,
             ),
             Option(
-                "Hardly anything: one jump among hundreds of samples averages out.",
-                "Errors are squared before they are added up: one sample that is ten times as far "
-                "off counts a hundred times",
+                "Almost nothing: one jump among hundreds of samples averages out.",
+                "A fit squares the errors before it adds them up. So a sample with an error ten "
+                "times as large counts a hundred times",
                 "M-NOISE-AVERAGES",
             ),
             Option(
-                "kV is wrong, kS and kA are not.",
-                "The slope of voltage over speed depends on the whole long ramp. Which gain "
-                "depends on the few samples that accelerate?",
+                "kV is wrong, but kS and kA are right.",
+                "kV is the slope of voltage over speed, and this slope depends on the whole long "
+                "test. Which gain depends on the few samples with a large acceleration?",
             ),
             Option(
                 "Nothing, once that run is deleted: three runs are enough.",
-                "SysId refuses a log without that run, and nothing shows any more whether friction "
-                "is the same both ways. First repair the mechanism, then run it again",
+                "SysId cannot use a log without that run. And without it you cannot see whether "
+                "friction is the same in both directions. First repair the mechanism, then run "
+                "the test again",
                 "M-REVERSE-WASTE",
             ),
             Option(
                 "R² falls below 0.9, so you cannot overlook it.",
-                "With a lurch like this the simulated velocity R² stays above 0.9. Look at the "
-                "plots first and at R² last",
+                "With a jump like this, the simulated velocity R² stays above 0.9. So look at "
+                "the plots first, and at R² last",
                 "M-R2",
             ),
         ),
@@ -92,7 +96,7 @@ CHECKS = (
             ),
             Option(
                 "Raise kV until the display shows the target.",
-                "Then kV is right for this speed, this battery and this day only. It no longer "
+                "Then this kV is right only for one speed, one battery and one day. It no longer "
                 "describes the mechanism",
                 "M-FF-EXACT",
             ),
@@ -102,19 +106,20 @@ CHECKS = (
             ),
             Option(
                 "Raise kS: friction must be larger than measured.",
-                "kS is the same voltage at every speed. If kS were too small, the error would "
-                "be a larger share at low speed: try a second speed",
+                "kS is the same voltage at every speed. If kS were too small, the error in "
+                "percent would be larger at low speed. You can check this with a second, lower "
+                "target speed",
             ),
             Option(
                 "Run SysId again: it failed.",
                 (
-                    "A few percent is a normal error of a good model. Nothing shows that the fit "
-                    "failed"
+                    "An error of a few percent is normal for a good model. Nothing here shows "
+                    "that the fit failed"
                 ),
                 "M-FF-EXACT",
             ),
             Option(
-                "Add a kP, and leave it at that.",
+                "Only add a kP, and check nothing else.",
                 "Feedback is part of the answer. But what if the motor never gets the commanded"
                 " voltage? And kP alone does not remove the whole error",
                 "M-KP-EXACT",
@@ -144,45 +149,47 @@ CHECKS = (
             ),
             Option(
                 "Reaching the speed takes kA·a, and it did not get there.",
-                "It had enough time: its speed is steady. At a steady speed a is zero",
+                "The wheel had enough time, because its speed is steady. At a steady speed a is "
+                "zero",
             ),
             Option(
-                "Friction takes the same share of every speed.",
-                "kV·v takes the same share at every speed. Dry friction takes the same voltage",
+                "Friction reduces every speed by the same percentage.",
+                "The voltage kV·v is proportional to the speed. But dry friction needs the same "
+                "voltage at every speed",
             ),
         ),
     ),
     Question(
         "KC3_answer",
-        "What is the fix?",
+        "What should the team do?",
         (
             Option(
-                "Measure, or compute, gains with the piece, and switch to them while a sensor sees "
-                "it.",
+                "Measure or compute gains with the game piece, and use these gains while a "
+                "sensor sees the game piece.",
                 share=1.0,
             ),
             Option(
-                "Raise kP until it no longer droops.",
-                "A larger kP makes the droop smaller, but not zero: it is the missing voltage "
-                "divided by kP. And a large kP shakes the empty arm",
+                "Raise kP until the arm no longer sinks.",
+                "With a larger kP the arm sinks less, but it still sinks: the error is the "
+                "missing voltage divided by kP. And with a large kP the empty arm shakes",
                 "M-KP-EXACT",
                 share=0.4,
             ),
             Option(
                 "Add kI.",
-                "It would get there slowly, and the arm would swing up when the piece is gone. "
-                "It corrects an error that you could know beforehand",
+                "With kI the arm would come back slowly, and would swing up when the game piece "
+                "is gone. You know this error before it happens, so do not wait for feedback",
                 share=0.3,
             ),
             Option(
                 "Use the mean of the gains with and without the piece.",
-                "Then it is half wrong in both cases: too little with the piece, too much "
-                "without. That is acceptable only for a small piece",
+                "Then the gains are wrong in both cases: too small with the game piece, and too "
+                "large without it. This is acceptable only if the game piece is light",
                 share=0.5,
             ),
             Option(
                 "Raise kV.",
-                "A drooping arm does not move. What is kV·v then?",
+                "An arm that only holds its place has no speed. How large is kV·v then?",
                 "M-KV-MASS",
             ),
             Option(
@@ -193,31 +200,33 @@ CHECKS = (
     ),
     Question(
         "KC3_reason",
-        "Why does it droop?",
+        "Why does the arm sink?",
         (
             Option(
-                "The piece adds weight and inertia: kG and kA grow, kV and kS hardly do.",
+                "The game piece adds weight and inertia, so kG and kA become larger; kV and kS "
+                "stay almost the same.",
                 share=1.0,
             ),
             Option(
                 "A heavier arm needs a larger kV.",
-                "kV depends on motor and gears. There is no mass in its formula",
+                "kV depends on the motor and the gears. Its formula does not contain the mass",
                 "M-KV-MASS",
             ),
             Option(
-                "A heavier arm has more friction: kS grows.",
-                "The friction in the bearings grows a little, but friction helps an arm to stay"
-                " where it is. It does not make it droop",
+                "A heavier arm has more friction, so kS becomes larger.",
+                "The friction in the bearings becomes a little larger. But friction helps an arm "
+                "to stay where it is, and does not make it sink",
                 "M-HEAVIER-MORE-KS",
             ),
             Option(
-                "SysId knows no gravity, so the gains never held the arm.",
-                "With the type Arm, SysId finds kG. And the empty arm did hold",
+                "SysId does not know gravity, so these gains could never hold the arm.",
+                "With the type Arm, SysId finds kG. And the gains did hold the empty arm",
                 "M-NO-KG-IN-SYSID",
             ),
             Option(
                 "The battery is weaker at the end of a match.",
-                "Then the empty arm would droop, too: at that moment it has the same battery",
+                "Then the arm would also sink without a game piece, because the battery is the "
+                "same",
                 "M-SAG-ALWAYS-BAD",
             ),
         ),

@@ -5,21 +5,34 @@ from dataclasses import dataclass
 DECISIONS = ("always", "recommended", "optional", "usually not")
 
 REASONS = {
-    "path": "It follows paths: with a wrong voltage it leaves the path.",
-    "shot": "Its speed at one moment decides the result, and the feedforward has to reach it.",
-    "angle": "The effect of gravity changes with its angle, so one guess fits one angle only.",
-    "weight": "Gravity pulls on it all the time, and its load changes kG and kA.",
-    "if-speed": ("Only if its speed is controlled; if 'fast enough' is enough, gains do not help."),
-    "if-profile": "Only if it moves along a motion profile, to be gentle on the robot.",
-    "on-off": "A fixed output switched on and off is enough; its exact speed hardly matters.",
-    "place": "Only its final position matters, and a high kP reaches it.",
+    "path": "It follows paths, and with a wrong voltage it leaves the path.",
+    "shot": (
+        "Its speed at one moment decides the result, and the feedforward has to give this speed."
+    ),
+    "angle": (
+        "The effect of gravity changes with its angle, so one guessed voltage is right at only "
+        "one angle."
+    ),
+    "weight": "Gravity always pulls on it, and the load that it carries changes kG and kA.",
+    "if-speed": (
+        "Only if its code controls its speed; if any high speed is good enough, gains do not help."
+    ),
+    "if-profile": "Only if it follows a motion profile, so that it moves gently.",
+    "on-off": (
+        "It is enough to switch a fixed output on and off, because its exact speed is not "
+        "important."
+    ),
+    "place": "Only its final position is important, and a high kP brings it there.",
     "light": "It is light and its travel is short: gains computed from its parts are enough.",
-    "motor": "It has a motor, and whatever has a motor should be characterized.",
-    "heavy": "It is heavy, and mass changes kV the most.",
+    "motor": "It has a motor, and teams should characterize everything that has a motor.",
+    "heavy": "It is heavy, and mass changes kV more than the other gains.",
 }
 WRONG = {
-    "motor": ("a test takes time and wears the robot. What would you use the gains for?", ""),
-    "heavy": ("there is no mass in the formula of kV", "M-KV-MASS"),
+    "motor": (
+        "a test needs time, and the robot's parts wear. What would you use the gains for?",
+        "",
+    ),
+    "heavy": ("the formula of kV does not contain the mass", "M-KV-MASS"),
 }
 
 
@@ -61,7 +74,7 @@ ROWS = (
         "spins a wheel up to a speed, and shoots",
         "always",
         ("shot",),
-        "What happens to a shot at 3 % less speed?",
+        "What happens to a shot if the wheel is 3 % too slow?",
     ),
     Row(
         "arm",
@@ -99,6 +112,6 @@ ROWS = (
         "moves game pieces from sensor to sensor",
         "usually not",
         ("on-off",),
-        "What would it do better with measured gains?",
+        "What would a conveyor do better with measured gains?",
     ),
 )
