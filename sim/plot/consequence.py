@@ -85,7 +85,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
         axes.set_visible(False)
     add_legend(figure, flat[: len(shown)])
     drawn = ", ".join(f"{one.title}'s {one.ylabel.partition(' [')[0]}" for one in shown)
-    alt = f"Curves over time, wanted and what comes of the answer: {drawn}. {words}"
+    alt = f"Curves over time show what was wanted, and what your answer causes: {drawn}. {words}"
     return Picture(figure, alt)
 
 
