@@ -70,8 +70,8 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
     for one in shown:
         if any(len(values) != len(one.time) for values in (one.wanted, *one.actual.values())):
             raise BadRequest(
-                f"a curve of {one.title} has not one value for each time",
-                advice="Give as many of both.",
+                f"a curve of {one.title} does not have one value for each time",
+                advice="Give as many values as times.",
             )
     if not shown:
         raise BadRequest("there is no motion to draw", advice="Give at least one panel.")

@@ -38,7 +38,7 @@ def plot_hold_window(
         BadRequest: not one speed for each voltage, or the window's edges changed places.
     """
     if len(volts) != len(speeds) or not len(volts):
-        raise BadRequest("every voltage needs one speed", advice="Give as many of both.")
+        raise BadRequest("every voltage needs one speed", advice="Give as many speeds as voltages.")
     low, high = window
     if low > high:
         raise BadRequest(f"a window from {low:g} to {high:g} V", advice="Give the lower one first.")
