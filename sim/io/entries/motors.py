@@ -276,13 +276,15 @@ def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> Mi
     """
     devices = find_devices(entries)
     lacking = [s for s in NEEDED if not any(s in device.signals for device in devices)]
-    what = f"no {' and no '.join(lacking)}" if lacking else "no motor with all three"
+    what = (
+        f"no {' and no '.join(lacking)} changes" if lacking else "no motor has all three, changing"
+    )
     near = [name for signal in NEEDED for name in _near(signal, entries, mechanism)]
     said = f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
     arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
     said += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
-        f"{what} that changes during the tests. A motor needs an entry each for voltage, position "
+        f"{what} during the tests. A motor needs an entry each for voltage, position "
         f"and velocity{said}",
         where=where,
         advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
