@@ -138,7 +138,7 @@ def _make_environment(folder: Path) -> tuple[str, str] | None:
             "On Debian and Ubuntu: sudo apt install python3-venv. Then try again.",
         )
     if folder.exists() and not (folder / "pyvenv.cfg").is_file() and any(folder.iterdir()):
-        return f"{folder} is there already, and no virtual environment", "Move it away."
+        return f"{folder} is there already, but it is not a virtual environment", "Move it away."
     _print_line(f"Making a place for the course's packages: {folder}")
     made = _run_quietly([sys.executable, "-m", "venv", "--clear", str(folder)])
     return (f"no virtual environment could be made: {made}", "") if made else None

@@ -145,7 +145,7 @@ def _find_scale(unit: str, asked: AskedNumber) -> float:
         given = read_unit(unit)
     except NotAUnitError as part:
         raise WrongAnswer(
-            f"the unit {unit!r}, in which {str(part)!r} is not known",
+            f"the unit {unit!r}: {str(part)!r} is not known",
             hint=f"Write {asked.unit}, or leave the unit out." if asked.unit else NO_UNIT,
         ) from None
     if given.powers != wanted.powers:

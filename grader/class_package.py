@@ -84,7 +84,7 @@ def find_learner(course: Path, *, known: str, student: str | None) -> str:
 def explain_no_grading(exercise: str, found: ClassPackage) -> BadRequest:
     """Why an exercise cannot be graded here, and how to practice all the same."""
     return BadRequest(
-        f"{exercise} is on numbers of {found.name}, which only your instructor can grade",
+        f"{exercise} has numbers of {found.name}, which only your instructor can grade",
         advice="Hand it in. To practice on other numbers, with feedback: grade "
         f"{exercise} FILE --student practice",
     )

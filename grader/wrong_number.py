@@ -104,8 +104,8 @@ def _looks_like(value: float, likely: Lookalike) -> bool:
 
 _INTERCEPT = WrongNumber(
     "intercept",
-    "a little too large, by about what a ramp's own acceleration costs. Did you take kS where the "
-    "line through the quasistatic runs crosses v = 0?",
+    "a little too large, by about the voltage that accelerates the mechanism during the ramp. Is "
+    "your kS where the line through the quasistatic runs crosses v = 0?",
     "M-KS-INTERCEPT",
 )
 

@@ -68,7 +68,7 @@ REFUSED = [
         r"line 2: test is 'dynamics', .* quasistatic\|dynamic\|coast.* -forward or -reverse\.",
         id="an unknown test",
     ),
-    pytest.param([], UnreadableFile, r"a header without rows\. Record", id="no rows"),
+    pytest.param([], UnreadableFile, r"there are no rows below the header\. Record", id="no rows"),
     pytest.param(
         ['"' + row()], UnreadableFile, r"line 2: damaged CSV .* quotation mark", id="open quote"
     ),

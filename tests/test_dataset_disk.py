@@ -155,7 +155,9 @@ def test_a_journal_that_was_changed_is_not_believed(tmp_path, capsys):
 
     assert sysid("dataset", path, "-o", folder) == 2
 
-    assert f"{min(first['files'])}: there already, and not of this" in capsys.readouterr().err
+    assert (
+        f"do not belong to this spec and secret: {min(first['files'])}" in capsys.readouterr().err
+    )
 
 
 def test_half_a_line_does_not_stay_in_the_journal(tmp_path):

@@ -95,7 +95,7 @@ PLANTED = {
         lambda: each(drawn("drivetrain"), lambda run: every(run, 10)),
         "90 % of its top speed within",
     ),
-    "fast-ramp": (lambda: drawn("shooter", routine=Routine(ramp=4.0)), "halve the ramp"),
+    "fast-ramp": (lambda: drawn("shooter", routine=Routine(ramp=4.0)), "half the ramp rate"),
     "standstill-counted": (
         lambda: each(drawn("arm"), lambda run: trembling(run, share=0.012)),
         "Set the threshold by hand",

@@ -171,8 +171,8 @@ def test_a_threshold_is_read_in_the_unit_of_the_log():
     [
         ("dynamic_forward", None, "dynamic_forward: nothing yet"),
         ("dynamic_forward", "", "dynamic_forward: nothing yet"),
-        ("dynamic_forward", 3, "which is not two times"),
-        ("dynamic_forward", "1 to 2 and 3 to 4", "which is not two times"),
+        ("dynamic_forward", 3, "but two times are needed"),
+        ("dynamic_forward", "1 to 2 and 3 to 4", "but two times are needed"),
         ("dynamic_forward", "4 to 2", '"4 to 2"'),
         ("threshold", "", "threshold: nothing yet"),
         ("threshold", -1, "threshold -1"),

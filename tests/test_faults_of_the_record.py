@@ -240,9 +240,9 @@ def dropped(run, times, *, motion):
 @pytest.mark.parametrize(
     ("times", "motion", "stories", "words"),
     [
-        ((5.0,), False, 1, "the velocity does not change, so only"),
-        ((3.0, 6.0), False, 2, "the velocity does not change, so only"),
-        ((3.0, 4.0, 5.0, 6.0), False, 1, "4 times, every 1.00 s"),
+        ((5.0,), False, 1, "The velocity does not change, so only"),
+        ((3.0, 6.0), False, 2, "The velocity does not change, so only"),
+        ((3.0, 4.0, 5.0, 6.0), False, 1, "4 times, about every 1.00 s"),
         ((3.0, 4.0, 5.0, 6.0), True, 1, "the motor really lost it"),
         ((5.0,), True, 0, ""),  # a brownout may look like that
     ],

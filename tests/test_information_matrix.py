@@ -83,7 +83,7 @@ def test_two_gains_are_told_as_well_as_each_of_them(pair):
             lambda: compute_information(UP, type="simple", noise=0.1).information_on_pair(
                 "kS", "kG"
             ),
-            "Choose from: kS, kV, kA",
+            "Choose one of: kS, kV, kA",
         ),
     ],
     ids=["no rows", "no such type", "no noise", "no such gain"],

@@ -442,7 +442,7 @@ def test_arrays_are_refused_by_name_and_say_which_export(tmp_path):
         logger.start(name, "double[]", ADVANTAGESCOPE)
     path = logger.save(tmp_path / "dynamic-forward.wpilog")
 
-    with pytest.raises(MissingSignal, match=r"arrays cannot be used: '/Shooter") as refused:
+    with pytest.raises(MissingSignal, match=r"Arrays cannot be used: '/Shooter") as refused:
         sim.read(path)
 
     assert "Tuner X or AdvantageScope" in str(refused.value)

@@ -58,8 +58,8 @@ def test_damage_is_named_with_its_run_and_its_time():
     picture = plot_time_series(
         FOUR, damages=[_damage("encoder-slip", 0, 2.0, 2.3), _damage("brownout", 3, 0.1, 0.4)]
     )
-    assert "marked A: encoder-slip, quasistatic-forward, 2.00 to 2.30 s after it" in picture.alt
-    assert "marked B: brownout, dynamic-reverse, 0.10 to 0.40 s after it" in picture.alt
+    assert "fault encoder-slip. quasistatic-forward is damaged from 2.00 to 2.30 s." in picture.alt
+    assert "fault brownout. dynamic-reverse is damaged from 0.10 to 0.40 s." in picture.alt
     (legend,) = picture.figure.legends
     assert [text.get_text() for text in legend.get_texts()][-2:] == [
         "A: encoder-slip",
@@ -113,7 +113,7 @@ def test_much_damage_is_summed_up():
     picture = plot_time_series(
         FOUR, damages=[_damage("overrun", 0, 0.2 * i, 0.2 * i) for i in range(40)]
     )
-    assert "and 34 stretches more" in picture.alt
+    assert "The fault is in 34 more parts." in picture.alt
     assert len(picture.figure.legends[0].get_patches()) == 1
 
 
@@ -158,7 +158,7 @@ def test_the_words_tell_where_motion_begins_on_the_way_the_test_is_called(reads)
     # 5 % of the top speed, (5.00 + 0.80 - 0.2)/2 = 2.79 m/s, is 0.14 m/s: 0.2 + 0.8 + 2·0.14 V
     reads(plot_voltage_velocity(ELEVATOR).alt)
     flipped = replace(FOUR.runs[0], velocity=-FOUR.runs[0].velocity)
-    assert "faster than 0.12 m/s, nowhere" in plot_voltage_velocity(Log((flipped,))).alt
+    assert "never moves forward faster than 0.12 m/s" in plot_voltage_velocity(Log((flipped,))).alt
 
 
 def test_the_words_measure_how_straight_the_samples_lie(reads):

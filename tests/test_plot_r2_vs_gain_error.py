@@ -41,8 +41,11 @@ def test_hidden_errors_are_neither_drawn_nor_told():
 def test_words_and_table_tell_the_errors():
     picture = drawn()
 
-    assert "2 have a sim R² above 0.9, not so spikes" in picture.alt
-    assert "kA: half of them by more than 149 %, spikes by −648 %" in picture.alt
+    assert "2 have a sim R² above 0.9. These do not: spikes." in picture.alt
+    assert (
+        "kA is off by more than 149 % in half of the logs. The largest error is −648 %, in spikes."
+        in picture.alt
+    )
     assert picture.table.rows[1] == ("a lurch", 0.92, "yes", "+1 %", "+149 %")
 
 

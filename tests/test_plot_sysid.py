@@ -145,7 +145,7 @@ def test_what_the_fit_uses_is_counted_and_drawn_where_it_is():
         start = log.runs_of_test(test)[0].time[0]
         assert used.get_xdata() == pytest.approx(rows[test].time - start)
         assert axes.get_title() == f"{test}: {len(rows[test])} of 150 used"
-        assert f"Of {test} {len(rows[test])} of 150 samples are used" in picture.alt
+        assert f"The fit uses {len(rows[test])} of the 150 samples of {test}" in picture.alt
 
 
 def test_the_median_filter_shows_in_the_line_and_in_the_words(reads):
@@ -156,7 +156,7 @@ def test_the_median_filter_shows_in_the_line_and_in_the_words(reads):
     raw, filtered = plot_velocity_time(log), plot_velocity_time(log, median=3)
     assert raw.table.rows[0][5] > 5.0 > filtered.table.rows[0][5]
     reads(filtered.alt)
-    assert "smoothed" not in raw.alt
+    assert "smoother" not in raw.alt
 
 
 def test_a_model_beside_is_drawn_and_its_miss_told(reads):

@@ -103,7 +103,7 @@ def test_where_a_class_issued_numbers_only_its_instructor_can_grade_them(
     assert run_command(["9"]) == 2
     said = capsys.readouterr()
     assert "answers.toml: 1 of 2 answered\n  kS = 0.1" in said.out
-    assert "on numbers of East, which only your instructor can grade. Hand it in." in said.err
+    assert "has numbers of East, which only your instructor can grade. Hand it in." in said.err
     assert run_command(["start", "--no-lab"]) == 0
     assert log.read_bytes() == before  # nothing is drawn over what the class issued
     log.unlink()

@@ -64,5 +64,7 @@ def test_a_coast_is_a_step_and_then_nothing():
 
 @pytest.mark.parametrize("kinds", [(), ("static",), ("dynamic", "dynamic")], ids=str)
 def test_tests_there_are_not_are_refused(kinds):
-    with pytest.raises(BadRequest, match="Choose from quasistatic, dynamic, coast"):
+    with pytest.raises(
+        BadRequest, match="Choose from these, each at most once: quasistatic, dynamic, coast"
+    ):
         Routine(kinds=kinds)

@@ -99,9 +99,9 @@ def test_a_reverse_test_is_refused(reads):
 def test_the_picture_says_what_it_shows():
     picture = plot_runway(gone(RAMP, wall=12.0, tape=7.0), moment=0.5)
 
-    assert "wall at 12.0 m" in picture.alt
+    assert "wall stands at 12.0 m" in picture.alt
     assert "tape lies at 7.0 m" in picture.alt
-    assert "which holds" in picture.alt
+    assert "which is enough" in picture.alt
     assert dict(picture.table.rows)["pushes the wall for [s]"] == "never"
 
 

@@ -324,7 +324,7 @@ def test_a_worn_wheel_turns_faster_and_its_kv_is_as_much_lower(tmp_path):
 
 
 def test_an_unknown_module_is_refused():
-    with pytest.raises(BadRequest, match="Choose from front-left, front-right"):
+    with pytest.raises(BadRequest, match="Choose one of: front-left, front-right"):
         record_modules(KRAKEN, GENTLE, rng=rng(), radii={"middle": 0.05})
 
 

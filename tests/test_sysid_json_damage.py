@@ -151,7 +151,7 @@ def test_a_damaged_file_is_refused_with_the_place_and_advice(
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        ({"motor": "middle"}, "no motor 'middle'.* --motor from: left, right, combined"),
+        ({"motor": "middle"}, "no motor 'middle'.* --motor: left, right, combined"),
         ({"entries": {"voltage": "volts"}}, "columns .* have no names.*Leave out"),
     ],
 )

@@ -139,18 +139,18 @@ def kv_unit(answers: Answers) -> None:
     letters = f"Write it with V, s and {symbol}, and with · or *, / and parentheses."
     if not isinstance(raw, str) or not raw.strip():
         empty = raw is None or isinstance(raw, str)
-        seen = "nothing yet" if empty else f"{raw}, which is no unit"
+        seen = "nothing yet" if empty else f"{raw}, which is not a unit"
         raise WrongAnswer(seen, hint=letters)
     try:
         given = read_unit(raw)
     except NotAUnitError as part:
-        raise WrongAnswer(f"{raw!r}, in which {str(part)!r} is not known", hint=letters) from None
+        raise WrongAnswer(f"{raw!r}: {str(part)!r} is not known", hint=letters) from None
     right = read_unit(f"V*s/{symbol}")
     if given.powers == right.powers and math.isclose(given.factor, right.factor):
         return
     volts, length, rest = given.powers[:2], given.powers[2:4], given.powers[4:]
     if volts == right.powers[:2] and sum(length) == -1 and max(length) == 0 and not any(rest):
-        hint = f"the right kind of unit, but your velocities are in {symbol}/s"
+        hint = f"this is the right kind of unit, but your velocities are in {symbol}/s"
         raise WrongAnswer(raw, hint=hint, misconception="M-UNITS", earned=1.0)
     raise WrongAnswer(raw, hint=_about_unit(given.powers), misconception="M-UNITS")
 
@@ -158,16 +158,16 @@ def kv_unit(answers: Answers) -> None:
 def _about_unit(given: tuple[int, ...]) -> str:
     volt, second, *length = given
     if any(given[4:]):
-        return "multiply it by the unit of your velocity: the result must be volts"
+        return "multiply your unit by that of your velocity: the result must be volts"
     if (volt, second, sum(length)) == (-1, -1, 1):
-        return "that is upside down: velocity for each volt"
+        return "this is velocity for each volt. kV is the reverse: volts for each unit of velocity"
     if (volt, second) == (1, 2) and sum(length) == -1:
         return "that belongs to kA, which is multiplied by an acceleration"
     if (volt, second) == (1, -1) and sum(length) == -1:
         return "mind the parentheses: dividing by (a/b) is not the same as dividing by a, then by b"
     if (volt, second) == (1, 0) and not any(length):
         return "that belongs to kS, which is multiplied by sgn(v), and sgn(v) has no unit"
-    return "multiply it by the unit of your velocity: the result must be volts"
+    return "multiply your unit by that of your velocity: the result must be volts"
 
 
 @check(points=2)

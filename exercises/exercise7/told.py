@@ -21,8 +21,8 @@ ACCEPTED = {  # fault -> what helps
 
 LOOKS = {  # fault -> how it would look, if it were there
     "encoder-slip": (
-        "the velocity jumps by a share of its value within one sample and jumps back; "
-        "no mass can do that"
+        "the velocity jumps by a share of its value within one sample and later jumps back, "
+        "faster than any mass can"
     ),
     "brownout": "the velocity falls gradually, as with the motor off, and rises again "
     "gradually, while the voltage stays as it was",
@@ -56,7 +56,8 @@ PLOTS = {  # what it really is -> which plot tells, without its name
     "voltage? How does it fall, and how does it rise again?",
     "hard-stop": "Plot velocity, voltage and position of the last second of each test.",
     "loop-overrun": "Plot the time from each sample to the next.",
-    "stale-samples": "Plot the velocity close up with a dot for each sample: is each one new?",
+    "stale-samples": "Plot the velocity close up with a dot for each sample. Is each dot a new "
+    "reading, or does it repeat the one before?",
     "command-logged": "Plot voltage and velocity of the first half second of the dynamic tests:"
     " which shape should the rise have?",
     "unit-error": "Plot the position: is its slope the velocity? Compute it at one point.",
@@ -68,7 +69,8 @@ PLOTS = {  # what it really is -> which plot tells, without its name
     "voltage-dropout": "Plot the voltage close up, with a dot for each sample.",
     "stuck-sensor": "Plot velocity and position close up with a dot for each sample.",
     "wheel-slip": (
-        "Plot the first half second of the dynamic tests: does the velocity bend only once?"
+        "Plot the first half second of the dynamic tests. How many bends does the velocity curve "
+        "have?"
     ),
 }
 
@@ -83,8 +85,8 @@ APART = {  # (said, is) -> the question that tells the two apart
     ),
     ("encoder-slip", "brownout"): "Does the velocity drop at once, or along a curve?",
     ("brownout", "encoder-slip"): "Does the velocity drop along a curve, or at once?",
-    ("loop-overrun", "stale-samples"): "Count: are samples missing, or are there too many alike?",
-    ("stale-samples", "loop-overrun"): "Count: are readings repeated, or are there too few?",
+    ("loop-overrun", "stale-samples"): "Count: are samples missing, or are many samples equal?",
+    ("stale-samples", "loop-overrun"): "Count: are readings repeated, or are samples missing?",
     ("stuck-sensor", "stale-samples"): "Does it happen once, or all the time?",
     ("stale-samples", "stuck-sensor"): "Does it happen all the time, or once?",
     ("hard-stop", "stuck-sensor"): "At a stop the velocity is zero. Is it?",

@@ -98,7 +98,7 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
     if isinstance(raw, list):
         raw = " ".join(str(part) for part in raw)
     if not isinstance(raw, str):
-        raise WrongAnswer(f"{name}: {raw}, which is not two times", hint=ask)
+        raise WrongAnswer(f"{name}: {raw}, but two times are needed", hint=ask)
     if raw.strip().lower() in EVERYTHING:
         return None
     times = [float(part.replace(",", ".")) for part in NUMBER.findall(raw)]
@@ -108,7 +108,7 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
             hint=f"Three numbers with commas can be read as two times in two ways. {ask}",
         )
     if len(times) != 2 or not BETWEEN.fullmatch(NUMBER.sub(" ", raw.lower())):
-        raise WrongAnswer(f'{name}: "{raw[:40]}", which is not two times', hint=ask)
+        raise WrongAnswer(f'{name}: "{raw[:40]}", but two times are needed', hint=ask)
     if times[0] >= times[1]:
         raise WrongAnswer(f'{name}: "{raw[:40]}"', hint=f"That ends before it begins. {ask}")
     return times[0], times[1]

@@ -59,8 +59,8 @@ def _explain_foreign_package(one: Submission, found: ClassPackage, secret: bytes
         )
     if not found.is_for(one.student):
         return (
-            f"its package was issued to {found.student}, and {one.student} handed it in. Ask both; "
-            "then rename it to the student who did the work"
+            f"its package was issued to {found.student}, and {one.student} handed it in. Ask both. "
+            "Then give it the name of the student who did the work"
         )
     return ""
 
@@ -80,8 +80,8 @@ def _grade_as_started(one: Submission) -> Submission:
     return replace(
         one,
         problem=(
-            f"its course was started as {started_as}, and {one.student} handed it in. Ask both; "
-            "then rename it to the student who did the work"
+            f"its course was started as {started_as}, and {one.student} handed it in. Ask both. "
+            "Then give it the name of the student who did the work"
         ),
     )
 

@@ -117,16 +117,16 @@ def find_submissions(
         if twins and not (part.name.file and twins[0].name.file):
             raise BadRequest(
                 f"{_format_name(twins[0].path.name)} and {_format_name(part.path.name)} "
-                "belong to one student",
+                "seem to be of the same student",
                 where=str(folder),
-                advice="Keep one of the two, or put all of that student's into one folder.",
+                advice="Keep one of the two, or put all files of that student into one folder.",
             )
         twins.append(part)
     if not found:
         raise BadRequest(
             "nobody handed anything in",
             where=str(folder),
-            advice="Put a folder or zip file there for each student, named as the student.",
+            advice="Put a folder or zip file there for each student, with the student's name.",
         )
     each = [_identify(parts, exercises, asked, roster) for parts in found.values()]
     return tuple(sorted(each, key=lambda one: one.student.casefold()))
@@ -165,10 +165,10 @@ def _identify(
     if student is not None:
         return _read(parts, exercises, asked, student=student)
     likely = roster.propose(first.name)
-    perhaps = f"; perhaps {' or '.join(likely)}" if likely else ""
+    perhaps = f". Perhaps it is {' or '.join(likely)}" if likely else ""
     problem = (
-        f"{_format_name(first.path.name)} belongs to nobody on the roster{perhaps}. "
-        "Rename it as the student, or add the student to the roster."
+        f"{_format_name(first.path.name)} fits no name on the roster{perhaps}. "
+        "Give it the student's name, or add the student to the roster."
     )
     return Submission(_make_legible(first.name.student), first.path, problem=problem)
 

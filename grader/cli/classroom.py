@@ -152,7 +152,7 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
     nameless = [one.student for one in there if one.worked_as]
     if nameless:
         print_error(
-            "worked without a name, and are graded on those numbers: "
+            "these students worked without a name, so they are graded on the numbers for no name: "
             f"{_format_first_names(nameless)}"
         )
     matched = [

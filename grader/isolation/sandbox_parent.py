@@ -260,7 +260,7 @@ def make_child_environment(work: Path) -> dict[str, str]:
 def _explain_end(code: int) -> str:
     """Why a process ended, by its code; nothing if it ended as it should."""
     if code >= 0:
-        return "" if code == 0 else f"it ended itself, with code {code}"
+        return "" if code == 0 else f"your code ended the program, with exit code {code}"
     if -code == getattr(signal, "SIGXCPU", None):
         return "it took too much of the processor's time and was stopped"
     name = signal.Signals(-code).name
@@ -274,7 +274,7 @@ def _make_outcome(
     child: _Child,
     seconds: float,
 ) -> SandboxOutcome:
-    missing = received.crash or ended or "it ended itself before it had answered"
+    missing = received.crash or ended or "your code ended the program before it gave an answer"
     answers = tuple(
         received.answers.get(number, CallResult(reason=missing)) for number in range(len(calls))
     )

@@ -61,7 +61,7 @@ class Routine:
         if strange or not self.kinds or len(set(self.kinds)) < len(self.kinds):
             raise BadRequest(
                 f"tests of the kinds {', '.join(self.kinds) or '(none)'}",
-                advice=f"Choose from {', '.join(KINDS)}, each at most once.",
+                advice=f"Choose from these, each at most once: {', '.join(KINDS)}.",
             )
 
     @property

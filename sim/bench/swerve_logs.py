@@ -53,7 +53,7 @@ def record_modules(
     worn = dict(radii or {})
     if strange := sorted(worn.keys() - set(MODULES)):
         raise BadRequest(
-            f"there is no module {strange[0]!r}", advice=f"Choose from {', '.join(MODULES)}."
+            f"there is no module {strange[0]!r}", advice=f"Choose one of: {', '.join(MODULES)}."
         )
     exact = Sensor(1e-9, 0.0, WHEELS.noise_speed, WHEELS.jitter)
     log = simulate(replace(drive.translation, sensor=exact), routine, rng=rng)

@@ -61,7 +61,8 @@ class FollowedProfile:
         drift = self.position[end] - self.position[0]
         if abs(drift) <= SEEN * self._way():
             return ""
-        told = f"Told to stand still, it {'sinks' if drift < 0.0 else 'climbs'} {self._size(drift)}"
+        way = "sinks" if drift < 0.0 else "climbs"
+        told = f"When it should stand still, it {way} {self._size(drift)}"
         if self.position[end] in self.stops:
             return f"{told}, to its stop."
         return f"{told} in {self.target.time[end]:.1g} s."
@@ -70,7 +71,7 @@ class FollowedProfile:
         """How fast it is when it should be steady."""
         place = self.target.cruise_end
         wanted, found = self.target.velocity[place], self.velocity[place]
-        told = f"Asked for {wanted:.2g} {self.symbol}/s, it"
+        told = f"When it should move at {wanted:.2g} {self.symbol}/s, it"
         if self.position[place] in self.stops:
             return f"{told} is at its stop."
         if abs(found) <= STANDS * abs(wanted):

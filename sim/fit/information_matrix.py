@@ -62,7 +62,7 @@ class InformationMatrix:
         for name in (first, second):
             if name not in self.names:
                 raise BadRequest(
-                    f"no gain {name!r}", advice=f"Choose from: {', '.join(self.names)}."
+                    f"no gain {name!r}", advice=f"Choose one of: {', '.join(self.names)}."
                 )
         two = [self.names.index(first), self.names.index(second)]
         rest = [place for place in range(len(self.names)) if place not in two]

@@ -51,7 +51,7 @@ def parse_fault_request(text: str) -> FaultRequest:
     """
     parts = SPEC.fullmatch(text.strip())
     if parts is None:
-        raise _refuse_syntax(text, "it has no name")
+        raise _refuse_syntax(text, "the name of the fault is missing")
     name, test = parts["name"].strip(), parts["test"]
     if test is not None and not test.strip():
         raise _refuse_syntax(text, "no test is named after @")

@@ -116,7 +116,8 @@ def make_run(
     doubts = (
         Doubt(
             "repeated-time",
-            f"{where}, {test}: {dropped} of {time.size} samples repeat the time of the one before "
+            f"{where}, {test}: {dropped} of {time.size} samples have the same time as the "
+            "sample before "
             "and were left out. Look at how the log was recorded or exported.",
         ),
     )

@@ -89,7 +89,7 @@ class Model:
             )
         names = [part.effect for part in self.parts]
         if twice := [name for name in names if names.count(name) > 1]:
-            raise BadRequest(f"{twice[0]} twice", advice="Add an effect once.")
+            raise BadRequest(f"{twice[0]} is there twice", advice="Add each effect once.")
         if not are_compatible(map(find, names)):
             raise BadRequest(
                 f"{' and '.join(names)} in one model",

@@ -139,24 +139,24 @@ def _table(
 
 def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
     """What the picture shows; the numbers are those of the table."""
-    square, said = f"{per.symbol}/s²", "Acceleration over velocity, "
+    square, said = f"{per.symbol}/s²", "The picture shows acceleration over velocity"
     if gains is None:
-        said += "as recorded and filtered."
+        said += ", as recorded and filtered."
     else:
-        said += "less what voltage, friction and gravity account for. A black line through the "
-        said += (
-            f"origin, −kV/kA · v, has the slope {to_text(-gains['kV'] / gains['kA'])} per second."
-        )
+        said += ". What voltage, friction and gravity cause is subtracted. A black line through "
+        said += "the origin is −kV/kA · v. Its slope is "
+        said += f"{to_text(-gains['kV'] / gains['kA'])} per second."
     for test, samples, slowest, fastest, first, second in table.rows:
-        said += f" {test}: {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
+        said += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
         said += f"{per.symbol}/s"
         if gains is not None:
-            said += f" miss the line by {to_text(second)} {square}, their mean by {to_text(first)}."
+            said += (
+                f". They are {to_text(second)} {square} (RMS) away from the line, and their mean "
+            )
+            said += f"is {to_text(first)} {square} away."
         elif isinstance(second, str):
             said += ", too few for a line."
         else:
-            said += (
-                f" lie about a line from {to_text(first)} {square} at standstill with the slope "
-            )
+            said += f". Their line is at {to_text(first)} {square} for velocity 0. Its slope is "
             said += f"{to_text(second)} per second."
     return said

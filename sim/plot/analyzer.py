@@ -138,19 +138,21 @@ def _words(
     per: Unit,
 ) -> str:
     said = (
-        "Four panels of velocity over time: quasistatic tests left, dynamic tests right, forward "
+        "Four panels show velocity over time. The quasistatic tests are on the left, the dynamic "
+        "tests on the right, and each forward test is above its reverse test. Gray dots are the "
+        "recorded samples. A thick line connects the samples that the fit uses."
     )
-    said += "above reverse. Gray dots are what was recorded, a thick line is what the fit uses"
-    said += f", smoothed by a median over {median} samples." if median > 1 else "."
+    if median > 1:
+        said += f" A median over {median} samples makes that line smoother."
     if beside is not None:
         said += f" A thin dashed line is the {name}."
     for test in FOUR_TESTS:
         run, used = log.runs_of_test(test)[0], rows[test]
-        said += f" Of {test} {len(used)} of {len(run)} samples are used, from "
-        said += f"{used.time[0] - run.time[0]:.2f} to {used.time[-1] - run.time[0]:.2f} s of "
-        said += f"{run.time[-1] - run.time[0]:.2f} s"
+        said += f" The fit uses {len(used)} of the {len(run)} samples of {test}: those from "
+        said += f"{used.time[0] - run.time[0]:.2f} to {used.time[-1] - run.time[0]:.2f} s. The run "
+        said += f"lasts {run.time[-1] - run.time[0]:.2f} s"
         miss = _miss(run, beside)
-        said += (
-            "." if miss is None else f"; the {name} is off by {miss / per.si:.3f} {per.symbol}/s."
-        )
+        if miss is not None:
+            said += f", and the {name} is {miss / per.si:.3f} {per.symbol}/s (RMS) away from it"
+        said += "."
     return said

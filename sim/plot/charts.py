@@ -174,8 +174,8 @@ def plot_misses(
     total = f"{to_text(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
     _corner(axes, f"sum of squared errors: {total}")
     alt = (
-        f"{across.size} samples of {ylabel} over {xlabel}, and the line {to_text(intercept)} + "
-        f"{to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show the errors; the sum of "
+        f"{across.size} samples of {ylabel} over {xlabel}. The line is {to_text(intercept)} + "
+        f"{to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show its errors. The sum of "
         f"their squares is {total}."
     )
     rows = tuple(

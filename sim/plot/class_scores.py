@@ -77,9 +77,9 @@ def plot_score_heatmap(
     means = _means(table)
     worst = int(np.nanargmin(means)) if not np.isnan(means).all() else 0
     alt = (
-        "A row for each student, a column for each exercise, colored by the share of the points; "
-        f"white where nothing was graded. The lowest column is {exercises[worst]}, "
-        f"{100 * means[worst]:.0f} % on average."
+        "Each row is a student, and each column an exercise. The color shows the share of the "
+        f"points. It is white where nothing was graded. The exercise with the fewest points is "
+        f"{exercises[worst]}: {100 * means[worst]:.0f} % on average."
     )
     numbers = tuple(
         (name, "" if np.isnan(mean) else f"{100 * mean:.0f}")

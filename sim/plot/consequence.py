@@ -70,8 +70,8 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
     for one in shown:
         if any(len(values) != len(one.time) for values in (one.wanted, *one.actual.values())):
             raise BadRequest(
-                f"a curve of {one.title} has not one value for each time",
-                advice="Give as many of both.",
+                f"a curve of {one.title} does not have one value for each time",
+                advice="Give as many values as times.",
             )
     if not shown:
         raise BadRequest("there is no motion to draw", advice="Give at least one panel.")
@@ -85,7 +85,7 @@ def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
         axes.set_visible(False)
     add_legend(figure, flat[: len(shown)])
     drawn = ", ".join(f"{one.title}'s {one.ylabel.partition(' [')[0]}" for one in shown)
-    alt = f"Curves over time, wanted and what comes of the answer: {drawn}. {words}"
+    alt = f"Curves over time show what was wanted, and what your answer causes: {drawn}. {words}"
     return Picture(figure, alt)
 
 

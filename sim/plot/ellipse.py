@@ -60,7 +60,8 @@ def plot_ellipses(
         _draw(axes, information, index, truth=truth, reach=reach, name=name)
     _finish(axes, names=names, truth=truth, reach=reach)
     axes.legend(fontsize=8)
-    alt = f"How well {names[0]} and {names[1]} are known together: 95 of 100 fits fall inside. "
+    alt = f"Each shape shows how well {names[0]} and {names[1]} are known together: 95 of 100 fits "
+    alt += "fall inside. "
     alt += " ".join(f"“{name}”: {_words(info, names)}" for name, info in told.items())
     return Picture(figure, alt, _table(told, names))
 
@@ -104,13 +105,13 @@ def plot_information_map(
     _finish(right, names=names, truth=truth, reach=reach)
     right.set_title("how well two gains are known", fontsize=10, color=INK)
     add_legend(figure, [left, right])
-    alt = "Two panels. Left, acceleration over velocity: "
+    alt = "The left panel shows acceleration over velocity. "
     alt += " ".join(
-        f"{test}, {len(part)} rows, {_span(part.velocity)} {symbol}/s and "
-        f"{_span(part.acceleration)} {symbol}/s²;"
+        f"{test} has {len(part)} rows, with {_span(part.velocity)} {symbol}/s and "
+        f"{_span(part.acceleration)} {symbol}/s²."
         for test, part in rows.items()
     )
-    alt += f" right, {names[0]} against {names[1]}: {_words(information, names)}"
+    alt += f" The right panel shows {names[1]} over {names[0]}: {_words(information, names)}"
     return Picture(figure, alt, _table({"these tests": information}, names))
 
 
@@ -181,11 +182,12 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     if math.isinf(half[0]):
         along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
         return (
-            f"a straight band without end; {names[1]} changes by {to_text(float(along[1]))} where "
-            f"{names[0]} changes by 1, and the truth can be anywhere in the band."
+            f"a straight band without end. Along it, {names[1]} changes by "
+            f"{to_text(float(along[1]))} where {names[0]} changes by 1. The true gains can be "
+            "anywhere in the band."
         )
     first, second = _errors(information)
-    return f"an ellipse; one standard error is {to_text(first)} and {to_text(second)}."
+    return f"an ellipse. One standard error is {to_text(first)} and {to_text(second)}."
 
 
 def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:

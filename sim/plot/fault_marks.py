@@ -124,8 +124,9 @@ def describe_faults(log: Log, damage: Sequence[FaultMark], *, drawn: Iterable[in
         parts = [mark for mark in damage if mark.fault == fault]
         told = [_place(log, mark.where, there) for mark in parts[:NAMED]]
         if len(parts) > NAMED:
-            told.append(f"and {len(parts) - NAMED} stretches more")
-        said += f" Hatched and marked {parts[0].letter}: {fault}, {'; '.join(told)}."
+            told.append(f"The fault is in {len(parts) - NAMED} more parts.")
+        said += f" The letter {parts[0].letter} and hatching mark the fault {fault}. "
+        said += " ".join(told)
     return said
 
 
@@ -214,10 +215,15 @@ def _apart(where: LogInterval) -> str:
 def _place(log: Log, where: LogInterval, drawn: set[int]) -> str:
     """A damaged part in words, in the time of its run, which the picture shows."""
     if where.run is None:
-        return f"{where.test}, which is not in the log" if where.test else "the whole log"
+        return (
+            f"The test {where.test} is not in the log."
+            if where.test
+            else "The whole log is damaged."
+        )
     run = log.runs[where.run]
     start, end = where.start - run.time[0], where.end - run.time[0]
     whole = where.start <= run.time[0] and where.end >= run.time[-1]
-    said = "all of " if whole else ""
-    said += f"{run.test}{'' if where.run in drawn else f', run {where.run}, which is not drawn'}"
-    return said if whole else f"{said}, {max(start, 0.0):.2f} to {end:.2f} s after it began"
+    name = run.test if where.run in drawn else f"Run {where.run}, {run.test},"
+    said = f"{name} is damaged from "
+    said += "its start to its end." if whole else f"{max(start, 0.0):.2f} to {end:.2f} s."
+    return said if where.run in drawn else f"{said} The picture does not show this run."

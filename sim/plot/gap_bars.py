@@ -59,7 +59,7 @@ def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
     )
     return Picture(
         figure,
-        f"Bars show how far each model is from each log, in times the noise: {told}. A dashed line "
-        "marks the noise, 1.",
+        f"Bars show how many times the noise each model is away from each log: {told}. A dashed "
+        "line at 1 marks the noise.",
         Table(("model", *logs), tuple(rows), caption="gap [times the noise]"),
     )

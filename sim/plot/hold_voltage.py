@@ -38,7 +38,7 @@ def plot_hold_window(
         BadRequest: not one speed for each voltage, or the window's edges changed places.
     """
     if len(volts) != len(speeds) or not len(volts):
-        raise BadRequest("every voltage needs one speed", advice="Give as many of both.")
+        raise BadRequest("every voltage needs one speed", advice="Give as many speeds as voltages.")
     low, high = window
     if low > high:
         raise BadRequest(f"a window from {low:g} to {high:g} V", advice="Give the lower one first.")
@@ -56,8 +56,8 @@ def plot_hold_window(
     axes.set_ylabel(f"speed, up is positive [{symbol}/s]", color=INK)
     axes.legend(fontsize=8)
     alt = (
-        f"Speed over voltage. It sinks below {to_text(low)} V, stays between {to_text(low)} and "
-        f"{to_text(high)} V, which is shaded, and rises above."
+        f"The picture shows speed over voltage. Below {to_text(low)} V the mechanism sinks. Above "
+        f"{to_text(high)} V it rises. Between them it stays: this part is shaded."
         + "".join(f" A mark, “{name}”, is at {to_text(value)} V." for name, value in marks.items())
     )
     if here is not None:
@@ -101,7 +101,7 @@ def _askew(offset: float) -> _Words:
         "reading [deg]",
         "what the encoder reads [deg]",
         "kG·cos(reading + offset)",
-        f"level, if the offset is {to_text(offset)}°",
+        f"the arm is level, if the offset is {to_text(offset)}°",
     )
 
 
@@ -151,10 +151,11 @@ def plot_hold_angles(
     axes.set_ylabel("voltage [V]", color=INK)
     add_legend(figure, (axes,))
     alt = (
-        "The voltages that hold an arm, over its angle: a band of constant width, "
-        f"{to_text(2 * ks)} V, about a cosine of {to_text(kg)} V that is largest at "
-        f"{to_text(level)} degrees: {words.level}. {len(holds)} measured angles have two "
-        "marks each, the lowest and the highest voltage that hold it there."
+        "A band shows which voltages hold an arm at each angle. The band is "
+        f"{to_text(2 * ks)} V wide everywhere. Its middle is a cosine of {to_text(kg)} V, which is "
+        f"largest at {to_text(level)} degrees: there {words.level}. Each of the {len(holds)} "
+        "measured angles has two marks. They are the lowest and the highest voltage that hold the "
+        "arm there."
     )
     if here is not None:
         alt += f" A star marks {to_text(at)} V at {to_text(here)} degrees."

@@ -168,8 +168,11 @@ def _two(value: Cell) -> str:
 
 
 def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
-    said = "Four panels over time: voltage above velocity, quasistatic tests left, dynamic tests "
-    said += "right, forward as circles on a solid line, reverse as squares on a dashed line."
+    said = "Four panels show the log over time. The upper two show voltage, the lower two "
+    said += "velocity. The quasistatic tests are on the left, the dynamic tests on the right. A "
+    said += (
+        "solid line with circles is a forward test. A dashed line with squares is a reverse test."
+    )
     for test, _, lasts, first, last, fastest in table.rows:
         goes = (
             f"stays at {_two(first)} V for"

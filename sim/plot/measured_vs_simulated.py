@@ -67,13 +67,13 @@ def describe_run(one: RunReplay, *, per: Unit) -> str:
     velocity, position = _misses(one)
     run, symbol = one.run, per.symbol
     return (
-        f"{run.test}: measured and simulated velocity and position over {_lasts(one):.2f} s, and "
-        "beneath them their difference with the band of noise. The voltage goes from "
-        f"{run.voltage[0]:.2f} to {run.voltage[-1]:.2f} V; the velocity reaches "
-        f"{to_text(_farthest(run.velocity) / per.si)} {symbol}/s. While it moves, the simulation "
-        f"misses the velocity by {to_text(velocity / per.si)} {symbol}/s RMS, "
-        f"{to_text(velocity / max(one.velocity_noise, 1e-12))} times its noise, and the "
-        f"position by {to_text(position / per.si)} {symbol} RMS."
+        f"{run.test}: measured and simulated velocity and position over {_lasts(one):.2f} s. Below "
+        "each is the difference of the two, with the band of noise. The voltage goes from "
+        f"{run.voltage[0]:.2f} to {run.voltage[-1]:.2f} V. The velocity reaches "
+        f"{to_text(_farthest(run.velocity) / per.si)} {symbol}/s. While it moves, the simulated "
+        f"velocity is off by {to_text(velocity / per.si)} {symbol}/s (RMS), which is "
+        f"{to_text(velocity / max(one.velocity_noise, 1e-12))} times its noise. The simulated "
+        f"position is off by {to_text(position / per.si)} {symbol} (RMS)."
     )
 
 

@@ -148,15 +148,17 @@ def _words(
     off: Mapping[str, Mapping[str, float]] | None,
 ) -> str:
     passing = [name for name, value in scores.items() if value > good]
-    said = f"A badge for each of {len(scores)} logs: {len(passing)} have a {score} above {good:g}"
+    said = (
+        f"Each of the {len(scores)} logs has a badge. {len(passing)} have a {score} above {good:g}"
+    )
     failing = [name for name in scores if name not in passing]
-    said += f", not so {', '.join(failing)}." if failing else "."
+    said += f". These do not: {', '.join(failing)}." if failing else "."
     if off is None:
-        return f"{said} By how much their gains are off is hidden."
-    said += " Beside them, by how much the gains are off."
+        return f"{said} The errors of their gains are hidden."
+    said += " Next to the badges are the errors of the gains."
     for gain, found in off.items():
         sizes = np.abs([found[name] for name in scores])
         worst = max(found, key=lambda name: abs(found[name]))
-        said += f" {gain}: half of them by more than {PERCENT * float(np.median(sizes)):.0f} %, "
-        said += f"{worst} by {format_percent(found[worst])}."
+        said += f" {gain} is off by more than {PERCENT * float(np.median(sizes)):.0f} % in half of "
+        said += f"the logs. The largest error is {format_percent(found[worst])}, in {worst}."
     return said

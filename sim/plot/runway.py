@@ -153,7 +153,7 @@ def _table(drive: FloorTest) -> Table:
 
 def _words(drive: FloorTest, now: int) -> str:
     tape, passed = drive.floor.tape, _passed(drive)
-    said = f"A floor from above with a wall at {drive.floor.wall:.1f} m. "
+    said = f"You see a floor from above. A wall stands at {drive.floor.wall:.1f} m. "
     said += "There is no tape. " if tape is None else f"A strip of tape lies at {tape:.1f} m. "
     if passed is not None:
         said += f"The robot passes it after {passed:.2f} s. "
@@ -163,7 +163,9 @@ def _words(drive: FloorTest, now: int) -> str:
     else:
         room = drive.floor.wall - drive.final_position
         said += f"It stops at {drive.final_position:.2f} m, {room:.2f} m before the wall. "
-    said += f"It is drawn at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the start. "
-    said += "Below, over time: the speed, at most "
-    said += f"{drive.velocity.max():.2f} m/s, and the battery, at least {drive.battery.min():.1f} V"
-    return said + (", which is a brownout." if drive.browned_out else ", which holds.")
+    said += (
+        f"The picture shows it at {drive.time[now]:.2f} s, {drive.position[now]:.2f} m from the "
+    )
+    said += "start. Below are two curves over time. The speed is at most "
+    said += f"{drive.velocity.max():.2f} m/s. The battery has at least {drive.battery.min():.1f} V"
+    return said + (", which is a brownout." if drive.browned_out else ", which is enough.")

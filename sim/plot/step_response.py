@@ -89,8 +89,8 @@ def _worth(trial: FeedbackTrial) -> float:
 def describe_trials(tried: Sequence[FeedbackTrial], *, per: Unit) -> str:
     """A sentence about each step response in the picture."""
     return " ".join(
-        f"{trial.owner.capitalize()} gains of the {trial.loop} loop, "
-        f"{format_gain_pair(trial.gains)}: when the target jumps by "
+        f"{trial.owner.capitalize()} gains of the {trial.loop} loop are "
+        f"{format_gain_pair(trial.gains)}. When the target jumps by "
         f"{to_text(trial.response.target)} {_unit(trial.loop, per)}, "
         f"the loop {trial.verdict.description}."
         for trial in tried

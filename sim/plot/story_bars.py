@@ -126,8 +126,8 @@ def plot_gap_by_round(story: Story) -> Picture:
     told = ", ".join(f"{name} {times}" for name, _, times in rows)
     return Picture(
         figure,
-        f"Bars show how far the simulation is off, in times the noise: {told}. A dashed line "
-        "marks the noise, 1.",
+        f"Bars show how many times the noise the simulation is off: {told}. A dashed line at 1 "
+        "marks the noise.",
         Table(("model", f"gap [{symbol}/s]", "times the noise"), rows),
     )
 

@@ -182,14 +182,15 @@ def _signed(value: float) -> str:
 
 def _words(found: Sequence[GapMap], titles: Sequence[str]) -> str:
     first = (
-        "Maps of where the robot is slower or faster than the simulation: run by run, by speed, by "
-        "position, after the voltage jumps, and where the model stands still."
+        "The maps show where the robot is slower or faster than the simulation. There is one for "
+        "each run, and one each by speed, by position, by the time since the voltage jumped, and "
+        "for where the model stands still."
     )
     said = [first]
     for one, title in zip(found, titles, strict=True):
         places = one.find_places(TOLD, signal="velocity")
         if places:
-            said.append(f"{title}: " + "; ".join(place.sentence for place in places) + ".")
+            said.append(f"{title}: " + ". ".join(place.sentence for place in places) + ".")
         else:
             said.append(f"{title}: nowhere clearly more than the noise.")
     again = [f"{pair.test}, repeated: what is left {pair.verdict}" for pair in found[0].repeats]

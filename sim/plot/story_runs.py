@@ -143,8 +143,8 @@ def _draw(
 
 def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise: float) -> str:
     first = (
-        f"{len(runs)} runs, measured and simulated ({' and '.join(said)}): velocity to the left, "
-        "what is left of it to the right, with the band of noise."
+        f"The picture shows {len(runs)} runs, measured and simulated ({' and '.join(said)}). The "
+        "velocity is on the left. Its residual is on the right, with the band of noise."
     )
     told = []
     for one in runs:

@@ -165,32 +165,36 @@ def _dress(axes: Axes, test: str, these: Sequence[_Steps]) -> None:
 def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
     total = sum(one.length.size for one in all_steps)
     gaps = sum(int(one.gaps.sum()) for one in all_steps)
-    said = "One panel for each test shows the time from one sample to the next over the time since "
-    said += f"the test began. The median step is {to_text(median)} ms, a solid line. "
+    said = "One panel for each test shows the time from each sample to the next. A "
+    said += (
+        f"solid line marks the median of these times, {to_text(median)} ms. A dotted line marks "
+    )
+    said += f"{GAP:g} times the median. "
     if not gaps:
         longest = max(float(one.length.max()) for one in all_steps)
         return said + (
-            f"None of the {total} steps is longer than {GAP:g} times that, a dotted line; the "
-            f"longest is {to_text(longest)} ms."
+            f"None of the {total} times is above the dotted line. The longest is "
+            f"{to_text(longest)} ms."
         )
     said += (
-        f"Of {total} steps {gaps}, {_share(gaps, total)}, {'is' if gaps == 1 else 'are'} longer "
+        f"{gaps} of the {total} times {'is' if gaps == 1 else 'are'} above it "
+        f"({_share(gaps, total)}): diamonds mark these gaps."
     )
-    said += f"than {GAP:g} times that, a dotted line: gaps, drawn as diamonds on a stem."
     for one in all_steps:
         where = np.flatnonzero(one.gaps)
         if not where.size:
             continue
         worst = np.sort(where[np.argsort(one.length[where])[::-1][:TOLD]])
         told = ", ".join(f"{to_text(one.length[i])} ms at {one.after[i]:.2f} s" for i in worst)
-        only = "" if where.size <= TOLD else f", the {TOLD} longest"
-        said += f" {one.run.test} has {where.size}{only}: {told}."
+        only = "" if where.size <= TOLD else f" The {TOLD} longest:"
+        gap = "gap" if where.size == 1 else "gaps"
+        said += f" {one.run.test} has {where.size} {gap}{only and '.'}{only or ':'} {told}."
     beyond = sum(int((one.length > top).sum()) for one in all_steps)
     if beyond:
-        said += (
-            f" {beyond} of them {'is' if beyond == 1 else 'are'} longer than the panels are high: "
+        verb, mark = (
+            ("is", "a triangle marks it") if beyond == 1 else ("are", "triangles mark them")
         )
-        said += "triangles at the upper edge."
+        said += f" {beyond} of them {verb} too long for the panel: {mark} at the upper edge."
     return said
 
 

@@ -93,7 +93,8 @@ def plot_tracking_error(
     found = {name: measure_tracking_error(target, velocity) for name, velocity in followers.items()}
     alt = (
         f"A target {quantity} over time, between {to_text(float(np.min(target)))} and "
-        f"{to_text(float(np.max(target)))} {unit}, and what followed it; below, the errors. "
+        f"{to_text(float(np.max(target)))} {unit}, and curves that follow it. "
+        "Below are their errors. "
         + " ".join(
             f"“{name}” is off by {to_text(one.typical)} {unit} typically and by "
             f"{to_text(one.largest)} {unit} at most."

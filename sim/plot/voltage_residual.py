@@ -168,9 +168,9 @@ def plot_voltage_residual(
     typical = float(np.sqrt(np.mean(lacking**2)))
     told = ", ".join(f"{name} {_percent(view.explains)}" for name, view in found.items())
     alt = (
-        f"{NUMBERS[len(found)]} views of the voltage residual, {to_text(typical)} V typically: "
-        "each sample as a pale dot, and the mean of each group of nearby samples with its error. "
-        f"Of the squared residual, the means explain: {told}."
+        f"{NUMBERS[len(found)]} views of the voltage residual, which is {to_text(typical)} V "
+        "typically. Each sample is a pale dot. A line connects the means of nearby samples, with "
+        f"their errors. The means explain this share of the squared residual: {told}."
     )
     return Picture(figure, alt, Table(("plotted over", "explains", "means [V]"), tuple(
         (name, _percent(view.explains), _listed(view)) for name, view in found.items()

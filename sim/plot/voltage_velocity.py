@@ -193,21 +193,28 @@ def _way(way: str) -> str:
 
 
 def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> str:
-    said = "Two panels of voltage over velocity: the whole ramp, and the part near standstill."
+    said = "Two panels show voltage over velocity. The first shows the whole voltage ramp, and the "
+    said += "second only the slow part."
     for one in ramps:
         index = int(np.argmax(np.abs(one.velocity)))
         moving = _moving(one, top=top)
         tests = f"{one.way} test" if one.runs == 1 else f"{one.runs} {one.way} tests"
         said += f" The {one.velocity.size} samples of the {tests} reach "
         said += f"{_two(one.velocity[index])} {per.symbol}/s at {_two(one.voltage[index])} V"
-        said += f"; they move {_way(one.way)}, faster than {MOVING * top:.2f} {per.symbol}/s, "
-        said += f"from {_two(one.voltage[moving][0])} V on" if moving.any() else "nowhere"
+        fast = f"{_way(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
+        said += (
+            f". The mechanism moves {fast} from {_two(one.voltage[moving][0])} V on"
+            if moving.any()
+            else f". The mechanism never moves {fast}"
+        )
         stray = _stray(one, top=top)
         if stray is not None:
-            said += f"; in motion they stray {stray:.3f} V from a straight line"
+            said += (
+                f". While it moves, the samples are {stray:.3f} V (RMS) away from a straight line"
+            )
         said += "."
     for name, line in lines.items():
-        said += f" The line “{name}” meets standstill at {line.intercept:.3f} V and rises by "
+        said += f" The line “{name}” is at {line.intercept:.3f} V for velocity 0, and rises by "
         said += f"{line.slope:.3f} V per {per.symbol}/s."
     return said
 

@@ -182,13 +182,13 @@ def refuse_impossible_gains(found: Fit) -> None:
     for doubt in found.doubts:
         if doubt.grave:
             raise BadRequest(
-                f"no code for gains that cannot be right: {doubt.message}",
+                f"no code is printed, because the gains cannot be right: {doubt.message}",
                 advice="Fix this first, then fit again.",
             )
     for gain, value in found.gains.items():
         if not math.isfinite(value) or (gain in {"kV", "kA"} and value < 0.0):
             raise BadRequest(
-                f"no code for {gain} = {value:.4g}",
+                f"no code is printed for {gain} = {value:.4g}",
                 advice="Record the four tests again: WPILib refuses such a gain on the robot.",
             )
 
@@ -203,7 +203,7 @@ def class_name(name: str) -> str:
     joined = "".join(word[0].upper() + word[1:] for word in words) + "Gains"
     if not words or not joined.isidentifier():
         raise BadRequest(
-            f"no class can be called after {name!r}", advice="Begin the name with a letter."
+            f"{name!r} cannot be the name of a class", advice="Begin the name with a letter."
         )
     return joined
 

@@ -243,6 +243,7 @@ ks = kv = ka = Right(0)
         FUNCTION,
         replace_text(("    return {", f"{THE_END}    return {{")),
         "function",
-        "4 of 5 logs right; drivetrain, every 0.01 s: it ended itself before it had answered",
+        "4 of 5 logs right; drivetrain, every 0.01 s: your code ended the program before it gave "
+        "an answer",
     ),
 )

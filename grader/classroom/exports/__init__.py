@@ -57,7 +57,7 @@ def choose_exports(wanted: Sequence[str], *, roster: Roster | None) -> tuple[Exp
     unknown = [one for one in wanted if one not in formats]
     if unknown:
         raise BadRequest(
-            f"there is no format {unknown[0]!r}", advice=f"Choose of: {', '.join(formats)}."
+            f"there is no format {unknown[0]!r}", advice=f"Choose one of: {', '.join(formats)}."
         )
     found = tuple(formats[one] for one in dict.fromkeys(("gradebook", *wanted)))
     header = {name.strip().casefold() for name in roster.header} if roster else set()

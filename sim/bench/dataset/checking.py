@@ -27,7 +27,7 @@ def verify_dataset(
     entries = read_key(key, secret=secret)
     if not entries:
         raise BadRequest(
-            "there is no key",
+            "there is no file with the key",
             where=str(key),
             advice="Make the dataset to its end, or name its key with --key.",
         )

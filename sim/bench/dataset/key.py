@@ -60,7 +60,8 @@ def read_key(path: Path, *, secret: Secret) -> tuple[Entry, ...]:
         whole, entries = False, ()
     if not whole:
         raise BadRequest(
-            "the seal of the key is broken: it was changed, or made with another secret or seed",
+            "the seal does not fit this key. Somebody changed the key, or it was made with another "
+            "secret or seed",
             where=str(path),
             advice="Put both back as they were, or name another folder with -o.",
         )

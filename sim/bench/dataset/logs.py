@@ -144,7 +144,7 @@ def read_logs(table: TomlTable, *, default: LogSettings) -> LogTable:
     for name in named:
         if named.count(name) > 1:
             table.refuse(
-                f"effect {name!r} might be hidden twice in one log",
+                f"one log might get the effect {name!r} twice",
                 advice="Name each effect in one [[logs.effects]] only.",
             )
     return found
@@ -203,7 +203,7 @@ def _mistakes(
     possible = tuple(test for test in tests if test.rpartition("-")[0] in fault.kinds)
     for test in asked.tests:
         if test not in tests:
-            yield f"test {test!r} is not run", suggest_word(test, tests)
+            yield f"the routine does not run a test {test!r}", suggest_word(test, tests)
         elif test not in possible:
             yield (
                 f"{fault.name} cannot strike in {test}",
@@ -212,4 +212,4 @@ def _mistakes(
     if not possible:
         yield f"{fault.name} strikes in none of the tests", f"Run one of: {', '.join(fault.kinds)}."
     if fault.whole and asked.at is not None:
-        yield f"{fault.name} spoils a whole test, so at means nothing", "Leave out at."
+        yield f"{fault.name} damages a whole test, so the key at has no use here", "Leave out at."

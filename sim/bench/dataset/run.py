@@ -42,7 +42,8 @@ class DatasetPlace:
         for name, path in (("key", self.key), ("spec", spec), ("secret", secret)):
             if path is not None and path.resolve().is_relative_to(folder):
                 raise BadRequest(
-                    f"the {name} lies in the folder of the data, and would be given away with it",
+                    f"the {name} lies in the folder of the data, so whoever gets the data "
+                    "would get it too",
                     where=str(path),
                     advice="Name another folder with -o"
                     + (", or another place with --key." if name == "key" else "."),
@@ -76,16 +77,18 @@ def check_folder(
     found = survey_folder(place.folder, jobs, known=known)
     if found.foreign and not overwrite:
         raise BadRequest(
-            f"{name_files(found.foreign)}: there already, and not of this spec and secret",
+            f"these files are in the folder, but do not belong to this spec and secret: "
+            f"{name_files(found.foreign)}",
             where=str(place.folder),
-            advice="Name another folder with -o, or replace what is there with --overwrite.",
+            advice="Name another folder with -o, or replace these files with --overwrite.",
         )
     if found.stale and not overwrite:
         files = [file for entry in found.stale for file in entry["files"]]
         raise BadRequest(
-            f"{name_files(files)}: of this dataset once, and no longer in the spec",
+            f"these files belonged to this dataset, but the spec no longer contains them: "
+            f"{name_files(files)}",
             where=str(place.folder),
-            advice="Move them away, name another folder with -o, or let the key forget them with "
+            advice="Move them away, name another folder with -o, or remove them from the key with "
             "--overwrite.",
         )
     return found

@@ -118,7 +118,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
     kept = read_secret(spec.secret) if spec.secret else b""
     if set_ and kept and set_ != kept:
         raise BadRequest(
-            f"the file of the secret and {VARIABLE} differ",
+            f"this file and the environment variable {VARIABLE} hold different secrets",
             where=str(spec.secret),
             advice=f"Unset {VARIABLE}, or remove the file.",
         )
@@ -140,7 +140,7 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
         )
     if not make:
         raise BadRequest(
-            "there is no such file with a secret",
+            "the file with the secret is missing",
             where=str(spec.secret),
             advice=f"Put back the file this dataset was made with, or set {VARIABLE}.",
         )
@@ -165,7 +165,7 @@ def read_secret(path: Path) -> bytes:
         ) from None
     if not kept:
         raise BadRequest(
-            "the file of the secret is empty",
+            "this file should hold a secret, but it is empty",
             where=str(path),
             advice="Remove it, to get a new one.",
         )

@@ -101,7 +101,7 @@ def _secret(top: TomlTable, *, folder: Path) -> Path | None:
     if "secret" not in top:
         return None
     if "seed" in top:
-        top.refuse("both seed and secret are there", advice="Leave one of them out.")
+        top.refuse("the spec has both a seed and a secret", advice="Leave one of them out.")
     name = top.read_text("secret", example=f"class{ENDING}")
     if not name.endswith(ENDING) or len(name) == len(ENDING):
         top.refuse(

@@ -49,7 +49,10 @@ class TomlTable:
     def __init__(self, content: object, *, where: str, known: Sequence[str]) -> None:
         self.where = where
         if not isinstance(content, dict):
-            self.refuse(f"{_shown(content)} is in the place of keys and values", advice="Use = .")
+            self.refuse(
+                f"there are no keys here, only {_shown(content)}",
+                advice="Write lines with a key, = and a value.",
+            )
         self.content: Mapping[str, object] = content
         for key in content:
             if key not in known:

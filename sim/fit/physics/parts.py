@@ -66,11 +66,11 @@ def check_radius_unit(parts: Parts, found: Fit) -> None:
     angular = find_unit(found.units).angular
     if angular and parts.radius != 1.0:
         raise BadRequest(
-            f"a radius of {parts.radius:g} m for a position that is an angle",
+            f"there is a radius of {parts.radius:g} m, but the position is an angle",
             advice="Leave the radius out, and give the inertia for the load.",
         )
     if not angular and parts.radius == 1.0:
         raise BadRequest(
-            "no radius for a position that is a length",
+            "the position is a length, but the radius is missing",
             advice="Give the radius of the wheel or the drum, in meters.",
         )

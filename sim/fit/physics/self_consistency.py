@@ -28,7 +28,7 @@ def friction_doubts(found: Fit) -> list[Doubt]:
             Doubt(
                 "friction-stop",
                 f"{share} is more than the motor needs for {CRUISE:.0%} of its free speed{at}: "
-                "stop and look for a brake, a jam, a wrong test name, or gravity that type "
+                "look for a brake, a jam, a wrong test name, or gravity that type "
                 f"{found.type} leaves out.",
                 grave=True,
             )

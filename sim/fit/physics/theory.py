@@ -63,8 +63,8 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
         return [
             Doubt(
                 "kv-below-theory",
-                f"{said}, and no motor turns faster than its free speed. Check for {why}. The "
-                "number of motors does not matter.",
+                f"{said}. That is impossible: no motor turns faster than its free speed. Check "
+                f"for {why}. The number of motors does not matter.",
                 grave=True,
             )
         ]
@@ -104,7 +104,10 @@ def _describe_difference(found: Fit, gain: str, theory: float) -> str:
 def _explain_ratio(share: float, parts: Parts) -> list[str]:
     """The mistakes that would make such a quotient, the likeliest first."""
     geared = (
-        (1.0 / parts.ratio, f"a ratio of {parts.ratio:g} forgotten in the log (the motor's turns)"),
+        (
+            1.0 / parts.ratio,
+            f"a ratio of {parts.ratio:g} that the log leaves out (it counts the motor's turns)",
+        ),
         (parts.ratio, f"a ratio of {parts.ratio:g} applied twice in the log"),
         (parts.ratio**-2, f"a ratio of {parts.ratio:g} that is upside down"),
     )

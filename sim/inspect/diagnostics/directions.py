@@ -42,8 +42,8 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
                 "friction-differs",
                 f"It needs {forward.ks:.2f} V to start moving forward but {reverse.ks:.2f} V in "
                 "reverse. Friction differs between the directions, or the type of mechanism "
-                "leaves out a weight. One kS cannot describe both, and the error ends up in kA:"
-                " look for a part that rubs, or choose another --type.",
+                "leaves out a weight. One kS cannot describe both, and the error ends up in kA."
+                " Look for a part that rubs, or choose another --type.",
             )
         )
     apart = abs(forward.kv - reverse.kv)

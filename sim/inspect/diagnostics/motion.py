@@ -39,8 +39,8 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "fine-r2",
             f"SysId would show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, "
-            "which counts as good, but a simulation with its gains has a velocity error of "
-            f"{worst:.0%} of the top speed in {said}. Plot these seconds before you trust kA.",
+            f"which counts as good. But in {said} a simulation with SysId's gains is wrong by "
+            f"{worst:.0%} of the top speed. Plot these seconds before you trust kA.",
         )
     ]
 
@@ -149,7 +149,7 @@ def _nothing_moves(runs: list[Run]) -> Doubt:
         "no-motion",
         f"Nothing moves in this log: in all {len(runs)} runs, the longest of {lasts:.1f} s, "
         f"position and velocity stay the same with up to {volts:.2g} V. Either the mechanism "
-        "stood still, or the log does not contain its sensor: turn it by hand, and check "
+        "stood still, or the log does not contain its sensor. Turn it by hand, and check "
         "whether the position changes.",
         grave=True,
     )
@@ -174,10 +174,10 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "fast-ramp",
-            f"The ramp rises by {rate:.2g} V/s on a mechanism with a timescale of "
-            f"{features.baseline.timescale:.2g} s. SysId allows for that, but a line drawn through "
-            f"voltage over velocity gives a kS that is {shift:.2f} V too large: to draw one, "
-            f"halve the ramp to {0.5 * rate:.2g} V/s.",
+            f"The voltage ramp rises by {rate:.2g} V/s, which is fast for a mechanism with a time "
+            f"constant of {features.baseline.timescale:.2g} s. SysId allows for that, but a line "
+            f"drawn through voltage over velocity gives a kS that is {shift:.2f} V too large. If "
+            f"you want to draw one, use half the ramp rate: {0.5 * rate:.2g} V/s.",
         )
     ]
 

@@ -41,7 +41,7 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
             "velocity-lags",
             f"The velocity is about {round(lag / TELLS) * TELLS * 1000.0:.0f} ms later than the "
             f"position: most likely the motor controller averages it{likely}. kA and the "
-            "feedback gains will be wrong unless you know this delay: shorten the filter, or "
+            "feedback gains will be wrong unless you know this delay. Shorten the filter, or "
             "enter the delay in SysId.",
         )
     ]
@@ -56,7 +56,7 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "scales-differ",
             f"The velocity is {usual:.3f} times the slope of the position in all runs: one of "
-            "the two has a wrong conversion factor. kV and kA depend on the velocity; move the "
+            "the two has a wrong conversion factor. kV and kA depend on the velocity. Move the "
             "mechanism by a known distance, and check whether the position agrees.",
         )
     ]
@@ -98,8 +98,8 @@ def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "standstill-counted",
-            f"Of the {counted} samples that SysId takes for quasistatic motion, {passed} are at "
-            f"standstill: their noise is above its threshold of {threshold:.2g}. Set the "
+            f"SysId thinks the mechanism moves in {counted} quasistatic samples. In {passed} of "
+            f"them it stands still: their noise is above its threshold of {threshold:.2g}. Set the "
             "threshold by hand, above the noise.",
         )
     ]

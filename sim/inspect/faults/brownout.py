@@ -159,7 +159,7 @@ def _advice(run: Run) -> str:
     what = "step" if run.kind == "dynamic" else "end of the ramp"
     most = float(np.abs(run.voltage).max(initial=0.0))
     return (
-        "Charge or change the battery, set supply current limits, and run this test again; if "
+        "Charge or change the battery, set supply current limits, and run this test again. If "
         f"it happens again, choose a smaller {what} than {most:.1f} V."
     )
 

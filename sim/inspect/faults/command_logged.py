@@ -285,10 +285,10 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
         confidence=1.0 - left,
         evidence=f"The log shows exactly {np.median(run.voltage):.3g} V, but at first the "
         f"mechanism accelerates with only {1.0 - shape.lacks:.0%} of what this voltage "
-        "causes later: a current limit reduced the voltage, and the log contains the "
+        "causes later. A current limit reduced the voltage, and the log contains the "
         "commanded one.",
         advice="Log the applied voltage, which the motor controller measures, or use a step "
-        f"smaller than {abs(float(np.median(run.voltage))):.1f} V; until then do not trust kA.",
+        f"smaller than {abs(float(np.median(run.voltage))):.1f} V. Until then, do not trust kA.",
     )
 
 

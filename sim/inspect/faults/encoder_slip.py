@@ -82,11 +82,11 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             fault="encoder-slip",
             where=LogInterval(anomaly.run, run.test, start, end),
             confidence=share,
-            evidence=f"For {end - start:.2f} s the velocity reads {abs(loss):.0%} too "
-            f"{'low' if loss > 0 else 'high'}, from one sample to the next, and then it"
-            " is right again: no motor changes its speed that fast, so the sensor "
-            "slipped on its shaft.",
-            advice="Fix the sensor to its shaft, and run this test again; until then cut these "
+            evidence="From one sample to the next, the velocity in the log becomes "
+            f"{abs(loss):.0%} too {'low' if loss > 0 else 'high'}. After {end - start:.2f} s it is "
+            "right again. No motor changes its speed that fast, so the sensor slipped on "
+            "its shaft.",
+            advice="Fix the sensor to its shaft, and run this test again. Until then, cut these "
             "seconds out.",
         )
 

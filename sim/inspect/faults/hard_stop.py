@@ -112,9 +112,10 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         confidence=share,
         evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
-        f"at up to {volts[impact:].max():.1f} V: it hit its end.",
-        advice="Cut the run before the impact, or run it again and let go earlier, with soft "
-        f"limits set: it hit the end after {_way(run, impact):.3g} of travel.",
+        f"at up to {volts[impact:].max():.1f} V: it hit its end, "
+        f"{_way(run, impact):.3g} from where the run started.",
+        advice="Cut the run before the impact. Or set soft limits, run it again, and let go of the "
+        "button earlier.",
     )
 
 

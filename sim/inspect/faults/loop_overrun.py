@@ -84,7 +84,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 f"{step[gaps].max() * 1000.0:.0f} ms (normal: {usual * 1000.0:.3g} ms):"
                 f" about {lost:.0f} samples are lost.",
                 advice="Find the part of the program that takes too long (the Driver Station's "
-                "console prints loop overruns), and run this test again; until then do "
+                "console prints loop overruns), and run this test again. Until then, do "
                 "not trust kA.",
             )
 

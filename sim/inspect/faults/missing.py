@@ -50,10 +50,10 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 where=_nowhere(test),
                 confidence=CONFIDENCE,
                 evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are in the log,"
-                f" and {test} is missing: {_COST[kind]}, and each direction has its own"
-                " friction.",
+                f" and {test} is missing. You need it: {_COST[kind]}, and each direction has "
+                "its own friction.",
                 advice=f"Run {test}{_like(features.log, kind)}, and pass its file together with "
-                "this one; if the mechanism cannot do it, write that down with the "
+                "this one. If the mechanism cannot do it, write that down next to the "
                 "gains.",
             )
 

@@ -109,7 +109,7 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
         evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "
         f"{speed:.3g} per second, while the position changes by "
         f"{run.position[-1] - run.position[0]:.3g}.",
-        advice=f"{cure}, and log the voltage with its sign; then record again, or change the "
+        advice=f"{cure}, and log the voltage with its sign. Then record again, or change the "
         "sign in the log.",
     )
 

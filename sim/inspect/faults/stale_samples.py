@@ -85,17 +85,17 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     readings = max(held.size for held in stale.values())
     ordinary = longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= OWN_PACE
     advice = (
-        "This is no fault; for a more accurate kA, raise the rate of the controller's status "
+        "This is no fault. For a more accurate kA, raise the rate of the controller's status "
         "frames."
         if ordinary
         else "Raise the rate of the controller's status frames to 20 ms or faster, and record "
-        "again; until then do not trust kA."
+        "again. Until then, do not trust kA."
     )
     return Damage(
         fault="stale-samples",
         where=_whole(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
-        evidence=f"The log repeats {repeated} samples: it is written every {period * 1000.0:.3g}"
+        evidence=f"The log repeats {repeated} samples. It is written every {period * 1000.0:.3g}"
         f" ms, but the sensor updates only every {usual * 1000.0:.0f} ms.",
         advice=advice,
         ordinary=ordinary,

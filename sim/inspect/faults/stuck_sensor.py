@@ -104,10 +104,10 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
         confidence=0.95,
         evidence=f"For {where.end - where.start:.2f} s the sensor repeats one reading (position "
         f"{run.position[first]:.4g}, velocity {run.velocity[first]:.4g}), and then "
-        f"jumps: the mechanism moved by {hidden:.3g} in that time, and the log does not"
+        f"jumps. The mechanism moved by {hidden:.3g} in that time, and the log does not"
         " show it.",
-        advice="Check the sensor's plug and the CAN error counters, and run this test again; "
-        "until then cut the run before the freeze.",
+        advice="Check the sensor's plug and the CAN error counters, and run this test again. "
+        "Until then, cut the run where the sensor starts to repeat.",
     )
 
 

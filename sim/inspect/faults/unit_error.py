@@ -71,10 +71,10 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="unit-error",
                 where=_whole(index, run),
                 confidence=0.97,
-                evidence=f"The recorded velocity is the position, multiplied by {times:.3g}: where "
-                "the position stands still, the velocity should be 0, and it is not.",
-                advice="Log the encoder's velocity in place of its position, and record again; "
-                "without a velocity nothing can be fitted.",
+                evidence=f"The recorded velocity is the position, multiplied by {times:.3g}. Where "
+                "the position does not change, the velocity should be 0, and it is not.",
+                advice="Log the encoder's velocity in place of its position, and record again. "
+                "Without a velocity nothing can be fitted.",
             )
         elif said:
             yield Damage(
@@ -115,7 +115,7 @@ def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
         f"FRC robot is {bound} m/s: position and velocity are not in meters, or their "
         "factor is wrong.",
         advice="Push the robot forward by exactly 1 m and see by how much the logged position "
-        "changes; then set gear ratio and wheel circumference so that it is 1.",
+        "changes. Then set gear ratio and wheel circumference so that it is 1.",
     )
 
 
@@ -129,7 +129,7 @@ def _named(ratio: float) -> str:
     if abs(ratio / sought[nearest] - 1.0) < NEAR:
         return nearest
     return (
-        "this factor belongs to no unit; probably only one of the two contains a gear ratio "
+        "this factor belongs to no unit: probably only one of the two contains a gear ratio "
         "or a circumference"
     )
 

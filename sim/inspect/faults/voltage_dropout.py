@@ -175,21 +175,21 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
     else:
         every = float(np.median(np.diff([run.time[drop.first] for drop in story])))
         said = (
-            f"{len(story)} times, every {every:.2f} s, the voltage drops for a moment, down to "
-            f"{deepest:.0%} of its value, for {lasts:.0f} ms in all"
+            f"The voltage drops {len(story)} times, about every {every:.2f} s, down to "
+            f"{deepest:.0%} of its value. Together the drops last {lasts:.0f} ms"
         )
     echo = (
-        f"the velocity drops with it, by {answer:.0%}, so the motor really lost its voltage"
+        f"The velocity drops with it, by {answer:.0%}, so the motor really lost its voltage"
         if answer > CLEAR
-        else "the velocity does not change, so only the log lost it"
+        else "The velocity does not change, so only the log lost the voltage"
     )
     return Damage(
         fault="voltage-dropout",
         where=where,
         confidence=1.0 - 0.3 / len(story),
-        evidence=f"{said}; {echo}.",
+        evidence=f"{said}. {echo}.",
         advice="Look for one motor of several that loses its command, for missing CAN frames, and "
-        "for a second loop that writes the voltage; then record again.",
+        "for a second loop that writes the voltage. Then record again.",
     )
 
 

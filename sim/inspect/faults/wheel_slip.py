@@ -143,7 +143,7 @@ def _launched(index: int, run: Run) -> Damage | None:
         evidence=f"The speed rises to {event.speed:.3g} m/s, {happened}, at a constant "
         f"{volts:.1f} V: the wheels spin, and the robot catches up later.",
         advice=f"Run the dynamic tests again with half the step, {0.5 * volts:.1f} V, on the "
-        "carpet it will drive on; if the speed still drops or pauses, look for a slack "
+        "carpet it will drive on. If the speed still drops or pauses, look for a slack "
         "belt or a bending frame.",
     )
 
@@ -177,8 +177,9 @@ def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
         fault="wheel-slip",
         where=LogInterval(index, run.test, start, min(start + grips, float(run.time[-1]))),
         confidence=share,
-        evidence=f"The speed jumps to {1.0 - held:.0%} of its top, pauses for about {grips:.2f} "
-        "s, and only then rises like that of a heavy robot: the wheels spin first.",
+        evidence=f"The speed jumps to {1.0 - held:.0%} of its top and stops rising for about "
+        f"{grips:.2f} s. Only then does it rise like the speed of a heavy robot. So the wheels "
+        "spin first, and grip later.",
         advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
         "carpet it will drive on.",
     )

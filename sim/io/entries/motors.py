@@ -32,7 +32,7 @@ from sim.io.format import ReadOptions
 
 FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
 EXPORT = (
-    "Signals that only CTRE's or REV's logger recorded have to be exported as WPILOG first, with "
+    "Did only CTRE's or REV's logger record the signals? Then first export its log as WPILOG, with "
     "Tuner X or AdvantageScope."
 )
 CALLS = {
@@ -227,7 +227,7 @@ def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
     raise BadRequest(
         f"{search.asked.motor!r} {which} of {search.state.mechanism or search.state.entry.name!r}",
         where=search.where,
-        advice=f"Choose --motor from: {', '.join(names)}." if names else f"Name {FLAGS}.",
+        advice=f"Choose one with --motor: {', '.join(names)}." if names else f"Name {FLAGS}.",
     )
 
 
@@ -258,7 +258,7 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     ]
     near = _near(signal, search.entries, search.state.mechanism)
     if near:
-        said.append(f"nearest are {quote_names(near)}")
+        said.append(f"entries with similar names: {quote_names(near)}")
     return MissingSignal(
         "; ".join(said),
         where=search.where,
@@ -276,14 +276,16 @@ def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> Mi
     """
     devices = find_devices(entries)
     lacking = [s for s in NEEDED if not any(s in device.signals for device in devices)]
-    what = f"no {' and no '.join(lacking)}" if lacking else "no motor with all three"
+    what = (
+        f"no {' and no '.join(lacking)} changes" if lacking else "no motor has all three, changing"
+    )
     near = [name for signal in NEEDED for name in _near(signal, entries, mechanism)]
-    said = f"; nearest are {quote_names(list(dict.fromkeys(near)))}" if near else ""
+    said = f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
     arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
-    said += f"; arrays cannot be used: {quote_names(arrays)}" if arrays else ""
+    said += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
-        f"{what} that moves with the tests: a motor needs a voltage entry, a position and a "
-        f"velocity{said}",
+        f"{what} during the tests. A motor needs an entry each for voltage, position "
+        f"and velocity{said}",
         where=where,
         advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
     )

@@ -100,7 +100,7 @@ def find_requested_entry(
         where=where,
         advice=f"Did you mean {quote_names(near)}?"
         if near
-        else f"Give --{role} a name as AdvantageScope shows it, path and all.",
+        else f"Give --{role} a name as AdvantageScope shows it, with its whole path.",
     )
 
 

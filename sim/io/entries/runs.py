@@ -208,8 +208,9 @@ def _doubt_sparse_signals(
         yield Doubt(
             "change-only",
             f"{where}: only changes were logged ({many}). The times of all signals were joined, "
-            "and a value was held until its next change. SysId itself goes by the voltage's times "
-            "and fails on such a log: a step has a single voltage. Log every value in every loop.",
+            "and a value was held until its next change. SysId itself uses only the times at "
+            "which the voltage changed, and fails on such a log: a step has one voltage. Log "
+            "every value in every loop.",
         )
     elif any(find_sparse_signals(parts)):
         yield Doubt(

@@ -169,10 +169,11 @@ def _mechanism_in(name: str) -> str:
 
 def _no_state(*, where: str) -> MissingSignal:
     return MissingSignal(
-        f"no entry names tests: expected '{WORD}-<mechanism>' (string)",
+        f"no entry says which test runs: expected '{WORD}-<mechanism>' (string)",
         where=where,
-        advice="SysIdRoutine writes it while a test runs: run the tests with the robot enabled and "
-        "give the log of that. If the file holds one test, say which in its name: "
+        advice="SysIdRoutine writes this entry while a test runs. Run the tests with the robot "
+        "enabled, "
+        "and give the log of that. If the file holds one test, say which in its name: "
         "dynamic-forward.wpilog. Or name another logger's entries with --state ENTRY --voltage "
         "ENTRY --position ENTRY --velocity ENTRY.",
     )

@@ -122,7 +122,8 @@ def write(log: Log, path: Path) -> None:
     if not log.runs or not all(len(run) for run in log.runs):
         raise BadRequest(
             "a run of the log has no samples" if log.runs else "the log has no runs",
-            advice="Write a log whose runs all have samples: a row of CSV is one.",
+            advice="Write a log in which every run has samples: each sample is a row of the CSV "
+            "file.",
         )
     numbered = len({run.test for run in log.runs}) < len(log.runs)
     extra = [name for name in EXTRA if any(getattr(run, name) is not None for run in log.runs)]

@@ -54,7 +54,9 @@ def read_entries(path: Path) -> list[Entry]:
             if cell.strip() not in EMPTY:
                 found.setdefault(name, []).append((time, cell.strip()))
     if not any(found.values()):
-        raise UnreadableFile("a header without rows", where=where, advice="Record a test first.")
+        raise UnreadableFile(
+            "there are no rows below the header", where=where, advice="Record a test first."
+        )
     return list(_entries(found.items()))
 
 

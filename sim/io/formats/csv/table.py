@@ -158,7 +158,9 @@ def open_table(path: Path, *, entries: Mapping[str, str]) -> CsvTable:
             )
     place, doubts = _columns(header, entries=entries, where=where)
     if not rows:
-        raise UnreadableFile("a header without rows", where=where, advice="Record a test first.")
+        raise UnreadableFile(
+            "there are no rows below the header", where=where, advice="Record a test first."
+        )
     columns = list(zip(*(row for _, row in rows), strict=True))
     cells = {name: columns[index] for name, index in place.items()}
     lines = [line for line, _ in rows]
@@ -207,7 +209,7 @@ def _columns(
     for name in named:
         if name not in KNOWN:
             raise BadRequest(
-                f"{name!r} is not a signal", advice=f"Choose among: {', '.join(KNOWN)}."
+                f"{name!r} is not a signal", advice=f"Choose one of: {', '.join(KNOWN)}."
             )
     titles = {name: named.get(name, name) for name in KNOWN}
     for title in titles.values():

@@ -44,7 +44,7 @@ def read_drivetrain(
         raise BadRequest(
             f"a drivetrain has no motor {motor!r}",
             where=where,
-            advice=f"Choose --motor from: {', '.join(MOTORS)}.",
+            advice=f"Choose one with --motor: {', '.join(MOTORS)}.",
         )
     doubts: list[Doubt] = []
     halves = []

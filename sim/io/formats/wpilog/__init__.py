@@ -131,7 +131,7 @@ def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> U
     return UnreadableFile(
         f"{how} ({damage.what}), and {what}",
         where=f"{where}, byte {damage.offset}",
-        advice="Copy it from the robot again; if it is the same there, record the tests again.",
+        advice="Copy it from the robot again. If that does not help, record the tests again.",
     )
 
 
@@ -151,7 +151,7 @@ def _partly(damage: FileDamage, where: str) -> Doubt:
     return Doubt(
         "truncated" if damage.torn else "damaged",
         f"{where}: {what}: {damage.what} at byte {damage.offset}. The {damage.unread_bytes} bytes "
-        "from there on were left out. Copy the file from the robot again, or check that no run is "
+        "after that were not read. Copy the file from the robot again, or check that no run is "
         "missing.",
     )
 

@@ -183,7 +183,7 @@ def _unpack(stream: IO[bytes], unpacked: IO[bytes], *, where: str) -> None:
         raise UnreadableFile(
             f"it is packed with xz, and damaged ({error})",
             where=where,
-            advice="Copy it from the robot again; if it is the same there, record the tests again.",
+            advice="Copy it from the robot again. If that does not help, record the tests again.",
         ) from None
 
 
