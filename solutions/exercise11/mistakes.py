@@ -98,7 +98,7 @@ MISTAKES = (
         ANSWERS,
         set_answer("shooter", '"optional"'),
         "decision-shooter",
-        "3 % less speed",
+        "3 % too slow",
     ),
     Mistake(
         "always, without a reason that carries it",

@@ -4,33 +4,33 @@ import re
 from pathlib import Path
 
 CHOICES = {
-    "Q0_guess": "Which gain makes it behave",
+    "Q0_guess": "With which gain does",
     "Q0_sysid": "Which model of the physics",
     "Q0_brace": "kA",
-    "kA_use": "It gives the robot's mass",
-    "kS_flag": "First look for the part",
-    "step_shape": "Did a current limit",
-    "step_length": "It needs much more room",
+    "kA_use": "The robot's mass",
+    "kS_flag": "First look for a part",
+    "step_shape": "Whether a current limit",
+    "step_length": "The test needs much more room",
     "null_consumer": "Into the WPILog",
-    "status_frames": "Log as fast as",
+    "status_frames": "Make the times equal",
     "three_logs": "Something changes between",
     "match_heat": "kS, kG and kA are larger",
     "schedule": "In the last two weeks",
-    "KC1_answer": "Something stuck",
-    "KC1_reason": "A few samples",
+    "KC1_answer": "Some part got stuck",
+    "KC1_reason": "kS is too small",
     "KC2_answer": "Keep the gains",
     "KC2_reason": "Feedforward never corrects",
-    "KC3_answer": "Measure, or compute",
-    "KC3_reason": "The piece adds weight",
+    "KC3_answer": "Measure or compute",
+    "KC3_reason": "The game piece adds weight",
 }
 ROWS = {
     "drivetrain": ("always", "It follows paths"),
     "shooter": ("always", "Its speed at one moment"),
     "arm": ("recommended", "The effect of gravity changes"),
-    "elevator": ("recommended", "Gravity pulls on it all the time"),
-    "intake": ("optional", "Only if its speed"),
-    "climber": ("optional", "Only if it moves along"),
-    "conveyor": ("usually not", "A fixed output"),
+    "elevator": ("recommended", "Gravity always pulls on it"),
+    "intake": ("optional", "Only if its code controls"),
+    "climber": ("optional", "Only if it follows a motion"),
+    "conveyor": ("usually not", "It is enough to switch"),
 }
 
 
@@ -69,7 +69,7 @@ def _volts(questions: str) -> float:
         for sign in (
             r"A shooter has kS = ([\d.]+)",
             r"kV = ([\d.]+) V",
-            r"Its target is\s+(\d+) rpm",
+            r"target\s+speed\s+is\s+(\d+) rpm",
         )
     )
     return float(ks) + float(kv) * float(rpm) / 60.0
