@@ -111,5 +111,5 @@ MISTAKES = (
         "half a sample", ANSWERS, set_answer("median", "2.5"), "kept", "whole number of samples"
     ),
     Mistake("it ends before it begins", ANSWERS, windows("3 to 1", *RAMPS), "kept", "ends before"),
-    Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "not two times"),
+    Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "two times are needed"),
 )
