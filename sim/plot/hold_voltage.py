@@ -134,14 +134,8 @@ def plot_hold_angles(
     axes.plot(readings, middle, "--", color=COLORS[0], label=words.cosine)
     axes.axhline(0.0, color=REFERENCE, linewidth=0.8)
     for index, place, name in ((1, 1, "no longer falls"), (2, 2, "begins to rise")):
-        axes.plot(
-            ends,
-            [hold[place] for hold in holds],
-            MARKERS[index],
-            color=COLORS[index],
-            markersize=7,
-            label=name,
-        )
+        edges = [hold[place] for hold in holds]
+        axes.plot(ends, edges, MARKERS[index], color=COLORS[index], markersize=7, label=name)
     level = 0.0 - add  # never −0
     axes.axvline(level, color=REFERENCE, linestyle=":", linewidth=1.2, label=words.level)
     if here is not None:
