@@ -390,8 +390,8 @@ Table(
 # %% [markdown]
 # ## 5 Two questions
 #
-# Guessing asks: **which number makes the robot behave as I like?** SysId asks: **which physical
-# model best explains what the robot did?** The official definition says the same: system
+# If you guess, you ask: **which number makes the robot behave as I like?** SysId asks: **which
+# physical model best explains what the robot did?** The official definition says the same: system
 # identification is finding a mathematical model of a system "through statistical analysis of its
 # inputs and outputs". The two questions give different results:
 #
@@ -731,8 +731,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Guessing asks: which gain makes the robot behave as I like? SysId asks: which physical model best
-# explains what the robot did?
+# If you guess, you ask: which gain makes the robot behave as I like? SysId asks: which physical
+# model best explains what the robot did?
 # </details>
 #
 # **2.** A teammate holds five steady voltages and draws a line. Which gains does the line give, and

@@ -389,8 +389,8 @@ Table(
 
 # %% [markdown]
 # With slower gears the motor turns faster for each m/s, so speed needs **more** volts. But the
-# gears make more force from the same torque, so acceleration needs **fewer** volts. With half the
-# motors, each motor has twice the load, so kS and kA double. kV stays the same.
+# gears make more force from the same motor torque, so acceleration needs **fewer** volts. With half
+# the motors, each motor has twice the load, so kS and kA double. kV stays the same.
 
 # %% [markdown]
 # ## 5 Is this kV possible?
@@ -812,8 +812,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Friction takes 0.2 V, and speed takes 3.4 · 2 = 6.8 V. Acceleration takes 0 V, because at a steady
-# speed there is no acceleration.
+# Friction takes 0.2 V, and speed takes 3.4 · 2 = 6.8 V. The acceleration needs 0 V, because at a
+# steady speed there is no acceleration.
 # </details>
 #
 # **2.** Convert kV = 0.12 V·s/rot into V·s/rad.

@@ -154,7 +154,7 @@ print(
 # On a real elevator kG/kA is a little smaller, because kA also contains the spinning parts of the
 # motors. If your kG/kA is 15 m/s², look for a mistake before you trust the two gains.
 #
-# Two kinds of elevator have another kG/kA. The next cell computes it for both:
+# Two kinds of elevator have a different kG/kA. The next cell computes it for both:
 #
 # - In a **cascade**, a lower stage moves, too, at half the carriage's speed: kG/kA is between g and
 #   2·g. (g is the acceleration of gravity.)
@@ -206,7 +206,7 @@ print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_le
 
 # %% [markdown]
 # The carriage stays. Friction acts against *any* motion, also against falling, so friction helps
-# you to hold the carriage. The carriage sinks only if your voltage is more than kS below kG. The
+# you to hold the carriage. The carriage sinks only if your voltage is less than kG − kS. The
 # carriage rises only if your voltage is more than kS above kG.
 #
 # So there is a **window** of voltages, from kG − kS to kG + kS, in which nothing moves. Two common

@@ -503,7 +503,8 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** look at the row "forward only" in section 4's table. For a *symmetric* drivetrain it
-# > is fine. Now set `lean` to 0 in the code above: do the rows of this section's table agree?
+# > is fine. Now set `lean` to 0 in the code above: do you get the same rows as in the
+# > table of this section?
 # </details>
 
 # %% [markdown]

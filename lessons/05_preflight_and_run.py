@@ -201,7 +201,7 @@ print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 
 # %% [markdown]
 # Here kV is almost right (a real robot also has less friction on blocks). But kA on blocks only
-# describes wheels and motors. So test on the floor, and compute the room.
+# describes wheels and motors. So test on the floor, and compute the space you need.
 
 # %% [markdown]
 # ## 3 Doing it: the runway

@@ -707,10 +707,10 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 #   a second. So kA may be wrong by half, and the score hardly changes.
 # - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
 #   information about kV, and only a few about kA.
-# - **The acceleration R² compares accelerations row by row (lesson 7), and it notices more.** Sort
-#   the logs by it: the logs with spikes (wild readings), the lurch (a sudden jump) and the worst
-#   slips are at the bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or
-#   a wrong sign. And a low value proves nothing: many good logs have one.
+# - **The acceleration R² compares accelerations row by row (lesson 7), and it finds more
+#   faults.** Sort the logs by it: the logs with spikes (wild readings), the lurch (a sudden jump)
+#   and the worst slips are at the bottom. But this score does *not notice* a wrong voltage, a wrong
+#   gear ratio or a wrong sign. And a low value proves nothing: many good logs have one.
 #
 # <details><summary>Want to know more?</summary>
 #
@@ -837,7 +837,7 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# a2, b4, c3, d1. You see a current limit in the voltage only if the log holds the applied voltage.
+# a2, b4, c3, d1. Only a log of the applied voltage shows what a current limit did to it.
 # If it holds the commanded voltage, look at the rise of the velocity: it starts as a straight line.
 # </details>
 #

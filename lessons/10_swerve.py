@@ -154,9 +154,9 @@ animate_mechanism(
 # %% [markdown]
 # ## 3 Going straight: each module, and all
 #
-# In the translation test all four wheels point forward. A log of this test has four voltages, four
-# positions and four velocities. You can fit each module alone. You can also **pool** the modules:
-# fit each one, then take the mean.
+# In the translation test all four wheels point forward. A log of this test has four voltage
+# signals, four positions and four velocities. You can fit each module alone. You can also **pool**
+# the modules: fit each one, then take the mean.
 #
 # On the back left module of our robot the wheel's rubber is worn, so that wheel is smaller. The
 # code still uses the old radius. All wheels roll on the same floor, and all motors get the same

@@ -117,7 +117,7 @@ def find_submissions(
         if twins and not (part.name.file and twins[0].name.file):
             raise BadRequest(
                 f"{_format_name(twins[0].path.name)} and {_format_name(part.path.name)} "
-                "seem to be of the same student",
+                "seem to be the same student",
                 where=str(folder),
                 advice="Keep one of the two, or put all files of that student into one folder.",
             )

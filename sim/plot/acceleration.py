@@ -143,8 +143,8 @@ def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
     if gains is None:
         said += ", as recorded and filtered."
     else:
-        said += ". What voltage, friction and gravity cause is subtracted. A black line through "
-        said += "the origin is −kV/kA · v. Its slope is "
+        said += ". The acceleration from voltage, friction and gravity is subtracted. A black "
+        said += "line through the origin is −kV/kA · v. Its slope is "
         said += f"{to_text(-gains['kV'] / gains['kA'])} per second."
     for test, samples, slowest, fastest, first, second in table.rows:
         said += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "

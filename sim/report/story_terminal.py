@@ -65,7 +65,7 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     for place in story.where[:PLACES]:
         say(place.sentence, indent=2)
     say("")
-    say(f"{story.how} The noise is that of the velocity; it is measured without a model.")
+    say(f"{story.how} The noise is that of the velocity signal. No model is needed to measure it.")
     for test in list_next_tests(story):
         say(f"Test to run next: {test}", style="bold")
     for message in list_remarks(story):

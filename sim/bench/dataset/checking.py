@@ -29,7 +29,7 @@ def verify_dataset(
         raise BadRequest(
             "there is no file with the key",
             where=str(key),
-            advice="Make the dataset to its end, or name its key with --key.",
+            advice="Run sysid dataset again until it has finished, or name the key with --key.",
         )
     files = entries_by_file(entries)
     asked = {file: job.fingerprint for job in jobs for file in job.files}

@@ -25,7 +25,9 @@ def check_student_name(text: str) -> str:
     if len(name) > LONGEST:
         raise BadRequest(f"the student's name has {len(name)} characters", advice=advice)
     if not name.isprintable():
-        raise BadRequest(f"the student's name {name!r} has a sign nobody can see", advice=advice)
+        raise BadRequest(
+            f"the student's name {name!r} contains an invisible character", advice=advice
+        )
     if "/" in name or "\\" in name:
         raise BadRequest(f"the student's name {name!r} has a path separator", advice=advice)
     return name

@@ -32,8 +32,8 @@ from sim.io.format import ReadOptions
 
 FLAGS = "--voltage ENTRY --position ENTRY --velocity ENTRY"
 EXPORT = (
-    "Did only CTRE's or REV's logger record the signals? Then first export its log as WPILOG, with "
-    "Tuner X or AdvantageScope."
+    "Are the signals only in the log of CTRE's or REV's logger? Then first export it as WPILOG, "
+    "with Tuner X or AdvantageScope."
 )
 CALLS = {
     "voltage": "voltage(...)",
