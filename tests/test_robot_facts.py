@@ -99,11 +99,9 @@ def test_none_for_the_log_callback_fails_in_the_first_loop(tmp_path):
 
 
 def test_only_state_enum_to_string_makes_the_word_that_sysid_looks_for(tmp_path):
-    lines = run_routine("lambda log: None", tmp_path).stdout.splitlines()
-    _, name, word = next(line for line in lines if line.startswith("says")).split()
+    printed = run_routine("lambda log: None", tmp_path).stdout
 
-    assert name == "State.kDynamicForward"
-    assert word == "dynamic-forward"
+    assert "says State.kDynamicForward dynamic-forward" in printed
 
 
 def test_the_readme_of_exercise_4_warns_once_of_a_step_that_slips():
