@@ -102,7 +102,8 @@ def test_an_endless_loop_is_ended_and_its_line_named(tmp_path):
     run = ran(tmp_path, changed(endless), seconds=4)
 
     assert run.outcome is RunOutcome.ENDLESS
-    assert (run.where, run.line) in {("drive", 38), ("drive", 39)}
+    assert run.where == "drive"
+    assert run.line in {38, 39, 40}  # the loop, or the call before it
     assert "did not end within 4 s" in run.said
 
 
