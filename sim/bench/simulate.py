@@ -85,7 +85,7 @@ def simulate(
         if wheels_slip(mechanism, track):
             moves, gripped = (model + slips, gripped) if slips else (model, True)
             track, state = _move(moves, time, voltage, begun=begun, wires=wires)
-        end = (_end(track.every(parts), mechanism, test=test) - 1) * parts + 1
+        end = (_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
         if end < track.position.size and state.memory.any():  # what was ended warms no motor
             track, state = _move(moves, time, voltage, begun=begun, wires=wires)
@@ -131,7 +131,7 @@ def _record_run(
         mechanism.sensor, position=track.position, velocity=track.seen, time=time, read_at=loops,
         rng=rng,
     )  # fmt: skip
-    logged = track.every((time.size - 1) // (loops.size - 1))
+    logged = track.take_every((time.size - 1) // (loops.size - 1))
     extra = {"current": logged.current, "bus_voltage": logged.bus} if electrical else {}
     return Run(test, loops, logged.applied, *seen, **extra)
 

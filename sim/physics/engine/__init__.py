@@ -138,7 +138,7 @@ class Track:
         """(n, 2) position and velocity as the sensors report them."""
         return np.column_stack((self.position, self.seen))
 
-    def every(self, step: int) -> "Track":
+    def take_every(self, step: int) -> "Track":
         """Every ``step``-th sample, from the first."""
         return Track(*(getattr(self, one.name)[::step] for one in fields(self)))
 
