@@ -16,7 +16,10 @@ from sim.support.command_line import DONE
     "--lesson", "only", multiple=True, metavar="NN", help="Only this lesson; may be repeated."
 )
 def edition(output: Path, only: tuple[str, ...]) -> int:
-    """Run all lessons, and write each as a page and as slides, to read without installing anything."""
+    """Run all lessons, and write each as a page and as slides.
+
+    They can be read without installing anything.
+    """
     from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
     from grader.edition import build_pages  # noqa: PLC0415 - the same
 
