@@ -140,8 +140,9 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="unit-error",
-    summary="the velocity has another unit than the position",
-    ordinary="velocity is off by 60 or 57.3, up or down; by 2π below, by 360 and more above",
+    summary="the unit of the velocity does not match the unit of the position",
+    ordinary="the velocity is wrong by a factor of 60 or 57.3; at severity 0.5 by 2π, at "
+    "severity 2 by 360 or 377",
     spoil=spoil,
     detect=detect,
     whole=True,

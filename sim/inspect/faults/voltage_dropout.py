@@ -196,7 +196,7 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
 
 FAULT = Fault(
     name="voltage-dropout",
-    summary="the voltage in the log is too small for moments, and the motion does not react",
+    summary="for moments the voltage in the log is too small, but the motion does not change",
     ordinary="zero for 15 ms, every 0.22 s to the end of the run",
     spoil=spoil,
     detect=detect,
