@@ -208,7 +208,7 @@ drifts = {
 
 
 def drift_picture(name: str, ramp: float) -> list[Picture]:
-    """The ramp with its line, and the kS of that line over all ramps."""
+    """The ramp with its line, and the kS of that line for each ramp."""
     gains = SHOWN[name].gains
     slow, line = read_off(SHOWN[name], ramp)
     rule = [gains["kS"] + gains["kA"] / gains["kV"] * one for one in RAMPS]

@@ -767,7 +767,8 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 #    four tests.
 #
 # There are three more defects. A first step of 7 V is too large for most robots. It is dangerous to
-# use the driver's controller without a guard. And no comment says which test a button starts.
+# use the driver's controller without a guard that locks the tests. And no comment says which test a
+# button starts.
 # </details>
 #
 # **Find one more defect, in Python.** WPILib's docs make the commands like this. Which error stops
@@ -796,7 +797,7 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 #   the mechanism, not of the motor.
 # - [ ] When you push the mechanism forward by hand, the position **grows** and the velocity is
 #   positive. A small positive voltage also moves the mechanism forward.
-# - [ ] Four different commands are on four buttons, with `whileTrue` and behind a **guard**.
+# - [ ] Four different commands are on four buttons, with `whileTrue`, and a **guard** locks them.
 # - [ ] The limits in the motor controller are set, the timeout fits the room, and somebody has a
 #   hand on *Disable*.
 #
@@ -879,7 +880,7 @@ quick
 # 3).
 #
 # **Exercise 5** ([exercises/exercise5/README.md](../exercises/exercise5/README.md)). Bind four
-# tests to buttons, each with a comment, behind a guard:
+# tests to buttons, each with a comment, and lock them with a guard:
 #
 # ```
 # grade exercise5

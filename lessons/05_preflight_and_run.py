@@ -32,8 +32,8 @@
 # the mechanism is. The person at the button has to stop it.
 #
 # So before the test you decide how far it may move, and check that everything is ready. Pilots call
-# this a *pre-flight check*. You need five minutes for it. In this lesson you skip one check at a
-# time and see what happens.
+# this a *pre-flight check*. It takes five minutes. In this lesson you skip one check at a time and
+# see what happens.
 #
 # ### The four steps
 #
@@ -54,8 +54,9 @@
 # > **Source says:** WPILib's pages have this order: create the routine, run it, load the data, view
 # > diagnostics, analyze. ([WPILib docs: System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
-# > The text of the source lesson names only the first step. Its other steps were on a page that
-# > opens with a click, and we could not see them. So the other three steps are our interpretation.
+# > The text of the source lesson names only the first of the four steps. Its other steps were on a
+# > page that opens with a click, and we could not see them. So the other three steps are our
+# > interpretation.
 # >
 # > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.
 # </details>
@@ -100,8 +101,8 @@ Table(
 #
 # Until you let go of the button, the motors still drive. Then the motors brake, if their neutral
 # mode is *Brake* (the neutral mode says what a motor does at 0 V). The wheels can only brake as
-# hard as they grip the carpet. So the robot needs at least another `v² / (2·μ·g)` meters to stop,
-# with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
+# hard as they grip the carpet. So the robot needs at least `v² / (2·μ·g)` more meters to stop, with
+# g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
 #
 # **Predict:**
 
@@ -271,7 +272,7 @@ print(f"  The formula v²/(2·μ·g) gives {top**2 / (2 * GRIP * 9.81):.2f} m at
 #
 # ### Now skip a check
 #
-# Everything stays the same, but you skip one check:
+# Everything else stays the same:
 #
 # | skipped | what was wrong that morning |
 # |---|---|
@@ -320,7 +321,7 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu? Here is the step with the battery that was not charged:
+# No menu? Here is the step test with the battery that was not charged:
 
 # %%
 morning("2 battery", STEP, moment=1.0)
@@ -329,8 +330,7 @@ morning("2 battery", STEP, moment=1.0)
 # In the menus, first choose *2 battery* and *step*. The step test draws so much current that the
 # battery voltage falls below the dashed line. Then the robot controller turns the motors off to
 # protect itself: this is a *brownout*. The battery recovers, the motors start, and the voltage
-# falls again. The robot hardly moves. (A real robot switches more slowly.) Then try the other
-# checks.
+# falls again. The robot hardly moves. (A real robot switches more slowly.) Then try other checks.
 #
 #
 # ### Which logs are good?
@@ -400,8 +400,8 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #
 # A charged battery shows 12.7 V or more at rest. At 12 V there is no brownout yet: a roboRIO 1
 # disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change this limit. Is kA
-# wrong then? The next cell runs the tests with two batteries and two steps. It computes kA once
-# from the voltage that was **applied** to the motors, and once from the voltage that the code
+# wrong then? The next cell runs the tests with two batteries and two step voltages. It computes kA
+# once from the voltage that was **applied** to the motors, and once from the voltage that the code
 # **commanded**.
 #
 # <details><summary>For mentors: batteries below 12 V, with source</summary>
@@ -413,7 +413,7 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 # > Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
-# > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
+# > **Try it:** the next cell runs the tests with two batteries and two step voltages, and fits the
 # > **applied** voltage and the **commanded** voltage.
 # </details>
 
@@ -481,7 +481,7 @@ Table(
 # AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
 # enable the robot and apply a small positive voltage: the mechanism must move forward, too. The
 # most important check is that a positive voltage gives a positive velocity. SysId's score R² stays
-# high even if the sign is wrong (lesson 6).
+# high even if the velocity has the wrong sign (lesson 6).
 #
 # ### Log
 #
@@ -639,7 +639,7 @@ Table(
 # 10. Type `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
 # 11. Type `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
 #
-# You may choose another order.
+# You may run the four tests in any order.
 #
 # **Do step 10 before anybody packs up.** Repeating a test takes five minutes today, but a whole
 # evening tomorrow.
@@ -911,8 +911,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # A positive voltage gave a negative velocity: the encoder or the motor is inverted. Apart from the
-# sign the data are good, so you could change the sign in the log. But the robot's code has the same
-# mistake, so fix it there, and run the tests again.
+# sign of the velocity, the data are good, so you could change this sign in the log. But the robot's
+# code has the same mistake, so fix it there, and run the tests again.
 # </details>
 #
 # **5.** When would you run these tests, and why not at the first regional?

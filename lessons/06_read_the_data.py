@@ -74,7 +74,8 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
 print(
-    f"kA/kV = {1000 * TAU:.0f} ms: after this time, a step has nearly two thirds of its final speed"
+    f"kA/kV = {1000 * TAU:.0f} ms: this long after a step of voltage, the robot has reached nearly "
+    "two thirds of its final speed"
 )
 
 # %% [markdown]
@@ -173,7 +174,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # </details>
 
 # %% [markdown]
-# ## 3 Reading: thirteen ways to damage a log
+# ## 3 Read the plots: thirteen ways to damage a log
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
@@ -329,8 +330,8 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #   the voltage stays on.
 # - **Loop overrun.** In the plot *time steps*, some points are far above 20 ms. The other plots
 #   hardly show the fault.
-# - **Command logged.** The voltage of the step looks perfect, but at first the velocity rises in a
-#   straight line.
+# - **Command logged.** The voltage of the step test looks perfect, but at first the velocity rises
+#   in a straight line.
 # - **Current limit.** The velocity rises in a straight line, too. But the *voltage* shows the
 #   limit, because this log holds the applied voltage. So the log is correct, and the errors of its
 #   gains are small.

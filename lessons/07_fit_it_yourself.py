@@ -930,7 +930,7 @@ QS = np.round(np.arange(0.5, 4.01, 0.25), 2)
 
 
 def kp_picture(q: float, r: float, delay: int) -> Picture:
-    """The suggested kP over the allowed error, for the source lesson's gains."""
+    """The suggested kP for each allowed error, with the source lesson's gains."""
 
     def suggested(error: float) -> float:
         loop = design_velocity_loop(
@@ -1134,7 +1134,7 @@ quick
 # grade exercise9
 # ```
 #
-# If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
+# If a number is wrong by a well-known factor (2π or −1), or if you swapped two numbers, the
 # feedback says so. Hints cost nothing: `grade exercise9 --hint`. You also write your fit into
 # `fit.py`. `grade watch exercise9` in a terminal grades it each time you save.
 #

@@ -368,7 +368,7 @@ measured = {name: found.gains[name] for name in ORDER["simple"]}
 
 
 def scaled(factor: float) -> dict[str, float]:
-    """The measured gains with kV and kA per another unit."""
+    """The measured gains with kV and kA in another unit."""
     return measured | {"kV": measured["kV"] * factor, "kA": measured["kA"] * factor}
 
 
@@ -511,7 +511,7 @@ REMAINING = [left_over(kp) for kp in KPS.tolist()]
 
 
 def remaining_error(kp: float) -> Picture:
-    """The remaining error, over kP."""
+    """The remaining error for each kP."""
     rule = REMAINING[0] / (1 + KPS / wheel["kV"])
     return plot_curves(
         KPS,

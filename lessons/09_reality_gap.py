@@ -225,7 +225,8 @@ animate_mechanism(
     knobs=knobs,
     score=Score("model"),
     alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
-    "the step the model is ahead at first, and behind later. Its velocity curve has another shape.",
+    "the step the model is ahead at first, and behind later. Its velocity curve has a different "
+    "shape.",
 )
 
 # %% [markdown]
@@ -805,7 +806,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # Record the four tests with a second step voltage, or log the applied voltage. The battery sag
-# grows with the step, and drag grows with the speed. The old log cannot show which of them it is.
+# grows with the step voltage, and drag grows with the speed. The old log cannot show which of them
+# it is.
 # </details>
 #
 # **5.** The gap is 1.05 times the noise. Are your gains the true ones?

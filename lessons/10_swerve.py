@@ -229,8 +229,8 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
 # The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
-# into the code. Do the spin on carpet. On a hard floor the wheel does not sink in, so you measure
-# another radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit
+# into the code. Do the spin on carpet. On a hard floor the wheel does not sink in, so you measure a
+# different radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit
 # docs: TalonFX Swerve Template, at one
 # commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 
@@ -608,7 +608,7 @@ Table(
 #    of each motor.
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
 #    robot, and nobody in it. Use a small step here, too. CTRE's step of π rad/s is 3.4 V on our
-#    robot, and its wheels slip above 2.4 V. With 2 rad/s they do not slip.
+#    robot, and its wheels slip above 2.4 V. With a step of 2 rad/s they do not slip.
 # 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
 #    names in your log. Replace V by a `MotorVoltage`, P by the gyro's `Yaw`, and W by its
 #    `AngularVelocityZWorld`:
