@@ -888,8 +888,7 @@ quick
 # <details><summary>More, if you like</summary>
 #
 # - Add noise to the middles of the arm's windows: `middle = middle + 0.02 *
-#   np.random.default_rng(1).standard_normal(7)`. By how much does the offset change that the fit
-#   finds?
+#   np.random.default_rng(1).standard_normal(7)`. By how much does the fitted offset change?
 # - A constant-force spring pulls the carriage up as hard as the motor does with 1 V. What is kG
 #   now? Can kG become negative?
 # </details>

@@ -766,9 +766,9 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # 5. The last two lines both say `kForward`, so there is no dynamic reverse test. SysId needs all
 #    four tests.
 #
-# There are three more defects. A first step of 7 V is too large for most robots. It is dangerous to
-# use the driver's controller without a guard that locks the tests. And no comment says which test a
-# button starts.
+# There are three more defects. A step of 7 V is large for a first test. It is dangerous to use the
+# driver's controller without a guard that locks the tests. And no comment says which test a button
+# starts.
 # </details>
 #
 # **Find one more defect, in Python.** WPILib's docs make the commands like this. Which error stops

@@ -98,7 +98,6 @@ Table(
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-#
 # Until you let go of the button, the motors still drive. Then the motors brake, if their neutral
 # mode is *Brake* (the neutral mode says what a motor does at 0 V). The wheels can only brake as
 # hard as they grip the carpet. So the robot needs at least `v² / (2·μ·g)` more meters to stop, with
@@ -331,7 +330,6 @@ morning("2 battery", STEP, moment=1.0)
 # battery voltage falls below the dashed line. Then the robot controller turns the motors off to
 # protect itself: this is a *brownout*. The battery recovers, the motors start, and the voltage
 # falls again. The robot hardly moves. (A real robot switches more slowly.) Then try other checks.
-#
 #
 # ### Which logs are good?
 #

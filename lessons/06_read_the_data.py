@@ -726,7 +726,6 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 #
 # ## 6 Checks that find more than R²
 #
-#
 # 1. **Signs.** kV and kA are positive, kS is not negative.
 # 2. **kV is right for these motors and gears**: it differs from the computed kV (lesson 1) by less
 #    than 10 %.

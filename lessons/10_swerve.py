@@ -723,7 +723,7 @@ quick
 # <details><summary>More, if you like</summary>
 #
 # Give the robot of section 1 a mass of 68 kg, but the same moment of inertia, and run the lesson
-# again. Which numbers of section 7 change?
+# again. Which results change?
 # </details>
 #
 # **Next:** `grade` in a terminal shows which exercises are left.
