@@ -164,7 +164,7 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
 
 
 def _two(value: Cell) -> str:
-    return f"{round(value, 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
+    return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
 def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:
