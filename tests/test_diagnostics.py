@@ -80,7 +80,7 @@ PLANTED = {
             drawn("drivetrain"),
             lambda run: scaled(run, 0.85 if run.direction == "forward" else 1.0),
         ),
-        "Plot voltage over velocity",
+        "Plot voltage against velocity",
     ),
     "fine-r2": (lambda: only(drawn("shooter"), "dynamic-forward", slowed), "dynamic-forward at"),
     "repeats-differ": (
@@ -104,7 +104,7 @@ PLANTED = {
         lambda: each(drawn("elevator"), lambda run: scaled(run, 1.25, only_velocity=True)),
         "1.248 times",
     ),
-    "too-fast": (lambda: replace(drawn("shooter"), units="meters"), "hardly in meters"),
+    "too-fast": (lambda: replace(drawn("shooter"), units="meters"), "probably not in meters"),
 }
 
 
