@@ -47,6 +47,7 @@ from sim.reconcile.story import Story
 SUFFIXES = (".csv", ".json", ".wpilog")
 GAINS = ("kS", "kV", "kA", "kG")
 DAY = re.compile(r"20\d\d[-_]?\d\d[-_]?\d\d")
+REBUILT = 1.25  # [1] kV over that of another recording, from which the mechanism is another one
 WITHIN = 2.0  # [1] standard errors of a difference, within which two recordings agree
 PAST = (1, 2, 3, 5, 8, 13)  # [samples] how far back the black box sees voltage and simulation
 FOUND = 0.9  # [1] of the base model's error, below which the black box found something
@@ -206,16 +207,25 @@ def print_fits(fitted: Sequence[FittedLog]) -> None:
 
 
 def print_repetitions(fitted: Sequence[FittedLog]) -> None:
-    """How many pairs of gains from recordings of one mechanism agree within their errors."""
+    """How many pairs of gains from recordings of one mechanism agree within their errors.
+
+    Where SysId's own recipe finds another kV as well, by more than ``REBUILT``, the gears or the
+    conversion factor changed between two recordings: such a pair is listed, and does not count.
+    """
     print("\nREPETITIONS")
-    groups: dict[tuple[str, ...], list[tuple[str, Fit]]] = defaultdict(list)
+    groups: dict[tuple[str, ...], list[tuple[str, Fit, float]]] = defaultdict(list)
     for log in fitted:
-        if log.fit is not None and log.recording[2]:
-            groups[log.recording].append((log.path.stem[-50:], log.fit))
+        if log.fit is not None and log.log is not None and log.recording[2]:
+            kv = fit(log.log, type=log.fit.type, method="sysid").gains["kV"]
+            groups[log.recording].append((log.path.stem[-50:], log.fit, kv))
     agree = count = 0
     differences: dict[str, list[float]] = defaultdict(list)
     for group in groups.values():
-        for (name, one), (_, other) in combinations(group, 2):
+        for (name, one, kv), (_, other, other_kv) in combinations(group, 2):
+            if max(kv, other_kv) > REBUILT * min(kv, other_kv):
+                print(f"{name} changed between two recordings: kV by the recipe {kv:.4g}, "
+                      f"{other_kv:.4g}; not counted")  # fmt: skip
+                continue
             for gain in GAINS:
                 both = one.gains.get(gain), other.gains.get(gain)
                 if not all(both):
