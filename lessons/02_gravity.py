@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 2: Gravity
 #
-# *About 35 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
+# *About 40 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
 # explains it.*
 #
 # **At the end you can**
@@ -334,12 +334,10 @@ guess_angle = Prediction(
 guess_angle
 
 # %%
-cosines = [
-    (f"{angle}°", round(float(np.cos(np.radians(angle))), 3)) for angle in (0, 30, 45, 60, 90, 120)
-]
 print(guess_angle.reveal("half"))
 print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
-Table(("angle from level", "share of kG"), tuple(cosines))
+for angle in (0, 60, 120):
+    print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
 
 # %% [markdown]
 # Beyond 90° the share of kG is negative: the arm is past the top, and gravity pulls it down on the

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 35 minutes. You need lessons 1 and 2. You need no robot today.*
+# *About 40 minutes. You need lessons 1 and 2. You need no robot today.*
 #
 # **At the end you can**
 #

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 5: Pre-flight and the first run
 #
-# *About 35 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
+# *About 40 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
 # 6, and take them to the robot.*
 #
 # **At the end you can**

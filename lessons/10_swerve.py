@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 10: Swerve
 #
-# *About 40 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
+# *About 35 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
 #
 # **At the end you can**
 #
