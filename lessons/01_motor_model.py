@@ -147,7 +147,7 @@ print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
 #
-# The next picture computes the three terms for every moment of a drive from the robot's *motion*,
+# From the robot's *motion*, the next picture computes the three terms for every moment of a drive,
 # and draws them as three colored areas, one on top of the other. The thick line is the voltage that
 # the motors really got (the *applied* voltage). If the model is right, the areas reach this line.
 # Move the slider below the picture: it sets the time, and the robot moves.
@@ -381,8 +381,8 @@ print(f"and kA is {geared['kA'] / gains['kA']:.2f} times as large.")
 #
 # > theoretical kV = 12 V / (free speed of the *mechanism*)
 #
-# The data sheet gives the speed of the motor in rpm (rotations per minute), without gears and
-# wheel. So the next cell converts it to the mechanism's speed:
+# The data sheet gives the speed of the motor alone, without gears, in rpm (rotations per minute).
+# So the next cell converts it to the mechanism's speed:
 
 # %%
 rpm = kraken.free_speed * 60 / (2 * math.pi)
@@ -524,10 +524,10 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 #   some belts. (A belt that is only too tight increases kS.)
 # - **Wrong numbers** (gear ratio, wheel size, unit) multiply kV *and* kA by the same factor. They
 #   do not change kS.
-# - **A voltage that never arrived** makes the robot look slower than it is. `set(volts / 12)` sets
-#   a fraction of the battery voltage, not a voltage. With an 11 V battery the motors get at most
-#   11/12 of what the log says, and less when a large current pulls the battery voltage down. All
-#   three gains are wrong.
+# - **A voltage that never reached the motors** makes the robot look slower than it is.
+#   `set(volts / 12)` sets a fraction of the battery voltage, not a voltage. With an 11 V battery
+#   the motors get at most 11/12 of what the log says, and less when a large current pulls the
+#   battery voltage down. All three gains are wrong.
 #
 # When kV is more than 20 % above the theoretical kV, check the easiest things first:
 #
@@ -629,7 +629,7 @@ Table(
 # is wearing out.
 #
 # How high is too high? One rule says: stop if kS is much higher than kV × typical velocity. Our
-# drivetrain's typical velocity is 2 m/s. Above which kS does the rule say *stop*?
+# drivetrain's typical velocity is 2 m/s. How large must kS be before the rule says *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
 #
@@ -641,8 +641,8 @@ Table(
 # > friction this rule allows. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** our drivetrain's typical velocity is 2 m/s. Above which kS does this rule say
-# > *stop*?
+# > **Try it:** our drivetrain's typical velocity is 2 m/s. How large must kS be before this rule
+# > says *stop*?
 # </details>
 
 # %%
@@ -652,9 +652,8 @@ print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop only if kS is a
 print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains['kS']:.2f} V.")
 
 # %% [markdown]
-# So this rule warns you very late. Add an earlier limit named **watch**: kS above 0.5 V, which is
-# about 4 % of 12 V. (This is our own rough rule. Some healthy mechanisms with a high gear ratio are
-# above it.)
+# So this rule warns very late. Add a lower limit named **watch**: kS above 0.5 V, which is about
+# 4 % of 12 V. (This rule is our own. Some healthy mechanisms with a high gear ratio are above it.)
 #
 # Two warning signs need no limit:
 #

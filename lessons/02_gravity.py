@@ -317,9 +317,10 @@ Table(
 # ## 4 An arm: the cosine
 #
 # Hold a heavy bag with your arm stretched out level. Then let the arm hang straight down. The bag
-# is the same, but the level arm needs far more strength. Only the *horizontal* distance from your
-# shoulder to the weight matters. For an arm of length L at the angle θ from level, this distance is
-# L·cos(θ). The cosine is 1 when the arm is level, and 0 when it points straight up or down.
+# is the same, but you need far more strength while your arm is level. Only the *horizontal*
+# distance from your shoulder to the weight matters. For an arm of length L at the angle θ from
+# level, this distance is L·cos(θ). The cosine is 1 when the arm is level, and 0 when it points
+# straight up or down.
 #
 # So the motor needs kG·cos(θ) volts to balance gravity. **Predict:**
 
@@ -885,7 +886,7 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# - Add noise to the middles of the arm's windows: `middle = middle + 0.02 *
+# - Add noise to the middle voltages of the arm's windows: `middle = middle + 0.02 *
 #   np.random.default_rng(1).standard_normal(7)`. By how much does the fitted offset change?
 # - A constant-force spring pulls the carriage up as hard as the motor does with 1 V. What is kG
 #   now? Can kG become negative?

@@ -218,7 +218,7 @@ guess_gap = Prediction(
 display(guess_late, guess_gap)
 
 # %% [markdown]
-# Choose a log and a plot. Begin with *clean* in every plot.
+# Choose a log and a plot. First look at the log "clean" in every plot.
 
 
 # %%
@@ -322,7 +322,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #   see it fall below the threshold of lesson 5.
 # - **Hard stop.** The velocity goes to zero within a few samples. The position stays the same, and
 #   the voltage stays on.
-# - **Loop overrun.** In the plot *time steps*, some points are far above 20 ms. The other plots
+# - **Loop overrun.** In the plot "time steps", some points are far above 20 ms. The other plots
 #   hardly show the fault.
 # - **Command logged.** The voltage of the step test looks perfect, but at first the velocity rises
 #   in a straight line.
@@ -357,7 +357,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
-# > **Try it:** look at both brownouts above in the plot *over time*.
+# > **Try it:** in the menus above, choose each of the two brownouts and the plot "over time".
 # </details>
 #
 # ### How bad are timing gaps?
@@ -689,9 +689,9 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 # - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
 #   information about kV, and only a few about kA.
 # - **The acceleration R² compares accelerations row by row (lesson 7), and it finds more faults.**
-#   Sort the logs by it: spikes (wild readings), the sudden jump and the worst slips are at the
-#   bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or a wrong sign.
-#   And a low value proves nothing: many good logs have one.
+#   Sort the logs by this score: spikes (wild readings), the sudden jump and the worst slips come
+#   last. But this score does *not notice* a wrong voltage, a wrong gear ratio or a wrong sign. And
+#   a low value proves nothing: many good logs have one.
 #
 # <details><summary>Want to know more?</summary>
 #

@@ -269,8 +269,8 @@ by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
 # Now let NumPy do it. `np.linalg.lstsq` ("least squares") needs the equations as a table: one row
-# per sample, and one **column per unknown**. In each row, the column holds the number that
-# multiplies this unknown. For a line, the columns are 1 and v.
+# per sample, and one **column per unknown**. In each row, each column holds the number that
+# multiplies its unknown. For a line, the columns are 1 and v.
 
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
@@ -442,8 +442,8 @@ plot_curves(
 
 # %% [markdown]
 # The acceleration on the left side is the better choice, so SysId uses it. But it is not perfect:
-# the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA, which is
-# 1/β, becomes larger.
+# one column still contains the velocity, which is noisy, too. So α and β become smaller, and kA,
+# which is 1/β, becomes larger.
 #
 # <details><summary>Want to know more? What SysId's source says</summary>
 #
@@ -862,9 +862,9 @@ plot_curves(
 )
 
 # %% [markdown]
-# After a step the velocity rises with the time constant kA/kV (after this time, it has nearly two
-# thirds of its new value). A window that is longer than kA/kV flattens the rise: the filter removes
-# what you want to measure.
+# After a step the velocity rises with the time constant kA/kV (after this time, it has reached
+# nearly two thirds of its new value). A window that is longer than kA/kV flattens the rise: the
+# filter removes what you want to measure.
 #
 # A window of 3 to 5 samples helps on a *slow* mechanism. On a fast mechanism, log faster, or repair
 # the encoder.
@@ -967,7 +967,7 @@ for name, q in (("kP of 0.62", 3.43), ("default in SysId's code", 1.5), ("SysId'
 #
 # <details><summary>Want to know more? Where these numbers come from</summary>
 #
-# The quarter of the top speed is in [SysId's source:
+# The rule "a quarter of the top speed" comes from [SysId's source:
 # Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp).
 # The delays are in
 # [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h).

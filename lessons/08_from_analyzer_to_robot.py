@@ -916,12 +916,12 @@ print(f"Set 3 belongs to the {sets['set 3'][::-1]}.")
 # - **Arm:** test it first without the game piece, then with it (section 7). For a light, short arm,
 #   computed gains may be enough.
 # - **Elevator:** test it with its load. kA and kG change with the mass, kV does not.
-# - **Optional** means: what the mechanism does on *your* robot decides whether you need its gains.
-#   Either answer is right if you give the reason.
+# - **Optional** means: you decide whether the mechanism on *your* robot needs its gains. Either
+#   answer is right if you give the reason.
 # </details>
 #
-# If nothing would be worse with inexact gains, do not test. If you have no room or no time, you can
-# compute kG, kV and kA. But you must measure kS.
+# If inexact gains are good enough, do not test. If you have no room or no time, you can compute kG,
+# kV and kA. But you must measure kS.
 #
 # <details><summary>For mentors: does every team characterize everything?</summary>
 #
@@ -1140,8 +1140,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# Measure kA again. Then compute again what depends on kA: kP, and the mass and moment of inertia in
-# the path planner. kV and kS stay nearly the same.
+# Measure kA again. Then recompute everything that depends on kA: kP, and the mass and moment of
+# inertia in the path planner. kV and kS stay nearly the same.
 # </details>
 #
 # **5.** With kP = 0 your turret hardly moves. With a large kP it reaches the target late, and

@@ -267,7 +267,7 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # ## 3 The residual microscope
 #
 # Subtract the simulation from the log. The difference is called the **residual**. If the residual
-# is large, something is missing in the model. *Where* the residual is large shows you *what* is
+# is large, something is missing in the model. The places where the residual is large show *what* is
 # missing.
 #
 # We convert the residual into a **voltage residual**: the volts that you would have to add to the
@@ -365,14 +365,14 @@ print("D.", guess_d.reveal("breakaway friction"))
 # ### Explain
 #
 # - **A, direction.** Volts are missing when the robot goes forward. In reverse, there are too many
-#   volts. (A floor with a slope looks the same in the plot. To find out which of the two it is,
-#   turn the robot around.)
+#   volts. (A floor with a slope looks the same in the plot. To find out which it is, turn the robot
+#   around.)
 # - **B, time since the jump.** An averaged velocity is *late*. Right after a jump of the voltage,
 #   many volts seem to be missing. A moment later, none are missing.
 # - **C, battery.** The lower the battery voltage, the more volts are missing. The plot against time
 #   shows this, too, because the battery voltage is lowest just after a jump. If two plots show an
 #   effect, take the plot with the higher percentage.
-# - **D, speed.** Only at very low speed, the robot moves as if it got too few volts.
+# - **D, speed.** The robot moves as if it got too few volts only at very low speed.
 #
 # No plot explains 100 %. The rest is noise.
 #
@@ -392,9 +392,9 @@ print("D.", guess_d.reveal("breakaway friction"))
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
-# The plot against the time since the jump explains the largest share. Look at its shape, too: first
-# the robot seems to get too few volts, then too many. A late sensor causes such a shape. A weak
-# battery does not. At very low speed, about 0.1 V is missing, too.
+# The plot against the time since the jump explains the largest share of the residual. Look at its
+# shape: first the robot seems to get too few volts, then too many. A late sensor causes such a
+# shape. A weak battery does not. At very low speed, about 0.1 V is missing, too.
 #
 # **Predict** the first effect to add:
 
@@ -439,8 +439,8 @@ plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 # %% [markdown]
 # **What the bars show:**
 #
-# - No effect makes the gap on the *log* larger, because one more parameter never makes the fit
-#   worse. If you judge by this gap, every effect looks like an improvement.
+# - An additional effect never makes the gap on the *log* larger, because one more parameter never
+#   makes the fit worse. If you judge by this gap, every effect looks like an improvement.
 # - The gap on the *validation* log shows which models are really better. `current-limit` makes the
 #   gap on the fitted log smaller, but the gap on the validation log larger. So do not keep it.
 # - `delay` is almost as good as `velocity-filter`, because it also makes the velocity late (section
@@ -515,9 +515,9 @@ Table(
 )
 
 # %% [markdown]
-# Look at the column *kA ÷ true*. With gains alone, kA is far too large: the robot seems heavier
-# than it is. But it is the **sensor that is slow**. In the model, only kA can make the robot react
-# slowly, so the fit made kA too large.
+# Look at the column *kA ÷ true*. In the model "gains alone", kA is far too large: the robot seems
+# heavier than it is. But it is the **sensor that is slow**. In the model, only kA can make the
+# robot react slowly, so the fit made kA too large.
 #
 # The **position** confirms this. The fits did not use the position, and the filter does not change
 # it. With gains alone, the position error is much larger than with the filter.
@@ -623,7 +623,7 @@ plot_curves(
 # `sim.reconcile` does what you did, with all effects that it knows: fit, simulate, try every
 # effect, keep the effect that the *validation* confirms, and repeat until no further effect helps.
 # It uses the position as well as the velocity. In the next table, the last column shows the gap
-# without each effect, and with it.
+# without and with each effect.
 
 # %%
 story = reconcile(log, validation=validation, held_out=held_out, type="simple")
@@ -652,7 +652,7 @@ print(f"Window of the filter: {window[0]:.0f} ms by hand, {window[1]:.0f} ms by 
 #
 # <details><summary>Want to know why? The first gap of reconcile</summary>
 #
-# With gains alone, reconcile has a *larger* gap than your fit. Reconcile also fits the position,
+# Without effects, reconcile has a *larger* gap than your fit. Reconcile also fits the position,
 # which the filter does not change, so kA cannot hide the slow sensor.
 # </details>
 #
