@@ -373,49 +373,87 @@ class PredictionErrorProblem:
         Raises:
             ValueError: the cost of the estimate is infinite.
         """
-        found = self._fine_jacobians.get(point) if fine else None
-        if found is None:
-            found = self._compute_jacobian(point, fine=fine)
-            if fine and len(self.measured) <= PARALLEL:  # of a long log, it takes much memory
-                self._fine_jacobians[point] = found
-        return found
+        kept = self._jacobians.get(point, {})
+        if fine not in kept:
+            kept = {fine: self._compute_jacobian(point, fine=fine)}
+            self._keep_jacobian(point, kept)
+        return kept[fine]
 
     @cached_property
-    def _fine_jacobians(self) -> WeakKeyDictionary[Estimate, Array]:
-        """Those that were needed: a fit asks for one at its end, for lags and for its errors."""
+    def _jacobians(self) -> WeakKeyDictionary[Estimate, dict[bool, Array]]:
+        """The last one, by ``fine``: lags, effects and errors ask for it again."""
         return WeakKeyDictionary()
 
+    def _keep_jacobian(self, point: Estimate, kept: dict[bool, Array]) -> None:
+        self._jacobians.clear()
+        self._jacobians[point] = kept
+
     def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
-        structure = point.structure
-        sides = [
-            self._difference_points(point, name, fine=fine) for name in structure.searched_names
-        ]
+        names = point.structure.searched_names
+        if fine:
+            table = self.jacobian(point).copy(order="F")
+            table[:, : len(names)] = self.parameter_jacobian(point, names, known=table)
+            return table
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
-        tried = [
-            (structure.model({**point.values, name: value}), point.nuisance)
-            for name, pair in zip(structure.searched_names, sides, strict=True)
-            for value in pair
-            if value != point.values[name]
+        starts = self.predict_errors(point.structure.model(point.values), moved, point.kalman_filter)
+        starts = (starts - point.innovations) / self.noise.position
+        parts = [
+            self.parameter_jacobian(point, names),
+            self._one_column_per_run(self.whiten(point, starts)),
         ]
-        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
-            results = iter(
-                self._simulate_in_parallel(
-                    [*tried, (structure.model(point.values), moved)], point.kalman_filter
-                )
-            )
-            columns = []
-            for name, (low, high) in zip(structure.searched_names, sides, strict=True):
-                own = point.values[name]
-                below = next(results) if low != own else point.innovations
-                above = next(results) if high != own else point.innovations
-                columns.append(self.whiten(point, (above - below) / (high - low)))
-        starts = (next(results) - point.innovations) / self.noise.position
-        columns.append(self._one_column_per_run(self.whiten(point, starts)))
         if self.varying_friction:
-            columns.append(self.friction_jacobian(point))
+            parts.append(self.friction_jacobian(point))
         if self.lag_sd:
-            columns.append(self.lag_jacobian(point))
-        return np.column_stack(columns)
+            parts.append(self.lag_jacobian(point))
+        return np.concatenate([part.T for part in parts]).T
+
+    def extend_jacobian(self, point: Estimate, known: Array) -> None:
+        """Keep the fine Jacobian of an estimate whose last effects are absent, from that without.
+
+        Args:
+            point: the estimate.
+            known: (2 n, others + nuisance) the fine Jacobian at it in a structure without them.
+        """
+        every, parameters = point.structure.searched_names, point.structure.parameters
+        nuisance = len(self.records) * len(self.nuisance_priors(point))
+        others = known.shape[1] - nuisance
+        # how an effect looks changes nothing as long as there is none of it
+        sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
+        table = np.zeros((len(every) + nuisance, len(known)))
+        table[:others], table[len(every) :] = known.T[:others], known.T[others:]
+        one = self.parameter_jacobian(point, sizes)
+        both = self.parameter_jacobian(point, sizes, known=one)
+        table[[every.index(name) for name in sizes]] = both.T
+        self._keep_jacobian(point, {True: table.T})
+
+    def parameter_jacobian(
+        self, point: Estimate, names: Sequence[str], *, known: Array | None = None
+    ) -> Array:
+        """(2 n, names) derivatives of the whitened innovations by some parameters.
+
+        Args:
+            point: where.
+            names: of the parameters.
+            known: (2 n, names or more) these derivatives from one side, of which the mean with
+                those from the other side is returned.
+        """
+        sides = [self._difference_point(point, name, back=known is not None) for name in names]
+        tried = [
+            (point.structure.model({**point.values, name: value}), point.nuisance)
+            for name, value in zip(names, sides, strict=True)
+            if value is not None
+        ]
+        columns = np.empty((len(names), point.innovations.size))
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
+            results = iter(self._simulate_in_parallel(tried, point.kalman_filter))
+            for place, (name, value) in enumerate(zip(names, sides, strict=True)):
+                if value is not None:
+                    change = (next(results) - point.innovations) / (value - point.values[name])
+                    columns[place] = self.whiten(point, change)
+                if known is not None:
+                    one = known[:, place]
+                    columns[place] = one if value is None else 0.5 * (one + columns[place])
+        return columns.T
 
     def friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
@@ -443,18 +481,22 @@ class PredictionErrorProblem:
             priors.append((self.lag_sd, point.nuisance.lag_offset))
         return priors
 
-    def _difference_points(self, point: Estimate, name: str, *, fine: bool) -> tuple[float, float]:
-        """Two values of a parameter whose simulations give the derivative by it."""
+    def _difference_point(self, point: Estimate, name: str, *, back: bool) -> float | None:
+        """Another value of a parameter, whose simulation gives the derivative by it.
+
+        A step up, or down where there is nothing above; ``back`` asks for the other one, None where
+        there is none.
+        """
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
         size = max(structure.parameter_scale(name, value), self.priors.get(name, 0.0))
         step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
-        may_rise = structure.clamp_value(name, above) == above
-        may_fall = structure.clamp_value(name, below) == below
-        return value if may_rise and not (
-            fine and may_fall
-        ) else below, above if may_rise else value
+        if structure.clamp_value(name, above) != above:
+            return None if back else below
+        if not back:
+            return above
+        return below if structure.clamp_value(name, below) == below else None
 
     def _simulate_in_parallel(
         self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
@@ -471,10 +513,10 @@ class PredictionErrorProblem:
 
         A run is not moved without those before it, which may have heated what it found warm.
         """
-        table = np.zeros((change.size, len(self.records)))
+        table = np.zeros((len(self.records), change.size))
         for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
-            table[first:last, number] = change[first:last]
-        return table
+            table[number, first:last] = change[first:last]
+        return table.T
 
 
 @cache

@@ -74,18 +74,22 @@ def append_prior_rows(
 ) -> tuple[Array, Array]:
     """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
     table, rest = problem.jacobian(point, fine=fine), problem.whiten(point, point.innovations)
-    runs = len(problem.records)
+    rows, own = prior_rows(problem, point)
+    return np.vstack([table, rows]), np.concatenate([rest, own])
+
+
+def prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
+    """The rows of the priors in Jacobian and innovations, nuisance parameters first."""
+    runs, names = len(problem.records), point.structure.searched_names
     nuisance = problem.nuisance_priors(point)
-    count = runs * len(nuisance)
-    prior = np.zeros((count, table.shape[1]))
-    prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
-    own = [offset / sd for sd, offset in nuisance]
     known = problem.priors_of(point.structure)
-    rows = np.zeros((len(known), table.shape[1]))
-    for row, (name, sd) in enumerate(known.items()):
-        rows[row, point.structure.searched_names.index(name)] = 1.0 / sd
+    count, columns = runs * len(nuisance), len(names)
+    rows = np.zeros((count + len(known), columns + count))
+    rows[:count, columns:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
+    for row, (name, sd) in enumerate(known.items(), count):
+        rows[row, names.index(name)] = 1.0 / sd
     values = [point.values[name] / sd for name, sd in known.items()]
-    return np.vstack([table, prior, rows]), np.concatenate([rest, *own, values])
+    return rows, np.concatenate([*(offset / sd for sd, offset in nuisance), values])
 
 
 def levenberg_marquardt(
@@ -103,14 +107,13 @@ def levenberg_marquardt(
         return point
     damping = FIRST_DAMPING
     for _ in range(steps):
-        table, rest = append_prior_rows(problem, point)
-        with np.errstate(over="ignore"):  # a value that nothing bears to be moved
-            size = np.linalg.norm(table, axis=0)
+        slope, square = _gradient_and_information(problem, point)
+        size = np.sqrt(np.diag(square))
         size[size == 0.0] = 1.0
-        slope = table.T @ rest / size
+        slope /= size
         free = _movable_columns(point, slope)
-        table, slope = table[:, free] / size[free], slope[free]
-        square, found = table.T @ table, point
+        slope, square = slope[free], (square / np.outer(size, size))[np.ix_(free, free)]
+        found = point
         for _ in range(TRIES):
             way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
             if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
@@ -126,6 +129,16 @@ def levenberg_marquardt(
         if not gained > enough:
             break
     return point
+
+
+def _gradient_and_information(
+    problem: PredictionErrorProblem, point: Estimate
+) -> tuple[Array, Array]:
+    """(k,) half the gradient of -2 log L by all parameters, and (k, k) their information JᵀJ."""
+    table, rest = problem.jacobian(point), problem.whiten(point, point.innovations)
+    rows, own = prior_rows(problem, point)
+    with np.errstate(over="ignore"):  # a value that nothing bears to be moved
+        return table.T @ rest + rows.T @ own, table.T @ table + rows.T @ rows
 
 
 def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:

@@ -50,6 +50,9 @@ def gain_covariances(
     if lacks and not followed.has_misfit:
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
+        if not problem.priors:
+            same = problem.evaluate(point.structure, point.values, point.nuisance, q)
+            extended.extend_jacobian(left, problem.jacobian(same, fine=True))
         table, rest = append_prior_rows(extended, left, fine=True)
         yield (
             left,
