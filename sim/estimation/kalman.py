@@ -12,6 +12,7 @@ small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -135,7 +136,15 @@ def steady_state_filter(
         process_noise: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
         period: [s] between samples.
     """
-    rate, dt = model.gains["kV"] / model.gains["kA"], period
+    gains = model.gains
+    return _steady_state_filter(gains["kV"], gains["kA"], noise, process_noise, period)
+
+
+@lru_cache(maxsize=2)  # a search for other parameters than kV and kA needs the same one each time
+def _steady_state_filter(
+    kv: float, ka: float, noise: SensorNoise, process_noise: float, period: float
+) -> KalmanFilter:
+    rate, dt = kv / ka, period
     # velocities in units of their noise and positions in as many: so the numbers are near one
     kept = math.exp(-rate * dt)
     step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
@@ -143,7 +152,7 @@ def steady_state_filter(
         [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
     )
     rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
-    disturbed = _voltage_covariance(rate, dt) / (model.gains["kV"] * noise.velocity) ** 2
+    disturbed = _voltage_covariance(rate, dt) / (kv * noise.velocity) ** 2
     if process_noise <= 0.0:
         return replace(OPEN_LOOP, measured=rough, step=step, disturbed=disturbed)
     spread = _steady_covariance(step, push, rough)

@@ -152,6 +152,10 @@ class PredictionErrorProblem:
         return np.concatenate([np.concatenate(([0.0], one[:-1])) for one in errors])
 
     @cached_property
+    def _voltage_is_uncertain(self) -> bool:
+        return bool(self.voltage_error.any())
+
+    @cached_property
     def informative(self) -> NDArray[np.bool_]:
         """(n,) samples that are compared: not the first of a run, from which it starts."""
         telling = np.concatenate([record.measurements.informative for record in self.records])
@@ -272,7 +276,7 @@ class PredictionErrorProblem:
 
     def _schedule(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
         """What the filter does at each sample; None where it is the same at all of them."""
-        if not self.voltage_error.any():
+        if not self._voltage_is_uncertain:
             return None
         found = self._schedules.get(kalman_filter)
         if found is None:

@@ -195,7 +195,7 @@ def simulate_run(
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
         model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
         np.array([state.clock]), longest, simple, _as_contiguous(measured),
-        np.tile(np.ravel(_as_contiguous(trust)), (len(measured), 1)), out,
+        _as_contiguous(trust.reshape(-1, 4)[: len(measured)]), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
@@ -246,8 +246,7 @@ def filter_runs(
     aside = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
     corrects = bool(kalman_gain.any())
-    rows = len(batch.measured) if corrects else 0
-    gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
+    gains = kalman_gain.reshape(-1, 4)[: len(batch.measured) if corrects else 0]
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
         batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),

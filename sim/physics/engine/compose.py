@@ -68,7 +68,7 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "ways": f"({WAYS},)",
     "steps": "(4,)",
     "measured": "(rows, 2)",
-    "trust": "(rows, 4)",
+    "trust": "(gains, 4)",
     "out": "(n, 8)",
 }
 RUNNING = {
@@ -216,14 +216,14 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         name: _tuple(f"{name}[{place}]" for place in range(size))
         for name, size in sizes.items()
     }
-    if compiled:  # as CALLED in kernel.py: three lengths, then what `step_runs` asks for
+    if compiled:  # as CALLED in kernel.py: four lengths, then what `step_runs` asks for
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
         places = ("types.int64" if name == "plain" else "place" for name in asked)
         yield "place = types.CPointer(types.float64)"
-        yield f"called = types.void(types.int64, types.int64, types.int64, {', '.join(places)})"
+        yield f"called = types.void(types.int64, types.int64, types.int64, types.int64, {', '.join(places)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
-        yield f"def move(count, n, rows, {', '.join(asked)}):"
+        yield f"def move(count, n, rows, gains, {', '.join(asked)}):"
         exact = {**given, "w": _tuple(["0.0"] * WIRES), "on": _tuple(_delay_flags(effects))}
         exact["plain"], given["plain"] = "True", "False"
         yield "    if plain != 0:  # LLVM leaves out what these constants never ask for"

@@ -31,7 +31,7 @@ NUMBER = np.dtype(np.float64)
 INTEGER, PLACE = ctypes.c_int64, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in compose.py says it
-    None, *[INTEGER] * 3, *[PLACE] * 18, INTEGER, *[PLACE] * 3
+    None, *[INTEGER] * 4, *[PLACE] * 18, INTEGER, *[PLACE] * 3
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -69,15 +69,15 @@ class Kernel:
         n, count = time.size, began.size
         if {asked.size, slides.size} != {n} or len(out) != n or len(measured) not in {0, n}:
             raise TypeError("arrays of the same runs are of one length")
-        if trust.shape != (len(measured), 4):
-            raise TypeError("each measurement has four gains")
+        if trust.shape[1:] != (4,) or len(trust) not in {min(len(measured), 1), len(measured)}:
+            raise TypeError("each measurement has four gains, or all have the same")
         each = low.size, high.size, rubs.size, run_lags.size, sessions.size
         if {len(bodies), *each, edges.size - 1} != {count}:
             raise TypeError("there is one of everything for each run")
         if count and not (edges[0] == 0 and edges[-1] == n and np.all(np.diff(edges) >= 0)):
             raise TypeError("runs lie one behind the other")
         self._call(
-            count, n, len(measured), _place(edges), _place(time), _place(asked), _place(slides),
+            count, n, len(measured), len(trust), _place(edges), _place(time), _place(asked), _place(slides),
             _place(bodies), _place(low), _place(high), _place(rubs), _place(run_lags),
             _place(sessions), _place(c), _place(w), _place(on), _place(p), _place(memory),
             _place(ways), _place(began), _place(steps), plain, _place(measured),
