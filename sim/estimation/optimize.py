@@ -6,6 +6,7 @@ simulations.
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,16 +28,26 @@ class JointJacobian:
     """What of any innovations an estimate's parameters and nuisance parameters can take up.
 
     Args:
-        basis: (2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out.
+        columns: (2 n, k) the Jacobian, its prior rows left out.
+        root: (k, k) what makes its columns, with those rows, orthonormal.
         prior: (k,) what the prior rows hold of the estimate, in that basis.
     """
 
-    basis: Array
+    columns: Array
+    root: Array
     prior: Array
+
+    @cached_property
+    def basis(self) -> Array:
+        """(2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out."""
+        return np.asarray(self.columns @ self.root)
 
     def project(self, white: Array) -> Array:
         """(k,) what of whitened innovations (2 n,) the parameters take up."""
-        return np.asarray(self.basis.T @ white + self.prior)
+        return self._take(white) + self.prior
+
+    def _take(self, white: Array) -> Array:
+        return np.asarray(self.root.T @ (self.columns.T @ white))
 
     def residual_square(self, white: Array) -> float:
         """Sum of squares that is left once they have, up to a constant."""
@@ -45,14 +56,14 @@ class JointJacobian:
 
     def improvement(self, white: Array, columns: Array, sd: float) -> float:
         """[of -2 log L] gain of further columns (2 n, m), whose priors have this deviation."""
-        taken = self.basis.T @ columns
+        taken = self._take(columns)
         square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
         slope = columns.T @ white - taken.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
     def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """What is left of a change's product with innovations, and with itself."""
-        taken = self.basis.T @ change
+        taken = self._take(change)
         product = float(change @ white - taken @ self.project(white))
         return product, float(change @ change - taken @ taken)
 
@@ -63,10 +74,8 @@ def make_joint_jacobian(
     """The joint Jacobian at an estimate; ``fine`` takes central differences."""
     table, rest = append_prior_rows(problem, point, fine=fine)
     size = 2 * len(problem.measured)
-    basis, _ = np.linalg.qr(table)
-    return JointJacobian(
-        np.ascontiguousarray(basis[:size]), np.asarray(basis[size:].T @ rest[size:])
-    )
+    root = np.linalg.pinv(np.linalg.qr(table, mode="r"))
+    return JointJacobian(table[:size], root, root.T @ (table[size:].T @ rest[size:]))
 
 
 def append_prior_rows(
@@ -231,9 +240,10 @@ def invert_information(table: Array, *, weak: NDArray[np.bool_] | None = None) -
         return np.asarray((ways / share) @ ways.T / np.outer(size, size))
     inverse = np.empty((table.shape[1], table.shape[1]))
     strong = ~weak
-    alone = invert_information(table[:, strong])
-    shift = alone @ (table[:, strong].T @ table[:, weak])
-    own = invert_information(table[:, weak] - table[:, strong] @ shift)
+    kept, others = table.T[strong].T, table.T[weak].T
+    alone = invert_information(kept)
+    shift = alone @ (kept.T @ others)
+    own = invert_information(others - kept @ shift)
     inverse[np.ix_(weak, weak)] = own
     inverse[np.ix_(strong, weak)] = -shift @ own
     inverse[np.ix_(weak, strong)] = -(shift @ own).T
