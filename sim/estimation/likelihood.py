@@ -425,9 +425,7 @@ class PredictionErrorProblem:
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
         table = np.zeros((len(every) + nuisance, len(known)))
         table[:others], table[len(every) :] = known.T[:others], known.T[others:]
-        one = self.parameter_jacobian(point, sizes)
-        both = self.parameter_jacobian(point, sizes, known=one)
-        table[[every.index(name) for name in sizes]] = both.T
+        table[[every.index(name) for name in sizes]] = self.parameter_jacobian(point, sizes).T
         self._keep_jacobian(point, {True: table.T})
 
     def parameter_jacobian(
