@@ -272,7 +272,7 @@ class PredictionErrorProblem:
         if (schedule := self._schedule(kalman_filter)) is None:
             return 0.0
         scales = schedule.scales[self.informative[schedule.uncertain]]
-        return float(-2.0 * np.sum(np.log(np.linalg.det(scales))))
+        return float(-2.0 * np.sum(np.log(scales[:, 0, 0] * scales[:, 1, 1])))  # triangular
 
     def _schedule(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
         """What the filter does at each sample; None where it is the same at all of them."""
