@@ -14,10 +14,10 @@ offset x from its first reading, its friction may differ by δ from that of the 
 import math
 import os
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -32,6 +32,9 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
 from sim.physics.engine import EXPECTED, RunBatch, Track, filter_runs
 from sim.physics.model import Model
+
+if TYPE_CHECKING:
+    from concurrent.futures import ThreadPoolExecutor
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
@@ -522,6 +525,8 @@ class PredictionErrorProblem:
 
 
 @cache
-def _threads() -> ThreadPoolExecutor:
+def _threads() -> "ThreadPoolExecutor":
     """As many as there are cores, for logs that are worth it."""
+    from concurrent.futures import ThreadPoolExecutor  # noqa: PLC0415 - only long logs wait for it
+
     return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="simulate")

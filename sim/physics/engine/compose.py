@@ -6,9 +6,9 @@ folder of the user's cache under a name made of that text, so that a changed or 
 new engine.
 """
 
-import ast
 import hashlib
 import inspect
+import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import FunctionType, ModuleType
@@ -53,6 +53,8 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
 }
 DELAY_HOOKS = frozenset({"command_delay", "transform_velocity"})
 """The hooks that a model with an exact solution may have."""
+HEAD = re.compile(r'"""[\s\S]*?"""\n(\n|import .*\n|from .* import (\([^)]*\)|.*)\n)*')
+"""A module's first lines: its docstring and its imports."""
 SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects remember
     "edges": "(count + 1,)",
     "time": "(n,)",
@@ -262,8 +264,8 @@ def _alias(effect: Effect, hook: str) -> str:
 def _module_lines(module: ModuleType) -> Iterator[str]:
     """A module's text without its imports, each function made a compiled one."""
     text = inspect.getsource(module)
-    imports = [one for one in ast.parse(text).body if isinstance(one, ast.Import | ast.ImportFrom)]
-    for line in text.splitlines()[imports[-1].end_lineno :]:
+    head = HEAD.match(text)
+    for line in text[head.end() if head else 0 :].splitlines():
         if line.startswith("def "):
             yield "@step"
             yield "def " + line[4:]
