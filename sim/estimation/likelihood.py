@@ -173,6 +173,10 @@ class PredictionErrorProblem:
         return ignored
 
     @cached_property
+    def _ignored_places(self) -> NDArray[np.intp]:
+        return np.flatnonzero(self.ignored_readings)
+
+    @cached_property
     def compared_counts(self) -> tuple[int, int, int]:
         """How many positions are compared, how many velocities, and how many pairs; at least 1."""
         x, v = ~self.ignored_readings.T
@@ -252,11 +256,11 @@ class PredictionErrorProblem:
         errors = (
             self.measured - self._filter_runs(model, nuisance, kalman_filter, batch)[:, EXPECTED:]
         )
-        np.copyto(errors, 0.0, where=self.ignored_readings)
+        errors.reshape(-1)[self._ignored_places] = 0.0
         if (schedule := self._schedule(kalman_filter)) is not None:
             rows = schedule.uncertain
             errors[rows] = (schedule.scales @ errors[rows, :, None])[..., 0]
-            np.copyto(errors, 0.0, where=self.ignored_readings)
+            errors.reshape(-1)[self._ignored_places] = 0.0
         return np.asarray(errors)
 
     def _filter_runs(
