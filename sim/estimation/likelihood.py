@@ -30,7 +30,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import friction_prior, friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import EXPECTED, RunBatch, Track, filter_runs
+from sim.physics.engine import RunBatch, Track, filter_runs
 from sim.physics.model import Model
 
 if TYPE_CHECKING:
@@ -253,9 +253,8 @@ class PredictionErrorProblem:
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
-        errors = (
-            self.measured - self._filter_runs(model, nuisance, kalman_filter, batch)[:, EXPECTED:]
-        )
+        errors = np.empty(self.measured.shape)
+        self._filter_runs(model, nuisance, kalman_filter, batch, errors)
         errors.reshape(-1)[self._ignored_places] = 0.0
         if (schedule := self._schedule(kalman_filter)) is not None:
             rows = schedule.uncertain
@@ -264,14 +263,15 @@ class PredictionErrorProblem:
         return np.asarray(errors)
 
     def _filter_runs(
-        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch
-    ) -> Array:
+        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch,
+        errors: Array | None = None,
+    ) -> Array:  # fmt: skip
         schedule = self._schedule(kalman_filter)
         gain = kalman_filter.steady if schedule is None else schedule.gains
         return filter_runs(
             model, batch, kalman_gain=gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
-            friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset,
+            friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset, errors=errors,
         )  # fmt: skip
 
     def _log_scale(self, kalman_filter: KalmanFilter) -> float:

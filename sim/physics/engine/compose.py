@@ -71,6 +71,7 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "steps": "(4,)",
     "measured": "(rows, 2)",
     "trust": "(gains, 4)",
+    "errors": "(rows, 2)",
     "out": "(n, 8)",
 }
 RUNNING = {
