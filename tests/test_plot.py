@@ -47,7 +47,7 @@ PICTURES = {
     ),
     "time series in rotations": lambda: plot_time_series(SHOOTER),
     "one test only": lambda: plot_time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
-    "voltage over velocity": lambda: plot_voltage_velocity(DRIVE),
+    "voltage against velocity": lambda: plot_voltage_velocity(DRIVE),
     "with lines": lambda: plot_voltage_velocity(
         DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}
     ),
@@ -56,7 +56,7 @@ PICTURES = {
     ),
     "timesteps": lambda: plot_timesteps(DRIVE),
     "velocity over time": lambda: plot_velocity_time(SHOOTER, median=3, beside=SHOOTER),
-    "acceleration over velocity": lambda: plot_acceleration_velocity(DRIVE),
+    "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
     "acceleration with a fit": lambda: plot_acceleration_velocity(
         SHOOTER, gains=sim.MECHANISMS["shooter"].gains
     ),

@@ -1,4 +1,4 @@
-"""Acceleration over velocity, as SysId draws it: what back-EMF takes off, and the fit's line.
+"""Acceleration against velocity, as SysId draws it: what back-EMF takes off, and the fit's line.
 
 Source: WPILib SysId 2026, ``view/AnalyzerPlot.cpp``, "Acceleration vs. Velocity".
 """
@@ -22,7 +22,7 @@ FEWEST = 3  # samples that a straight line can miss
 def plot_acceleration_velocity(
     log: Log, *, gains: Mapping[str, float] | None = None, median: int = 1
 ) -> Picture:
-    """Acceleration over velocity of the rows that SysId's regression uses.
+    """Acceleration against velocity of the rows that SysId's regression uses.
 
     With gains it is SysId's "Acceleration vs. Velocity": of each acceleration, what voltage,
     friction and gravity account for is taken off, so that back-EMF alone is left, and the fit is a
@@ -134,12 +134,12 @@ def _table(
         else (f"mean off the line [{symbol}²]", f"typical miss [{symbol}²]")
     )
     header = ("test", "samples", f"slowest [{symbol}]", f"fastest [{symbol}]", *last)
-    return Table(header, tuple(lines), caption="Acceleration over velocity, the rows of the fit")
+    return Table(header, tuple(lines), caption="Acceleration against velocity, the rows of the fit")
 
 
 def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
     """What the picture shows; the numbers are those of the table."""
-    square, said = f"{per.symbol}/s²", "The picture shows acceleration over velocity"
+    square, said = f"{per.symbol}/s²", "The picture shows acceleration against velocity"
     if gains is None:
         said += ", as recorded and filtered."
     else:
