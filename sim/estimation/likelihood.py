@@ -405,8 +405,9 @@ class PredictionErrorProblem:
             table = self.jacobian(point).copy(order="F")
             table[:, : len(names)] = self.parameter_jacobian(point, names, known=table)
             return table
+        model = point.structure.model(point.values)
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
-        starts = self.predict_errors(point.structure.model(point.values), moved, point.kalman_filter)
+        starts = self.predict_errors(model, moved, point.kalman_filter)
         starts = (starts - point.innovations) / self.noise.position
         parts = [
             self.parameter_jacobian(point, names),

@@ -216,15 +216,15 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         "p": sum(len(effect.parameters) for effect in effects.values()),
     }
     given = {
-        name: _tuple(f"{name}[{place}]" for place in range(size))
-        for name, size in sizes.items()
+        name: _tuple(f"{name}[{place}]" for place in range(size)) for name, size in sizes.items()
     }
     if compiled:  # as CALLED in kernel.py: four lengths, then what `step_runs` asks for
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
         places = ("types.int64" if name == "plain" else "place" for name in asked)
         yield "place = types.CPointer(types.float64)"
-        yield f"called = types.void(types.int64, types.int64, types.int64, types.int64, {', '.join(places)})"
+        lengths = ", ".join(["types.int64"] * 4)
+        yield f"called = types.void({lengths}, {', '.join(places)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
         yield f"def move(count, n, rows, gains, {', '.join(asked)}):"
         exact = {**given, "w": _tuple(["0.0"] * WIRES), "on": _tuple(_delay_flags(effects))}
