@@ -195,7 +195,7 @@ def simulate_run(
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
         model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
         np.array([state.clock]), longest, simple, _as_contiguous(measured),
-        np.tile(np.ravel(_as_contiguous(trust)), (len(measured), 1)), out,
+        _as_contiguous(trust.reshape(-1, 4)[: len(measured)]), np.empty((len(measured), 2)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
@@ -215,6 +215,7 @@ def filter_runs(
     backlash_phase: Array,
     friction_offset: Array,
     lag_offset: Array,
+    errors: Array | None = None,
 ) -> Array:
     """Predict all runs of a batch with a model and its Kalman gain, in one call of the engine.
 
@@ -232,6 +233,7 @@ def filter_runs(
             weight decides.
         friction_offset: (runs,) [V] dry friction of each beyond kS.
         lag_offset: (runs,) [s] by which each is late beyond the model's delay.
+        errors: (n, 2) where innovations are written, measured minus expected, if wanted.
 
     Returns:
         (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
@@ -245,15 +247,16 @@ def filter_runs(
     bodies = np.column_stack([begin, batch.velocity, load, batch.velocity, np.zeros(begin.size)])
     aside = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
-    corrects = bool(kalman_gain.any())
-    rows = len(batch.measured) if corrects else 0
-    gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
+    measured = batch.measured if errors is not None or kalman_gain.any() else UNSEEN
+    gains = _as_contiguous(kalman_gain.reshape(-1, 4)[: len(measured)])
+    errors = np.empty(measured.shape) if errors is None else errors
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
         batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
         batch.sessions, model_constants(model), NO_WIRES, on, parameters,
         np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
-    batch.measured if corrects else UNSEEN, _as_contiguous(gains), out )  # fmt: skip
+        measured, gains, errors, out,
+    )  # fmt: skip
     return out
 
 

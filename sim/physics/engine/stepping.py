@@ -74,11 +74,11 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
     u = limit_voltage(w, 0.0 if off else asked, state[V])
-    out[k, APPLIED] = u
+    current, bus = 0.0, 0.0
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
-        out[k, BUS] = bus_voltage(w, u, current)
-        out[k, CURRENT] = current
+        bus = bus_voltage(w, u, current)
+    out[k, APPLIED], out[k, BUS], out[k, CURRENT] = u, bus, current
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
@@ -132,15 +132,16 @@ def voltage_slope(time: Array, slides: Array, command: int) -> float:
 def step_run(
     time: Array, asked: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
-    measured: Array, trust: Array, out: Array,
+    measured: Array, trust: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
     """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
 
     A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
     by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
     where it rests, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that
-    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4); without
-    rows it goes its way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that
+    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4), or
+    (1, 4) for all; by how much they are off goes into ``errors`` (n, 2). Without rows it goes its
+    way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that
     even that does not shorten, and [unit/s] by which the speed changes. ``ways`` is room for the
     tables of ``two_body_modes.py``: of one model only, and empty at first.
     """
@@ -158,7 +159,8 @@ def step_run(
         out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
             ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
-            correct_state(state, ahead, faster, trust[k])
+            errors[k, 0], errors[k, 1] = ahead, faster
+            correct_state(state, ahead, faster, trust[min(k, trust.shape[0] - 1)])
             out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
             out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
@@ -189,7 +191,8 @@ def step_runs(
     edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
     high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
-measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
+    measured: Array, trust: Array, errors: Array, out: Array,
+) -> None:  # fmt: skip
     """Move through runs that lie one behind the other, ``run`` by ``run``.
 
     A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
@@ -202,15 +205,17 @@ measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
         if k > 0 and sessions[k] != sessions[k - 1]:
             for i in range(memory.size):
                 memory[i] = 0.0
-        lead = measured[first:last] if measured.shape[0] > 0 else measured
-        gains = trust[first:last] if measured.shape[0] > 0 else trust
+        lead, left = measured, errors
+        if measured.shape[0] > 0:
+            lead, left = measured[first:last], errors[first:last]
+        gains = trust[first:last] if trust.shape[0] > 1 else trust
         step_run(
             time[first:last], asked[first:last], slides[first:last], bodies[k],
             bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k],
-            run_lags[k], steps, plain, lead, gains, out[first:last],
+            run_lags[k], steps, plain, lead, gains, left, out[first:last],
         )  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
     """Allocate the output array of ``move`` for ``n`` samples."""
-    return np.zeros((n, 8))
+    return np.empty((n, 8))
