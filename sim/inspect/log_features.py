@@ -98,6 +98,11 @@ class LogFeatures:
         return tuple(_distance_ratio(run, moving) for run, moving in both)
 
     @cached_property
+    def usual_distance_ratio(self) -> float:
+        """The median of all runs: a conversion factor is the same in all of them."""
+        return float(np.median(self.distance_ratios)) if self.distance_ratios else 1.0
+
+    @cached_property
     def velocity_lag(self) -> VelocityLag | None:
         """How late its velocity is against its position; None if nothing moves."""
         return estimate_velocity_lag(self.log.runs)

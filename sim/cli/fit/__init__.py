@@ -2,11 +2,10 @@
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -18,7 +17,14 @@ from sim.cli.fit.plausibility import (
     compare_directions_alone,
     read_motor_parts,
 )
-from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
+from sim.cli.options import (
+    FILE,
+    PartReader,
+    as_json,
+    reading_options,
+    several_options,
+    velocity_options,
+)
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -34,26 +40,20 @@ if TYPE_CHECKING:
 LOOPS = ("velocity", "position")
 
 
-def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options for the user's own feedback gains, to be simulated, too."""
-    options = (
-        click.option("--own-kp", type=float, help="Try your own kP in simulation …"),
-        click.option("--own-kd", type=float, help="… and your own kD (0 if left out) …"),
-        click.option(
-            "--loop", type=click.Choice(LOOPS), help="… of this loop.  [default: velocity]"
-        ),
-        click.option("--html", type=FILE, help="Write a page with every figure and number."),
-        click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
-        click.option(
-            "--wpilog",
-            type=FILE,
-            help="Write measured, simulated, residual and innovation as a log, and a layout file "
-            "for AdvantageScope.",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# The user's own feedback gains, to be simulated, too, and the files to write.
+feedback_options = several_options(
+    click.option("--own-kp", type=float, help="Try your own kP in simulation …"),
+    click.option("--own-kd", type=float, help="… and your own kD (0 if left out) …"),
+    click.option("--loop", type=click.Choice(LOOPS), help="… of this loop.  [default: velocity]"),
+    click.option("--html", type=FILE, help="Write a page with every figure and number."),
+    click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
+    click.option(
+        "--wpilog",
+        type=FILE,
+        help="Write measured, simulated, residual and innovation as a log, and a layout file "
+        "for AdvantageScope.",
+    ),
+)
 
 
 @click.command()

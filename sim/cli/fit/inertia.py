@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.parts import describe_kind, fit_parts
-from sim.cli.options import FILE, PartReader
+from sim.cli.options import FILE, PartReader, several_options
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class Turning:
 
 def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options for a robot that turns on the spot; the command gets them as ``turning``."""
-    options = (
+    options = several_options(
         click.option(
             "--straight",
             type=FILE,
@@ -63,9 +63,7 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
         turning = _read_turning(straight, mass=mass, lever=lever)
         return command(*args, turning=turning, **others)
 
-    for option in reversed(options):
-        asked = option(asked)
-    return asked
+    return options(asked)
 
 
 def _read_turning(

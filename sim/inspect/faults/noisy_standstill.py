@@ -46,7 +46,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
             velocity = run.velocity.copy()
             velocity[: still[index]] += size * rng.standard_normal(still[index])
             runs[index] = replace(run, velocity=velocity)
-            where.append(_stretch(index, run, still[index]))
+            where.append(LogInterval.of_samples(index, run, last=still[index] - 1))
     return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
@@ -99,7 +99,7 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
     passed = int(np.sum(np.abs(rest) >= threshold))
     return Damage(
         fault="noisy-standstill",
-        where=_stretch(index, run, rest.size),
+        where=LogInterval.of_samples(index, run, last=rest.size - 1),
         confidence=confidence,
         evidence=f"The position does not change for {rest.size} samples, but the velocity reads "
         f"about ±{noise:.3g} per second. That is above SysId's own threshold for this test, "
@@ -107,10 +107,6 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
         advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
         "comes before the motion.",
     )
-
-
-def _stretch(index: int, run: Run, still: int) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[still - 1]))
 
 
 FAULT = Fault(
