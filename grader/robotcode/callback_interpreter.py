@@ -87,8 +87,7 @@ class CallbackInterpreter(StatementInterpreter):
 
     def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
-        owner = node.target.owner if isinstance(node.target, Member) else None
-        receiver = None if owner is None else self.evaluate(owner, frame)
+        receiver = None if node.owner is None else self.evaluate(node.owner, frame)
         args = [self.evaluate(arg, frame) for arg in node.args]
         if node.spread:  # any of the arguments that are left may be in it
             args += [replace(frame.unknown_value(node), carries=None, factor=None)] * MOST_SPREAD

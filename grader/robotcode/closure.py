@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from grader.robotcode.ir import (
     Call,
     Cast,
-    Class,
     Element,
     Function,
     FunctionParameter,
@@ -15,11 +14,18 @@ from grader.robotcode.ir import (
     Name,
     Node,
     Reference,
-    Return,
     Self,
-    iter_nodes,
 )
-from grader.robotcode.name_resolution import MOST_STEPS, Method, find_called_functions, find_class
+from grader.robotcode.name_resolution import (
+    MOST_STEPS,
+    Method,
+    find_called_functions,
+    find_class,
+    find_single_return,
+    infer_type,
+    infer_type_from,
+    simple_type_name,
+)
 from grader.robotcode.scope import Definition, Scope
 from grader.robotcode.symbol_table import SymbolTable
 
@@ -104,10 +110,25 @@ def enter_call(seen: BoundNode, method: Method) -> BoundNode:
     return BoundNode(function, scope, given)
 
 
-def list_returned_nodes(function: Function) -> list[Node]:
-    """The nodes that a function may return."""
-    found = iter_nodes(*function.body, but=(Function, Class))
-    return [node.value for node in found if isinstance(node, Return)]
+def infer_bound_class(seen: BoundNode, names: SymbolTable) -> str:
+    """The class of an object, by its own name; empty if unknown."""
+    found = infer_type(seen.node, seen.scope, names)
+    return simple_type_name(found or infer_type_from(tuple(find_definitions(seen, names)), names))
+
+
+def is_open_parameter(seen: BoundNode, names: SymbolTable) -> bool:
+    """Whether a name is a parameter that nobody has given anything yet."""
+    if not isinstance(seen.node, Name):
+        return False
+    found = names.find_local(seen.node.name, seen.scope)
+    return any(isinstance(one.value, FunctionParameter) for one in found)
+
+
+def find_bound_return(inside: BoundNode) -> BoundNode | None:
+    """What the body of a function returns; None if that may be one of several."""
+    function = inside.node
+    returned = find_single_return(function) if isinstance(function, Function) else None
+    return None if returned is None else inside.with_node(returned)
 
 
 def list_called_functions(node: Node, scope: Scope, names: SymbolTable) -> list[Function]:

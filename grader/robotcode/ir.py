@@ -159,6 +159,16 @@ class Call(Node):
     named: tuple[tuple[str, Node], ...] = ()
     spread: bool = False
 
+    @property
+    def all_args(self) -> tuple[Node, ...]:
+        """The positional arguments and the values of the keyword arguments."""
+        return (*self.args, *(node for _, node in self.named))
+
+    @property
+    def owner(self) -> Node | None:
+        """What a method is called on; None for a bare function."""
+        return self.target.owner if isinstance(self.target, Member) else None
+
 
 @dataclass(frozen=True, eq=False)
 class Operation(Node):

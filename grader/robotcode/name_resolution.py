@@ -23,7 +23,7 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.scope import Definitions, Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import STAND_INS
+from grader.robotcode.vocabulary import STAND_INS, java_spelling
 
 MOST_STEPS = 20  # names followed, one to the next
 MOST_PIECES = 5  # strings joined one into the other
@@ -40,6 +40,11 @@ def simple_type_name(type_: str) -> str:
 def last_name(node: Node) -> str:
     """The last part of a dotted name, ``Config`` of ``SysIdRoutine.Config``; else empty."""
     return node.name if isinstance(node, Name | Member) else ""
+
+
+def method_name(call: Call) -> str:
+    """The name of what is called, in Java's spelling; empty if it has none."""
+    return java_spelling(last_name(call.target))
 
 
 def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
@@ -75,10 +80,16 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
     return node, scope
 
 
+def list_returned_nodes(function: Function) -> list[Node]:
+    """The nodes that a function may return."""
+    found = iter_nodes(*function.body, but=(Function, Class))
+    return [node.value for node in found if isinstance(node, Return)]
+
+
 def find_single_return(function: Function) -> Node | None:
     """The node that a function returns, if it has a single return."""
-    found = [n for n in iter_nodes(*function.body, but=(Function, Class)) if isinstance(n, Return)]
-    return found[0].value if len(found) == 1 else None
+    found = list_returned_nodes(function)
+    return found[0] if len(found) == 1 else None
 
 
 def infer_type(node: Node, scope: Scope, names: SymbolTable) -> str:

@@ -166,9 +166,8 @@ class _SettingsReader:
                 if isinstance(node, Assign) and node.value is not None:
                     self._assigned(last_name(node.target), node.value)
                 elif isinstance(node, Call) and isinstance(node.target, Member):
-                    args = [*node.args, *(value for _, value in node.named)]
-                    if args:
-                        self._called(node.target, args[0], scope)
+                    for first in node.all_args[:1]:
+                        self._called(node.target, first, scope)
         return self._found
 
     def _assigned(self, name: str, value: Node) -> None:
