@@ -81,7 +81,8 @@ class DriveTrace(CallbackInterpreter):
     ) -> Value | None:
         """Note a command to a motor, or a call that may be one."""
         method = method_name(call)
-        if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
+        of_motor = receiver is not None and self._is_motor(receiver)
+        if not of_motor and any(map(self._is_motor, args)):
             self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
             return None
         if method[:1].isupper():  # makes an object, a request perhaps
@@ -92,7 +93,7 @@ class DriveTrace(CallbackInterpreter):
             return None
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
-        if method in STOPS and receiver is not None and self._is_motor(receiver):
+        if method in STOPS and of_motor:
             if self.sure:  # under a condition it is a limit that ends the test early
                 self._note(call, receiver, Output.VOLTAGE, sent)
             return at
