@@ -148,9 +148,8 @@ def make_grade_record(grade: Grade) -> Record:
 
 
 def make_ungraded_student(
-    student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str,
-    digest: str = "",
-) -> GradedStudent:  # fmt: skip
+    student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str
+) -> GradedStudent:
     """The results of a student of whom nothing could be graded.
 
     Args:
@@ -158,7 +157,6 @@ def make_ungraded_student(
         asked: the exercises.
         handed_in: of which exercises there was something.
         reason: why it could not be graded, one line.
-        digest: as in ``Graded``; empty keeps the results from being taken for final.
     """
     records = tuple(
         make_missing_record(one, student, status="ungradable", reason=reason)
@@ -166,4 +164,4 @@ def make_ungraded_student(
         else make_missing_record(one, student, status=MISSING, reason=NOTHING)
         for one in asked
     )
-    return GradedStudent(student, digest, records)
+    return GradedStudent(student, "", records)  # no digest: it is not taken for final
