@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from grader.check import Status
 from grader.classroom.bundle import unpack_course
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
 
-Record = dict[str, object]
+Record = dict[str, Any]  # as JSON holds it
 
 
 @dataclass(frozen=True)
