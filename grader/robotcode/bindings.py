@@ -343,13 +343,8 @@ class _Reader:
     def _said(self, places: tuple[SourceSpan, ...]) -> str:
         """The comments beside the places that led to a binding."""
         found = dict.fromkeys(
-            find_comments_near(self._comments, place.line, _last(place))
+            find_comments_near(self._comments, place.line, place.last_line)
             for place in places
             if place.source is self._names.main.source
         )
         return " ".join(filter(None, found))
-
-
-def _last(place: SourceSpan) -> int:
-    """The line a piece of code ends on."""
-    return place.line + place.source.count(b"\n", place.start, place.end)

@@ -26,7 +26,7 @@ from grader.robotcode.name_resolution import (
     infer_type_from,
     simple_type_name,
 )
-from grader.robotcode.scope import Definition, Scope
+from grader.robotcode.scope import Definition, Scope, find_only_value
 from grader.robotcode.symbol_table import SymbolTable
 
 if TYPE_CHECKING:
@@ -66,12 +66,11 @@ def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
 
 def _value(seen: BoundNode, names: SymbolTable) -> BoundNode | None:
     """The one value of a variable; None if it has none or several, or is a parameter."""
-    valued = [one for one in find_definitions(seen, names) if one.value is not None]
-    if len(valued) != 1 or isinstance(valued[0].value, FunctionParameter | Element | Function):
+    found = find_only_value(find_definitions(seen, names))
+    if found is None or isinstance(found[0], FunctionParameter | Element | Function):
         return None
-    one = valued[0]
-    here, there = seen.scope.functions[:1], one.scope.functions[:1]
-    return BoundNode(one.value or seen.node, one.scope, seen.given if here == there else {})
+    here, there = seen.scope.functions[:1], found[1].functions[:1]
+    return BoundNode(*found, seen.given if here == there else {})
 
 
 def find_definitions(seen: BoundNode, names: SymbolTable) -> Sequence[Definition]:

@@ -15,7 +15,7 @@ from grader.robotcode.name_resolution import (
     last_name,
     simple_type_name,
 )
-from grader.robotcode.scope import Scope
+from grader.robotcode.scope import Scope, find_only_value
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS, java_spelling
 
@@ -108,9 +108,9 @@ class ConstantFolder:
 
     def _named(self, node: Name | Member, scope: Scope, depth: int) -> FoldedConstant | None:
         definitions = self._names.find_definitions(node, scope)
-        valued = [d for d in definitions if d.value is not None]
-        if len(valued) == 1 and valued[0].value is not None:
-            found = self.fold(valued[0].value, valued[0].scope, depth=depth)
+        only = find_only_value(definitions)
+        if only is not None:
+            found = self.fold(*only, depth=depth)
             declared = next((d.type for d in definitions if d.type), "")
             return _typed(found, declared)
         number = None if definitions else _library_number(node, scope)

@@ -32,6 +32,11 @@ class SourceSpan:
     line: int
 
     @property
+    def last_line(self) -> int:
+        """The line it ends on."""
+        return self.line + self.source.count(b"\n", self.start, self.end)
+
+    @property
     def text(self) -> str:
         """The source text on one line."""
         stretch = self.source[self.start : min(self.end, self.start + 4 * LONGEST)]

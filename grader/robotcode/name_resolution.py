@@ -21,7 +21,7 @@ from grader.robotcode.ir import (
     Text,
     iter_nodes,
 )
-from grader.robotcode.scope import Definitions, Scope, walk_with_scopes
+from grader.robotcode.scope import Definitions, Scope, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import STAND_INS, java_spelling
 
@@ -68,10 +68,10 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
             continue
         if isinstance(node, Reference):
             break
-        valued = [d for d in names.find_definitions(node, scope) if d.value is not None]
-        if len(valued) != 1 or valued[0].value is None:
+        found = find_only_value(names.find_definitions(node, scope))
+        if found is None:
             break
-        node, scope = valued[0].value, valued[0].scope
+        node, scope = found
         if isinstance(node, Function) and node.property:
             returned = find_single_return(node)
             if returned is None:
@@ -229,8 +229,8 @@ def find_called_functions(
     ]
     if functions or scope.module.language == "python":
         return functions
-    homes = (Scope(scope.module, scope.classes[:n]) for n in range(len(scope.classes), 0, -1))
-    return next(filter(None, (_fitting(target.name, h, names, count) for h in homes)), [])
+    found = (_fitting(target.name, home, names, count) for home in scope.homes)
+    return next(filter(None, found), [])
 
 
 def find_methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:

@@ -338,7 +338,7 @@ class _JavaFile:
         )
 
     def _is_field(self, name: str, scope: Scope) -> bool:
-        for home in _homes(scope):
+        for home in scope.homes:
             if any(name in self.names.find_fields(at) for at in self.names.list_base_classes(home)):
                 return True
             if "enum" in home.classes[-1].place.text:
@@ -350,7 +350,7 @@ class _JavaFile:
         return all(
             simple_type_name(base) in PLAIN
             or self.names.find_by_name(simple_type_name(base), place) is not None
-            for home in _homes(scope)
+            for home in scope.homes
             for place in self.names.list_base_classes(home)
             for base in place.classes[-1].bases
         )
@@ -415,12 +415,6 @@ def _types(node: Node) -> Iterator[str]:
     elif isinstance(node, Class):
         written = " ".join(base for base in node.bases if base[:1].isupper())
     yield from re.findall(r"(?<![\w.])[A-Z]\w+", written)
-
-
-def _homes(scope: Scope) -> Iterator[Scope]:
-    """The classes around some code, the innermost first."""
-    for count in range(len(scope.classes), 0, -1):
-        yield Scope(scope.module, scope.classes[:count])
 
 
 def _is_case(node: Name) -> bool:
