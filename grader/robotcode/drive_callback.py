@@ -87,10 +87,17 @@ class DriveTrace(CallbackInterpreter):
             return None
         if method[:1].isupper():  # makes an object, a request perhaps
             return None
-        if not self._may_be_motor(method, receiver, at):
-            if receiver is not None and self._may_lead_to_one(method, receiver, args):
-                self.note_unreadable(call)
-            return None
+        if self._may_be_motor(method, receiver, at):
+            return self._command(call, receiver, args, at, of_motor=of_motor)
+        if receiver is not None and self._may_lead_to_one(method, receiver, args):
+            self.note_unreadable(call)
+        return None
+
+    def _command(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value, *, of_motor: bool
+    ) -> Value | None:
+        """Note a command to what is, or may be, a motor; None if it is no command."""
+        method = method_name(call)
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
         if method in STOPS and of_motor:

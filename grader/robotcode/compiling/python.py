@@ -146,7 +146,7 @@ def _is_set(node: ast.Attribute) -> bool:
 
 def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | None:
     """All attributes of a class; None where it inherits from a class out of sight."""
-    known = set(INHERITED) | {java_spelling(name) for name in INHERITED}
+    known = {*INHERITED}
     known |= {"".join(f"_{a.lower()}" if a.isupper() else a for a in name) for name in INHERITED}
     waiting, seen = [one], set()
     while waiting:
