@@ -190,7 +190,7 @@ def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Ge
             )
         return at
     speed = np.abs(run.velocity)
-    moving = np.flatnonzero(speed > MOVING * float(np.quantile(speed, 0.98)))
+    moving = np.flatnonzero(speed > MOVING * run.top_speed)
     first, last = (moving[0], moving[-1]) if moving.size else (0, -1)
     begin, end = (float(run.time[i] - run.time[0]) for i in (first, last))
     return begin + float(rng.uniform(*fault.when)) * (end - begin)

@@ -129,8 +129,7 @@ class LogFeatures:
     @cached_property
     def still_speed(self) -> float:
         """[m/s or rad/s] threshold between motion and standstill."""
-        top = max((run.top_speed for run in self.log.runs), default=0.0)
-        return STANDING * top + 3.0 * self.noise
+        return STANDING * self.log.top_speed + 3.0 * self.noise
 
     @cached_property
     def baseline(self) -> BaselineModel | None:

@@ -57,9 +57,8 @@ def _line(speed: Array, height: Array) -> tuple[float, float] | tuple[str, str]:
     """The straight line of the samples: at standstill, and its slope; dashes if there is none."""
     if speed.size < FEWEST or not np.ptp(speed) > 0.0:
         return "–", "–"
-    across, up = speed - speed.mean(), height - height.mean()
-    slope = float(across @ up) / float(across @ across)
-    return float(height.mean() - slope * speed.mean()), slope
+    rest, slope = np.polynomial.Polynomial.fit(speed, height, 1).convert().coef
+    return float(rest), float(slope)
 
 
 def _table(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:

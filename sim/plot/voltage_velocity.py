@@ -174,9 +174,8 @@ def _stray(one: _Ramps, *, top: float) -> float | None:
     velocity, voltage = one.velocity[moving], one.voltage[moving]
     if velocity.size < FEWEST or not np.ptp(velocity) > 0.0:
         return None
-    across, up = velocity - velocity.mean(), voltage - voltage.mean()
-    slope = float(across @ up) / float(across @ across)
-    return float(np.sqrt(np.mean((up - slope * across) ** 2)))
+    line = np.polynomial.Polynomial.fit(velocity, voltage, 1)
+    return float(np.sqrt(np.mean((voltage - line(velocity)) ** 2)))
 
 
 def _two(value: float) -> str:

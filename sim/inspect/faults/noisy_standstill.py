@@ -38,7 +38,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         log = replace(log, runs=tuple(rested))
         still = LogFeatures(log).rest_lengths
     runs = list(log.runs)
-    size = ORDINARY * strike.severity * max(run.top_speed for run in runs)
+    size = ORDINARY * strike.severity * log.top_speed
     where = []
     for index in ramps:
         run = runs[index]
@@ -52,7 +52,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Measure the velocity at the beginning of every ramp, while the position stands."""
-    top = max((run.top_speed for run in features.log.runs), default=0.0)
+    top = features.log.top_speed
     rests = {}
     for index, run in enumerate(features.log.runs):
         still = features.rest_lengths[index] if run.kind == "quasistatic" else 0
