@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.fit.inertia import add_inertia, turning_options
-from sim.cli.fit.parts import describe_kind, fit_parts, join_parts
+from sim.cli.fit.parts import fit_parts, join_parts
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
 from sim.cli.fit.plausibility import (
     check_against_physics,
@@ -157,7 +157,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     parts = reader.read(files)
     log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
-    pooled = fit_parts(parts, find, kind=describe_kind(parts, len(files)))
+    pooled = fit_parts(parts, find, files=len(files))
     found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)

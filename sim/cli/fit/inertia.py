@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.parts import describe_kind, fit_parts
+from sim.cli.fit.parts import fit_parts
 from sim.cli.options import FILE, PartReader, several_options
 from sim.core.errors import BadRequest
 
@@ -104,7 +104,7 @@ def find_inertia(
         )
     parts = PartReader(type="simple").read((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
-    gone = fit_parts(parts, find, kind=describe_kind(parts, 1)).found
+    gone = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
     return moment_of_inertia(found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels)
 
