@@ -156,13 +156,13 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         "A feedforward is only as good as its model and its gains. An error of a few percent "
         "always remains, and feedback corrects it.",
         lesson="08_from_analyzer_to_robot",
-        section="Droop: what kP can do, and what not",
+        section="What kP can do, and what not",
     ),
     "M-KP-EXACT": Misconception(
         "Proportional feedback needs an error to give a voltage, so a part of the error remains. "
         "With a larger kP the remaining error is smaller, but never zero.",
         lesson="08_from_analyzer_to_robot",
-        section="Droop: what kP can do, and what not",
+        section="What kP can do, and what not",
     ),
     "M-HEAVIER-MORE-KS": Misconception(
         "Dry friction comes mostly from bearings, gears and belts. Weight makes kG and kA "

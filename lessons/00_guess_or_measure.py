@@ -58,7 +58,7 @@
 # - You can **guess**: try 0.1, load the code onto the robot (*deploy*), and watch the robot. Then
 #   try 0.2.
 # - You can **measure**: let the robot run a few tests, write down what it did, and compute the
-#   gains from these data. This is **system identification**, in short *SysId*.
+#   gains from these data. This is called **system identification**, or *SysId* for short.
 #
 # Which way is better? A race will show it.
 
@@ -93,8 +93,8 @@ from sim.teaching.prediction import Prediction
 # %% [markdown]
 # ## 2 Your robot
 #
-# Write your name between the quotes, and run the cell. You get your own robot. It is a drivetrain
-# with its own gears, mass and friction. The same name always gives the same robot.
+# Write your name between the quotes, and run the cell. You get your own robot: a drivetrain with
+# its own gears, mass and friction. The same name always gives the same robot.
 
 # %%
 NAME = "me"
@@ -203,7 +203,7 @@ MY_KS, MY_KV = START  # for example 0.2, 2.4
 # Now your opponent drives. Line one of its program runs four tests with the robot and keeps the
 # **log**: a table of time, voltage, position and velocity with fifty rows per second. Line two
 # *fits* the formula to the log: it computes the gains that match the rows best, in the same way as
-# the SysId tool of WPILib (the code library of FRC). Line three drives with these gains.
+# the SysId tool of WPILib (the code library of FRC). Line three drives the robot with these gains.
 
 # %%
 log = simulate(robot, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
@@ -219,7 +219,7 @@ followed = drive(robot, measured)
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# Here is the result of the race:
+# Here is the result:
 
 # %%
 guessed = {"kS": MY_KS, "kV": MY_KV, "kA": 0.0}
@@ -274,16 +274,16 @@ Table(
 #
 # Look at the second row of the table. The computer tried *every* pair of kS and kV in intervals of
 # 0.05. Even the best pair has a large error. The error is large where the robot speeds up and slows
-# down. kS and kV alone do not give the voltage for acceleration. That voltage comes from kA, and
-# only the three lines have a kA. So **you could not win round one**.
+# down. kS and kV alone do not give the voltage for acceleration. The kA term gives this voltage,
+# and only your opponent's program uses kA. So **you could not win round one**.
 #
 # Was the race fair? Only partly.
 #
-# - The simulation was **easy for you**. One try took you two seconds. On a real robot, one try
-#   means: you change the number, deploy the code, drive, and walk back.
-# - The simulation was **easy for the three lines**, too. On a real robot, line one is a lot of
-#   work: you need code for the tests, room to drive, a good battery, and a log without wrong data.
-#   Lessons 3 to 6 teach this.
+# - **You** had an easy race. Each try took you two seconds. On a real robot, for each try you
+#   change the number, deploy the code, drive, and walk back.
+# - **The three lines** had an easy race, too. On a real robot, line one is a lot of work: you need
+#   code for the tests, room to drive, a good battery, and a log without wrong data. Lessons 3 to 6
+#   teach this.
 #
 # <details><summary>Want to know why the true gains have an error, too?</summary>
 #
@@ -300,8 +300,8 @@ print(f"Four tests: {spent:.0f} s of driving, {rows_seen} rows in the log.")
 print(f"The longest test drives {farthest:.1f} m. (Lesson 3 shows how to test in less room.)")
 
 # %% [markdown]
-# **Round three: kA unlocked.** Now race once more, with all three sliders and no clock. Can you
-# reach the error of the three lines? How long does it take you?
+# **Round three: kA unlocked.** Now race once more, with all three sliders and no clock. Can you get
+# an error as small as your opponent's? How long does this take?
 
 # %%
 race(KS, KV, KA)
@@ -434,10 +434,10 @@ Table(
 # > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
 # > closed-loop control."
 # >
-# > **Source says:** (*closed-loop control* is feedback.) We could not check what these teams do. A
-# > maintainer of WPILib writes in 2026 that the prevailing advice is to "avoid the SysId tool and
-# > do manual tuning instead", because SysId is "error-prone". ([allwpilib issue
-# > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643))
+# > **Source says:** a maintainer of WPILib writes in 2026 that the prevailing advice is to "avoid
+# > the SysId tool and do manual tuning instead", because SysId is "error-prone". ([allwpilib issue
+# > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) The authors of this course could
+# > not check what the two teams do. (*Closed-loop control* means control with feedback.)
 # >
 # > **Try it:** this course lets you make such errors. Each lesson makes one of them on purpose in a
 # > simulation with known gains, so that you learn to recognize the error.
@@ -563,7 +563,7 @@ Table(("added to", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows b
 # ### So, guess or measure?
 #
 # - For **kV**, and often for kS, a line that you draw with care is as good as a fit. If you need no
-#   other gain, use the pencil.
+#   other gain, draw such a line.
 # - For **kA**, and for **kG**, measuring wins. You can see the effect of kA only while the speed
 #   changes, and friction makes kG hard to see (lesson 2).
 # - When **something changes** on the robot, measuring wins: it shows what changed, and by how much.
@@ -579,9 +579,9 @@ Table(("added to", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows b
 # values: one is measured while the robot turns, the other while it drives straight. ([PathPlanner
 # docs: Robot Config](https://pathplanner.dev/robot-config.html))
 #
-# **Arm.** A *motion profile* is a plan of the velocity and acceleration at every moment. The drive
-# of our race has one, too. With good gains the arm follows this plan, and the feedback has little
-# to correct.
+# **Arm.** A *motion profile* is a plan of the velocity and acceleration at every moment. The robots
+# in our race followed such a plan, too. With good gains the arm follows this plan, and the feedback
+# has little to correct.
 #
 # **Shooter.** A shooter should reach 4000 rpm (rotations per minute) with feedforward alone. The
 # next table shows its speed:
@@ -613,9 +613,9 @@ Table(
 )
 
 # %% [markdown]
-# With good gains the feedback has little work. But you still need feedback: the gains in the last
-# row of the table were right before the bearing got worse. And these gains fit only *your* robot:
-# another team's robot has other gains.
+# With good gains the feedback has little to correct. But you still need feedback: the gains in the
+# last row of the table were right before the bearing got worse. And these gains fit only *your*
+# robot: another team's robot has other gains.
 #
 # <details><summary>For mentors: can feedforward hit 4000 rpm exactly, without PID?</summary>
 #
@@ -757,9 +757,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The gains were measured on one day, and no model is perfect. Bearings age, belts stretch, another
-# robot pushes. Feedback corrects what the feedforward cannot know. With good gains, feedback has
-# little to do.
+# The gains were measured on one day, and no model is perfect. Bearings age, belts stretch, and
+# other robots push yours. Feedback corrects what the feedforward cannot know. With good gains,
+# feedback has little to do.
 # </details>
 #
 # **5.** What else can you use a drivetrain's kA for, besides the feedforward?

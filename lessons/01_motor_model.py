@@ -32,7 +32,7 @@
 # each m/s of speed needs 2.5 volts.
 #
 # The analyzer (the window of WPILib's SysId) shows kV = 0.4. Can this kV be right? After this
-# lesson you can answer in a minute, with the motor's data sheet and a calculator.
+# lesson you can answer this question in a minute, with the motor's data sheet and a calculator.
 
 # %%
 import math
@@ -147,10 +147,10 @@ print(f"If the speed were steady, kV would have to be {(7.0 - gains['kS']) / 2:.
 # %% [markdown]
 # ## 3 Doing it: the voltage budget
 #
-# Now compute the three terms for every moment of a drive. The picture computes them from the
-# robot's *motion* and draws them as three colored areas, one on top of the other. The thick line is
-# the voltage that the motors really got (the *applied* voltage). If the model is right, the areas
-# reach this line. Move the slider below the picture: it sets the time, and the robot moves.
+# The next picture computes the three terms for every moment of a drive from the robot's *motion*,
+# and draws them as three colored areas, one on top of the other. The thick line is the voltage that
+# the motors really got (the *applied* voltage). If the model is right, the areas reach this line.
+# Move the slider below the picture: it sets the time, and the robot moves.
 #
 # There are three drives:
 #
@@ -243,7 +243,7 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 #
 # - **Sudden step.** At first there is no speed, so nearly all volts go into kA·a. As the robot gets
 #   faster, kV·v grows. Fewer volts are left for kA·a, so the acceleration gets smaller. SysId needs
-#   this test, because **kA takes many volts only here.**
+#   this test, because **kA·a takes many volts only in this test.**
 # - **Slow ramp.** The acceleration is small the whole time. Most volts go into kS and kV·v, so this
 #   test shows **kS and kV**.
 # - **The gap at the start of the ramp.** Until the voltage reaches kS, friction holds the robot.
@@ -279,8 +279,9 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 #
 # An electric motor does three things, and each is a simple product:
 #
-# 1. **It pushes back.** A motor that turns is also a generator. It makes a voltage against your
-#    voltage, proportional to its speed ω ("omega"): **Ke·ω**. This is called *back-EMF*.
+# 1. **It pushes back.** A motor that turns is also a generator. It produces a voltage that acts
+#    against yours and is proportional to its speed ω ("omega"): **Ke·ω**. This is called
+#    *back-EMF*.
 # 2. **The remaining voltage drives a current** through the winding's resistance R: I = (V − Ke·ω) /
 #    R.
 # 3. **The current makes torque**, a turning force: T = Kt·I.
@@ -303,8 +304,8 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # | kV | Ke·G/r | the kind of motor, gears, wheel |
 # | kA | R·r·m/(n·G·Kt) | mass, motors, gears, wheel |
 #
-# Look for the mass m in the table. It is only in kA, as you saw in lesson 0. (We leave out losses
-# in the gears, and the mass of the spinning parts.)
+# In the table, the mass m is only in kA, as you saw in lesson 0. (We leave out losses in the gears,
+# and the mass of the spinning parts.)
 #
 # The next cell computes kV and kA from the motor's data, and compares them with a log:
 
@@ -327,13 +328,13 @@ Table(
 )
 
 # %% [markdown]
-# You cannot compute kS: no data sheet contains your robot's friction. You have to measure it.
+# You have to measure kS: no data sheet contains your robot's friction.
 #
 # **Predict:**
 
 # %%
 guess_gears = Prediction(
-    "You swap the 6.75:1 gears for slower ones, 8.14:1. What happens to kV and kA?",
+    "You replace the 6.75:1 gears with 8.14:1 gears. What happens to kV and kA?",
     "both grow",
     "kV grows, kA shrinks",
     "kV shrinks, kA grows",
@@ -388,9 +389,9 @@ Table(
 )
 
 # %% [markdown]
-# With slower gears the motor turns faster for each m/s, so speed needs **more** volts. But the
-# gears make more force from the same motor torque, so acceleration needs **fewer** volts. With half
-# the motors, each motor has twice the load, so kS and kA double. kV stays the same.
+# With the 8.14:1 gears the motor turns faster for each m/s, so each m/s needs **more** volts. But
+# the gears make more force from the same motor torque, so acceleration needs **fewer** volts. With
+# half the motors, each motor has twice the load, so kS and kA double. kV stays the same.
 
 # %% [markdown]
 # ## 5 Is this kV possible?
@@ -450,8 +451,8 @@ Table(
 # ### Measured kV against theory
 #
 # A real kV is a little **above** the theoretical kV, because grease and seals brake more at higher
-# speed. If the measured kV is far above, something is wrong. If it is **below**, somebody wrote
-# down a wrong number, because a motor cannot turn faster than its free speed.
+# speed. If the measured kV is far above theory, something is wrong. If it is **below**, somebody
+# wrote down a wrong number, because a motor cannot turn faster than its free speed.
 #
 # | measured kV | verdict | what to do |
 # |---|---|---|
@@ -460,7 +461,7 @@ Table(
 # | 8 to 20 % above | *watch* | compare again next week |
 # | more than 20 % above | *inspect* | look for the cause before the next test |
 #
-# (These limits are only rough rules. Data sheets are rounded, so 1 or 2 % below proves nothing.)
+# (These limits are rough rules. Data sheets are rounded, so 1 or 2 % below proves nothing.)
 #
 # Here are seven robots with the same drivetrain. All except the first have one fault. Which robots
 # have a kV more than 20 % above the theoretical kV?
@@ -567,7 +568,7 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 #    power? If one motor has no power, the others do its work, and kS and kA grow. If its controller
 #    is in *brake mode* (it brakes a motor that gets no voltage), kV grows, too.
 # 3. **Mechanical** (with a wrench): check belt, chain, bearings and grease. Turn the mechanism by
-#    hand. Is some part hot after a test?
+#    hand. Is any part hot after a test?
 #
 # ### Check somebody else's numbers
 #
@@ -595,7 +596,7 @@ Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 
 # %% [markdown]
 # With kV = 2.68, the first two motors would have to turn faster than they can. Either that robot
-# had the third motor, or the ratio is wrong.
+# had Kraken X44 motors, or the ratio is wrong.
 
 # %% [markdown]
 # ## 6 How fast is it: τ = kA/kV
@@ -659,8 +660,8 @@ Table(
 # shaft, a screw that rubs. Do not just put a high kS into the code: then nobody notices which part
 # is wearing out.
 #
-# How high is too high? One rule says: stop if kS is much higher than kV × typical velocity. How
-# large may our drivetrain's kS get at 2 m/s before the rule says *stop*?
+# How high is too high? One rule says: stop if kS is much higher than kV × typical velocity. Our
+# drivetrain's typical velocity is 2 m/s. Above which kS does the rule say *stop*?
 #
 # <details><summary>For mentors: the rule, and its source</summary>
 #
@@ -672,7 +673,8 @@ Table(
 # > friction this rule allows. ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** how large may our drivetrain's kS get at 2 m/s before this rule says *stop*?
+# > **Try it:** our drivetrain's typical velocity is 2 m/s. Above which kS does this rule say
+# > *stop*?
 # </details>
 
 # %%
@@ -682,7 +684,7 @@ print(f"kV × {TYPICAL:g} m/s = {flag:.1f} V. The rule says stop only if kS is a
 print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains['kS']:.2f} V.")
 
 # %% [markdown]
-# So this rule warns you very late. Add a second, earlier limit, **watch**: kS above 0.5 V, which is
+# So this rule warns you very late. Add an earlier limit named **watch**: kS above 0.5 V, which is
 # about 4 % of 12 V. (This is our own rough rule. Some healthy mechanisms with a high gear ratio are
 # above it.)
 #
@@ -842,12 +844,12 @@ quick
 # wheel, the unit or the kind of motor.
 # </details>
 #
-# **5.** Last week the left side of a drivetrain had kS = 0.15 V. Today it has 0.40 V. Typical speed
-# times kV is 5 V. Is the left side fine?
+# **5.** Last week the left side of a drivetrain had kS = 0.15 V. Today its kS is 0.40 V. Typical
+# speed times kV is 5 V. Is the left side fine?
 #
 # <details><summary>Answer</summary>
 #
-# No, although the gauge says *fine*. kS has more than doubled in a week. Compare it with the kS of
+# No, although the gauge says "fine": kS has more than doubled in a week. Compare it with the kS of
 # the right side, and look for the part that rubs.
 # </details>
 #

@@ -154,7 +154,7 @@ print(
 # On a real elevator kG/kA is a little smaller, because kA also contains the spinning parts of the
 # motors. If your kG/kA is 15 m/s², look for a mistake before you trust the two gains.
 #
-# Two kinds of elevator have a different kG/kA. The next cell computes it for both:
+# For two kinds of elevator, kG/kA is not near 9.81 m/s². The next cell computes kG/kA for both:
 #
 # - In a **cascade**, a lower stage moves, too, at half the carriage's speed: kG/kA is between g and
 #   2·g. (g is the acceleration of gravity.)
@@ -164,14 +164,14 @@ print(
 # <details><summary>Want to know why?</summary>
 #
 # Let the carriage of a cascade have the mass m and its lower stage the mass m₁. The carriage moves
-# at v, and the stage at v/2. To lift both, the motor needs the power m·g·v + m₁·g·v/2: this is the
-# same as for the weight (m + m₁/2)·g, moved at v. Both have the kinetic energy m·v²/2 +
-# m₁·(v/2)²/2: that is the mass m + m₁/4, moved at v. So kG/kA is 11.8 m/s² if both have the same
-# mass.
+# at the speed v, and the stage at v/2. To lift both, the motor needs the power m·g·v + m₁·g·v/2.
+# One weight of (m + m₁/2)·g that moves at v needs the same power. Together, carriage and stage have
+# the kinetic energy m·v²/2 + m₁·(v/2)²/2. One mass of m + m₁/4 that moves at v has the same energy.
+# So kG/kA is 11.8 m/s² if both have the same mass.
 #
-# A counterweight m₂ goes down at v. So the motor lifts the weight (m − m₂)·g and accelerates the
-# mass m + m₂. (Textbooks call it Atwood's machine: Goldstein, *Classical Mechanics*, 3rd edition
-# (2002), section 1.6.)
+# A counterweight of mass m₂ goes down at the speed v. So the motor lifts the weight (m − m₂)·g and
+# accelerates the mass m + m₂. (Textbooks call it Atwood's machine: Goldstein, *Classical
+# Mechanics*, 3rd edition (2002), section 1.6.)
 # </details>
 
 # %%
@@ -440,7 +440,8 @@ print(f"kS = {half_width.mean():.3f} V (true: {arm.gains['kS']:.3f} V)")
 print(f"offset = {found_offset:.1f}°. Add the offset to every reading of the encoder.")
 
 # %% [markdown]
-# The found values are not exactly the true values, because we tried only one voltage every 10 mV.
+# The values that the fit finds are not exactly the true values, because we tried only one voltage
+# every 10 mV.
 #
 # In the next picture the marks are highest where the arm is *really* level, not where the encoder
 # shows 0°. Find the offset at which the shaded band covers all marks.
@@ -553,8 +554,8 @@ Table(
 # term for gravity, so the fit makes the other terms wrong. (`sysid fit` warns about such gains.)
 #
 # It is more dangerous to fit the arm with the type Elevator: every gain is positive and looks
-# possible, but every gain is wrong. The last row of the table is harmless: a drivetrain with the
-# type Elevator gets a kG near 0.
+# possible, but every gain is wrong. The mistake in the last row of the table is harmless: if you
+# fit a drivetrain with the type Elevator, you get a kG near 0.
 #
 # **Myth check.** "SysId does not find kG; you must measure it separately." *False:* SysId fits kG
 # for the types Elevator and Arm. The sentence is true only for the type Simple. Compare kG in the
@@ -585,13 +586,13 @@ Table(
 # %% [markdown]
 # ## 6 Only up: two gains become one
 #
-# Nobody likes an elevator's tests downward (the reverse tests). The carriage drops as soon as the
-# test starts, and somebody has to lift it again. Can you skip the reverse tests and drive only up?
-# **Predict:**
+# Nobody likes the tests in which an elevator moves down (the reverse tests). The carriage drops as
+# soon as the test starts, and somebody has to lift it again. Can you skip the reverse tests and
+# drive only up? **Predict:**
 
 # %%
 guess_up = Prediction(
-    "The log of an elevator contains only tests upward. Which gains can a fit find?",
+    "The log of an elevator contains only its upward tests. Which gains can a fit find?",
     "all four gains",
     "all but kA",
     "neither kS nor kG, only their sum",
@@ -619,7 +620,8 @@ except sim.Refusal as refusal:
 # Every sensor has *noise*: small random errors. If you repeated the tests many times, noise would
 # change the fitted pair (kS, kG) a little each time. In the next picture, the shaded region
 # contains 95 of 100 such fits. It is called a *confidence ellipse*. A small ellipse means that you
-# know both gains well. With the slider you add rows from the way down.
+# know both gains well. With the slider you add rows that were recorded while the carriage moved
+# down.
 #
 # (You may skip the code. It computes how much noise could change the fitted gains.)
 
@@ -672,8 +674,8 @@ show_interactive(
 up_and(0)
 
 # %% [markdown]
-# Without rows from the way down, the ellipse is an endless band. Everywhere in this band the sum kG
-# + kS is nearly the same. With a single row from the way down, the band becomes a closed ellipse.
+# Without rows from the way down, the ellipse is an endless band. Everywhere in this band, kG + kS
+# is nearly the same. With a single row from the way down, the band becomes a closed ellipse.
 #
 # For an arm this is easier. On the way up, cos(θ) changes and kS does not. So the fit can separate
 # kG from kS, but not precisely. The next table shows how much noise changes a fitted gain. The
@@ -703,13 +705,13 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 # > accurately, and for mechanisms with gravity (arms, elevators) the two directions are physically
 # > very different."
 # >
-# > **Source says:** SysId's window wants all four tests. Its maintainer once wrote that backward
+# > **Source says:** SysId's window requires all four tests. Its maintainer once wrote that backward
 # > tests are not required for the fit of an elevator or arm, they "just make Ks a bit more
 # > accurate", and that they cannot be run accurately where the mechanism does not hold itself up.
 # > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492))
 # >
 # > **Try it:** look at the table. For the simulated arm, the maintainer is roughly right. For the
-# > elevator he is not: only tests downward separate kS from kG.
+# > elevator he is wrong: only downward tests separate kS from kG.
 # </details>
 
 # %%
@@ -871,7 +873,7 @@ quick
 # grade exercise3
 # ```
 #
-# The first time, this command makes your own numbers. After that, it checks
+# The first time you run it, this command creates your own numbers. After that, it checks
 # `exercises/exercise3/answers.toml`. (`grade watch exercise3` checks each time you save that file.)
 # You can also answer in a notebook:
 #
@@ -885,10 +887,10 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# - Add noise to the arm's table: add `0.02 * np.random.default_rng(1).standard_normal(7)` to the
-#   middles. How much does the found offset change?
-# - A constant-force spring pulls the carriage up with a force that is worth 1 V of the motor. What
-#   is kG now? Can kG become negative?
+# - Add noise to the middles of the arm's windows: `middle = middle + 0.02 *
+#   np.random.default_rng(1).standard_normal(7)`. By how much does the fitted offset change?
+# - A constant-force spring pulls the carriage up as hard as the motor does with 1 V. What is kG
+#   now? Can kG become negative?
 # </details>
 #
 # **Next:** [Lesson 3, test design](03_test_design.ipynb). Which tests does a robot need?

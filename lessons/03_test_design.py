@@ -142,8 +142,9 @@ plot_curves(
 # %% [markdown]
 # When the robot gets faster, kV·v takes more volts, and fewer volts are left for acceleration. So
 # the curve is steep at first and then gets flatter: the speed approaches its final value
-# *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how quickly. After τ the speed
-# has reached about two thirds of its final value. After 3τ it has nearly reached it.
+# *exponentially*. The **time constant τ = kA/kV** of lesson 1 says how quickly the speed rises.
+# After τ the speed has reached about two thirds of its final value. After 3τ the speed has nearly
+# reached its final value.
 #
 # **Myth check.** "In a clean dynamic test the acceleration is constant while the speed rises."
 # *False:* constant acceleration would give the dashed line with squares. WPILib describes a good
@@ -168,9 +169,9 @@ plot_curves(
 # %% [markdown]
 # ## 3 Reading the ramp: is the intercept kS?
 #
-# Draw the voltage of a ramp over the velocity. V ≈ kS + kV·v is a straight line. Its slope is kV,
-# and the voltage where it meets velocity 0 (its *intercept*) should be kS. To *read kS off* the
-# ramp means to use this intercept as kS.
+# Plot the voltage of a ramp test against the velocity. V ≈ kS + kV·v is a straight line. Its slope
+# is kV, and the voltage where it meets velocity 0 (its *intercept*) should be kS. To *read kS off*
+# the ramp means to use this intercept as kS.
 #
 # Is the intercept really kS? We test a drivetrain and a shooter's flywheel (its heavy wheel). The
 # flywheel is heavy for its motors, so its τ is much longer than the drivetrain's.
@@ -207,7 +208,7 @@ drifts = {
 
 
 def drift_picture(name: str, ramp: float) -> list[Picture]:
-    """The ramp with its line, and the kS of that line over all ramps."""
+    """The ramp with its line, and the kS of that line for each ramp."""
     gains = SHOWN[name].gains
     slow, line = read_off(SHOWN[name], ramp)
     rule = [gains["kS"] + gains["kA"] / gains["kV"] * one for one in RAMPS]
@@ -299,9 +300,9 @@ Table(
 # ## 4 The information map: what each run adds
 #
 # Every row of a log gives one equation: the model with the V, v and a of this row. The left picture
-# shows each row as a dot. Its place to the right is v, and its height is a. If the dots are in many
-# different places, the equations differ, and the fit can separate the gains. If all dots are on one
-# line, the fit cannot separate the gains.
+# shows each row as a dot. Its horizontal position is v, and its vertical position is a. If the dots
+# are in many different places, the equations differ, and the fit can separate the gains. If all
+# dots are on one line, the fit cannot separate the gains.
 #
 # The right picture shows the **confidence ellipse** of lesson 2: if you repeated the tests with new
 # noise, 95 of 100 fits would give gains inside the ellipse. A small ellipse is good. An endless
@@ -478,9 +479,10 @@ print(guess_lean.reveal("kA"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
 # %% [markdown]
-# A fit of one direction alone gives good gains. A fit of both directions does not: the model has
-# only one kS for both, so kA becomes wrong. The simulated velocity R² (SysId's score; 1 is perfect,
-# lesson 7) stays high. So compare the gains of the forward runs with the gains of the reverse runs.
+# A fit of one direction alone gives good gains. A fit of both directions together gives a wrong kA,
+# because the model has only one kS for both directions. The simulated velocity R² (SysId's score; 1
+# is perfect, lesson 7) stays high. So compare the gains of the forward runs with the gains of the
+# reverse runs.
 #
 # Without the reverse runs you would know only the first row of the table. In reverse, your
 # feedforward would give only a third of the voltage that friction needs.
@@ -497,9 +499,9 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # > mechanism to its original position" ([Creating a Routine, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst)).
 # > SysId's maintainer has called backward tests not required for the fit of an elevator or arm
-# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)). But SysId's window wants
-# > all four: it looks for each test, and lists the tests that are missing ([DataSelector.cpp, at
-# > one
+# > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492)). But SysId's window
+# > requires all four tests: it looks for each test, and lists the tests that are missing
+# > ([DataSelector.cpp, at one
 # > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** look at the row "forward only" in section 4's table. For a *symmetric* drivetrain it
@@ -705,7 +707,7 @@ Table(
 # </details>
 
 # %% [markdown]
-# ## 9 Plan one
+# ## 9 Plan your tests
 #
 # Now plan a ramp test and a step test for the drivetrain. You let go of the button 0.3 s after the
 # robot passes the mark. Above the picture you see five rules: four rules of exercise 6, and the
@@ -760,8 +762,8 @@ animate_mechanism(
 
 # %% [markdown]
 # With 0.5 V/s and 3.5 V in a room of 4 m, the plan breaks two rules: the ramp is too slow for the
-# room, and the step is so large that the wheels of this strong drivetrain slip. Which slider fixes
-# which rule?
+# room, and the step is so large that the wheels of this strong drivetrain slip. Which slider must
+# you move to follow each rule?
 #
 # (This is simplified: the motors brake at 0 V, the floor is flat, and the battery voltage does not
 # drop. Leave more room than the plan says.)
@@ -817,8 +819,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # The distance to reach a speed is kV·v²/(2·ramp): with half the ramp, it is twice as long. With a
-# very slow ramp, the robot is still slow after 3 m. Use a steeper ramp and a mark, and let go of
-# the button quickly.
+# very slow ramp, the robot is still slow after 3 m. Use a steeper ramp, put a mark on the floor,
+# and let go of the button quickly.
 # </details>
 #
 # **3.** In the information map the dots of each direction lie on one slanted line. Which runs are

@@ -90,8 +90,8 @@ Table(
 # > **Lesson says:** log position, velocity and applied voltage, "all three are required for
 # > regression".
 # >
-# > **Source says:** SysId's window wants all three before it loads a log. The fit for a drivetrain
-# > or a shooter then uses only velocity and voltage. ([WPILib docs: Loading
+# > **Source says:** SysId's window requires all three signals before it loads a log. The fit for a
+# > drivetrain or a shooter then uses only velocity and voltage. ([WPILib docs: Loading
 # > Data](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/loading-data.html))
 # >
 # > **Try it:** the last cell of this section removes the positions and fits again. Do the gains
@@ -128,7 +128,7 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 
 # %% [markdown]
 # The gains do not change. The two **R²** ("R squared") are SysId's scores: 1 is perfect. Lesson 7
-# explains them. In this lesson we only look whether R² shows a mistake.
+# explains them. In this lesson we only check whether R² shows a mistake.
 
 # %% [markdown]
 # ## 3 Doing it: the routine, part by part
@@ -146,9 +146,9 @@ Table(HEADER, (row("correct", right), row("without positions", no_positions)))
 # > **Lesson says:** "The routine takes three things: a Config (…), a Mechanism (…), and a log-name
 # > string."
 # >
-# > **Source says:** it takes two: `SysIdRoutine(Config config, Mechanism mechanism)`. The name is
-# > an optional *fourth* argument of `Mechanism`. If you leave it out, the log uses the subsystem's
-# > name. ([WPILib's source:
+# > **Source says:** the routine takes two arguments: `SysIdRoutine(Config config, Mechanism
+# > mechanism)`. The name is an optional *fourth* argument of `Mechanism`. If you leave it out, the
+# > log uses the subsystem's name. ([WPILib's source:
 # > SysIdRoutine.java](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/wpilibNewCommands/src/main/java/edu/wpi/first/wpilibj2/command/sysid/SysIdRoutine.java))
 # >
 # > **Try it:** count the arguments of `SysIdRoutine` in the code below.
@@ -464,9 +464,9 @@ print(f"2π is {2 * math.pi:.4f}.")
 # ```
 #
 # **Where do you write `self.routine = …`?** WPILib's docs show `routine = SysIdRoutine(…,
-# Mechanism(self.voltageDrive, …, self))`, but not in which method. In the body of a class there is
-# no `self`, and Python stops with a `NameError`. Write it into `__init__`, as in the code above.
-# ([WPILib docs: Creating a
+# Mechanism(self.voltageDrive, …, self))`, but do not say in which method this line belongs. In the
+# body of a class there is no `self`, and Python stops with a `NameError`. Write it into `__init__`,
+# as in the code above. ([WPILib docs: Creating a
 # Routine](https://github.com/wpilibsuite/frc-docs/blob/d57699ab3bc9612521fb1cd8edf9db348c3ddbc1/source/docs/software/advanced-controls/system-identification/creating-routine.rst))
 # </details>
 #
@@ -684,17 +684,18 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # - **Share of the battery.** At the start of the step the current is large, so the battery voltage
 #   drops. The motors get fewer volts than the log says. The robot looks heavier than it is: **kA**
 #   has the largest error. At a steady speed the current is small, so the error of kV is small.
-# - **…but logs applied volts.** The gains are right. The robot drove as with the program before;
-#   only the log is different. *Log the applied voltage*: it is no extra work. (Even with
+# - **…but logs applied volts.** The gains are right. The robot drove exactly as with the previous
+#   program; only the log is different. *Log the applied voltage*: it is no extra work. (Even with
 #   `setVoltage`, commanded and applied voltage differ during a brownout, with an empty battery, or
 #   while a current limit acts.)
 # - **Wrong units** multiply kV and kA by the same factor. They do not change kS, because kS is in
 #   volts. You can recognize the factor: it is 2π, a circumference or a gear ratio.
 # - **Encoder inverted:** every gain is negative. No real robot has a negative kV.
-# - **One motor of each pair:** the log is correct, but later you will drive with all motors. With
-#   half the motors, each volt gives half the force, so kS and kA double. kV stays the same.
-# - **R² shows none of these mistakes.** R² cannot show a wrong unit or sign, because the model fits
-#   such a log as well as before.
+# - **One motor of each pair:** the log is correct for the motors that drove, but later you will
+#   drive with all motors. With half the motors, each volt gives half the force, so kS and kA
+#   double. kV stays the same.
+# - **R² shows none of these mistakes.** R² cannot show a wrong unit or a wrong sign, because the
+#   model fits such a log as well as a correct log.
 
 # %% [markdown]
 # ## 5 From your robot to your computer
@@ -765,8 +766,9 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # 5. The last two lines both say `kForward`, so there is no dynamic reverse test. SysId needs all
 #    four tests.
 #
-# There are three more: 7 V is a lot for a first step. It is dangerous to use the driver's
-# controller without a guard. And no comment says which test a button starts.
+# There are three more defects. A step of 7 V is large for a first test. It is dangerous to use the
+# driver's controller without a guard that locks the tests. And no comment says which test a button
+# starts.
 # </details>
 #
 # **Find one more defect, in Python.** WPILib's docs make the commands like this. Which error stops
@@ -795,7 +797,7 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 #   the mechanism, not of the motor.
 # - [ ] When you push the mechanism forward by hand, the position **grows** and the velocity is
 #   positive. A small positive voltage also moves the mechanism forward.
-# - [ ] Four different commands are on four buttons, with `whileTrue` and behind a **guard**.
+# - [ ] Four different commands are on four buttons, with `whileTrue`, and a **guard** locks them.
 # - [ ] The limits in the motor controller are set, the timeout fits the room, and somebody has a
 #   hand on *Disable*.
 #
@@ -839,7 +841,7 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# During a test, only the safety code in your commands does not run. Limits in the motor controller
+# During a test, the safety code in your commands does not run. But limits in the motor controller
 # work if you set them up, so set them. If a limit acts during a test, run this test again: while
 # the limit acts, you measure the limit and not the motor.
 # </details>
@@ -878,7 +880,7 @@ quick
 # 3).
 #
 # **Exercise 5** ([exercises/exercise5/README.md](../exercises/exercise5/README.md)). Bind four
-# tests to buttons, each with a comment, behind a guard:
+# tests to buttons, each with a comment, and lock them with a guard:
 #
 # ```
 # grade exercise5

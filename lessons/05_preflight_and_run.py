@@ -32,8 +32,8 @@
 # the mechanism is. The person at the button has to stop it.
 #
 # So before the test you decide how far it may move, and check that everything is ready. Pilots call
-# this a *pre-flight check*. You need five minutes for it. In this lesson you skip one check at a
-# time and see what happens.
+# this a *pre-flight check*. It takes five minutes. In this lesson you skip one check at a time and
+# see what happens.
 #
 # ### The four steps
 #
@@ -51,11 +51,12 @@
 # > **Lesson says:** "The SysId Process: Four Steps … Click each step to understand what you're
 # > doing and why."
 # >
-# > **Source says:** the source lesson's text names only the first step. We could not see the
-# > others, because they were on a page that opens with a click. The other three are our
-# > interpretation. WPILib's pages use the same order: create the routine, run it, load the data,
-# > view diagnostics, analyze. ([WPILib docs: System
+# > **Source says:** WPILib's pages have this order: create the routine, run it, load the data, view
+# > diagnostics, analyze. ([WPILib docs: System
 # > Identification](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/index.html))
+# > The text of the source lesson names only the first of the four steps. Its other steps were on a
+# > page that opens with a click, and we could not see them. So the other three steps are our
+# > interpretation.
 # >
 # > **Try it:** cover the table, and write the four steps down in order. Exercise 6 asks for them.
 # </details>
@@ -97,12 +98,10 @@ Table(
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# (The formula ignores a small delay.)
-#
 # Until you let go of the button, the motors still drive. Then the motors brake, if their neutral
 # mode is *Brake* (the neutral mode says what a motor does at 0 V). The wheels can only brake as
-# hard as they grip the carpet. So the robot needs at least another `v² / (2·μ·g)` meters to stop,
-# with g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
+# hard as they grip the carpet. So the robot needs at least `v² / (2·μ·g)` more meters to stop, with
+# g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
 #
 # **Predict:**
 
@@ -224,8 +223,8 @@ guess_stop = Prediction(
 guess_stop
 
 # %% [markdown]
-# Move the sliders. *Moment* sets the time: 0 is the start of the test, 1 is the end. The dashed
-# outline shows where the robot stops.
+# Move the sliders. The slider *moment* sets the time: 0 is the start of the test, 1 is the end. The
+# dashed outline shows where the robot stops.
 
 # %%
 WALL = 12.0  # [m]
@@ -272,7 +271,7 @@ print(f"  The formula v²/(2·μ·g) gives {top**2 / (2 * GRIP * 9.81):.2f} m at
 #
 # ### Now skip a check
 #
-# Everything stays the same, but you skip one check:
+# Everything else stays the same:
 #
 # | skipped | what was wrong that morning |
 # |---|---|
@@ -321,18 +320,16 @@ show_interactive(
 )
 
 # %% [markdown]
-# No menu? Here is the step with the battery that was not charged:
+# No menu? Here is the step test with the battery that was not charged:
 
 # %%
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# First look at *2 battery* with the *step*. The step draws so much current that the battery voltage
-# falls below the dashed line. Then the robot controller turns the motors off to protect itself:
-# this is a *brownout*. The battery recovers, the motors start, and the voltage falls again. The
-# robot hardly moves. (A real robot switches more slowly.) Then try the other checks.
-#
-# If you skip check 3 or 4, the robot drives as always.
+# In the menus, first choose *2 battery* and *step*. The step test draws so much current that the
+# battery voltage falls below the dashed line. Then the robot controller turns the motors off to
+# protect itself: this is a *brownout*. The battery recovers, the motors start, and the voltage
+# falls again. The robot hardly moves. (A real robot switches more slowly.) Then try other checks.
 #
 # ### Which logs are good?
 #
@@ -399,20 +396,22 @@ Table(("skipped", "found in the log", "kS ÷ true", "kV ÷ true", "kA ÷ true"),
 #
 # ### Battery
 #
-# A charged battery shows 12.7 V or more at rest. Even 12 V is not yet a brownout: a roboRIO 1
-# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change it. Is kA wrong
-# then? The next cell runs the tests with two batteries and two steps. It computes kA once from the
-# voltage that was **applied** to the motors, and once from the voltage that the code **commanded**.
+# A charged battery shows 12.7 V or more at rest. At 12 V there is no brownout yet: a roboRIO 1
+# disables the motors below 6.3 V, and a roboRIO 2 below 6.75 V, unless you change this limit. Is kA
+# wrong then? The next cell runs the tests with two batteries and two step voltages. It computes kA
+# once from the voltage that was **applied** to the motors, and once from the voltage that the code
+# **commanded**.
 #
 # <details><summary>For mentors: batteries below 12 V, with source</summary>
 #
 # > **Lesson says:** "A battery below 12V produces unreliable kA values and may brownout mid-test".
 # >
 # > **Source says:** a roboRIO 1 disables the motors below 6.3 V. On a roboRIO 2 you can set this
-# > limit; its default is 6.75 V. Below 12 V is not yet a brownout. ([WPILib docs: Brownouts, at one
+# > limit; its default is 6.75 V. A voltage below 12 V is not yet a brownout. ([WPILib docs:
+# > Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
-# > **Try it:** the next cell runs the tests with two batteries and two steps, and fits the
+# > **Try it:** the next cell runs the tests with two batteries and two step voltages, and fits the
 # > **applied** voltage and the **commanded** voltage.
 # </details>
 
@@ -456,20 +455,21 @@ Table(
 # %% [markdown]
 # Without a brownout, both kA columns are right, even with the tired battery: this robot calls
 # `setVoltage`, and its motor controllers compensate for the lower battery voltage. With `set` they
-# do not (lesson 4). With a brownout, both are wrong, and kA from the commanded voltage is far
-# worse. So charge the battery, begin with a small step, and log the applied voltage.
+# do not compensate (lesson 4). With a brownout, both are wrong, and kA from the commanded voltage
+# is far worse. So charge the battery, begin with a small step, and log the applied voltage.
 #
 # Require **12.5 V or more at rest**, and 20 mΩ or less on a battery tester.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The source lesson's rule is 12 V or more at rest. But a lead-acid battery at 12.0 V is half empty
-# or worse: [a table of voltages, at one
-# commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv),
-# says that only a quarter of the charge is left. WPILib's docs give 12.7 to 13.5 V for a full
-# battery with nothing connected, and say that a battery at 12.5 V on an idle robot "should be
-# swapped and charged". These docs also say that you should not use a battery of more than 20 mΩ in
-# matches. ([WPILib docs: Robot Battery Basics, at one
+# The lesson that this course grew out of requires 12 V or more at rest. But a lead-acid battery at
+# 12.0 V is half empty or worse: in one table, only a quarter of the charge is left ([a table of
+# voltages, at one
+# commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv)).
+# WPILib's docs give 12.7 to 13.5 V for a full battery with nothing connected, and say that a
+# battery at 12.5 V on an idle robot "should be swapped and charged". These docs also say that you
+# should not use a battery of more than 20 mΩ in matches. ([WPILib docs: Robot Battery Basics, at
+# one
 # commit](https://github.com/wpilibsuite/frc-docs/blob/e44bb36208e3eba33216b9b9f1dfca4339e4cc40/source/docs/hardware/hardware-basics/robot-battery.rst))
 # </details>
 #
@@ -477,9 +477,9 @@ Table(
 #
 # Disable the robot and push the mechanism **forward** by hand. On the dashboard or in
 # AdvantageScope, the position must **rise** smoothly, and the velocity must be positive. Then
-# enable the robot and apply a small positive voltage: the mechanism must move forward, too. *Plus
-# volts, plus velocity* is the most important check: a positive voltage must give a positive
-# velocity. SysId's score R² stays high even if the sign is wrong (lesson 6).
+# enable the robot and apply a small positive voltage: the mechanism must move forward, too. The
+# most important check is that a positive voltage gives a positive velocity. SysId's score R² stays
+# high even if the velocity has the wrong sign (lesson 6).
 #
 # ### Log
 #
@@ -488,9 +488,9 @@ Table(
 # ### Guard
 #
 # A guard is the condition in your code that locks the tests (lesson 4 shows three kinds). Lock the
-# tests with it and enable the robot. (If your guard is Test mode, called *Utility* in 2027, enable
-# in Teleop.) Press all four buttons. Nothing may move. One person has no other job than to press
-# *Disable* during the tests. In the 2026 Driver Station the **Enter** key disables the robot. The
+# tests with the guard, and enable the robot. (If your guard is Test mode, called *Utility* in 2027,
+# enable in Teleop.) Press all four buttons. Nothing may move. During the tests, the only job of one
+# person is to press *Disable*. In the 2026 Driver Station the **Enter** key disables the robot. The
 # **space bar** is the emergency stop: it works even if another window is in front, and you have to
 # reboot the roboRIO afterwards. ([WPILib docs: Driver
 # Station](https://docs.wpilib.org/en/stable/docs/software/driverstation/driver-station.html))
@@ -504,11 +504,11 @@ Table(
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
 # > closed-loop correction."
 # >
-# > **Source says:** half of this is true. During a test, nothing corrects the motion (this is
-# > called *open loop*). But limits *in the motor controller* go on working in a test, if you have
-# > set them: "it is up to you to set up hard or soft limits to prevent injury or damage". Only the
-# > safety code in your own **commands** does not run, because no other command can use the
-# > subsystem during a test. ([WPILib docs: Running the
+# > **Source says:** half of the lesson's sentence is true. During a test, nothing corrects the
+# > motion (this is called *open loop*). But limits *in the motor controller* go on working in a
+# > test, if you have set them: "it is up to you to set up hard or soft limits to prevent injury or
+# > damage". Only the safety code in your own **commands** does not run, because no other command
+# > can use the subsystem during a test. ([WPILib docs: Running the
 # > Routine](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/system-identification/running-routine.html))
 # >
 # > **Try it:** the next cell sets a current limit of 40 A per motor and runs the tests.
@@ -627,19 +627,20 @@ Table(
 # 3. **Power-cycle** the robot (off and on), so that the log contains nothing else.
 # 4. **Driver Station:** choose *Test* if Test mode is your guard, then *Enable*. *Expect:* nothing
 #    moves.
-# 5. Hold **quasistatic forward** until the tape. *Expect:* a slow start, then more and more speed,
-#    for 3 s or more.
-# 6. Hold **quasistatic reverse**. *Expect:* the same, but backward.
-# 7. Hold **dynamic forward**, and let go early. *Expect:* a sudden start, then a steady speed.
-# 8. Hold **dynamic reverse**. *Expect:* the same, but backward.
+# 5. Hold the button **quasistatic forward** until the robot reaches the tape. *Expect:* a slow
+#    start, then more and more speed, for at least 3 s.
+# 6. Hold the button **quasistatic reverse**. *Expect:* the same, but backward.
+# 7. Hold the button **dynamic forward**, and let go early. *Expect:* a sudden start, then a steady
+#    speed.
+# 8. Hold the button **dynamic reverse**. *Expect:* the same, but backward.
 # 9. **Disable.** Fetch the log (section 5). *Expect:* one new `.wpilog`.
 # 10. Type `sysid inspect FILE.wpilog`. *Expect:* 4 runs, no fault found.
 # 11. Type `sysid fit FILE.wpilog --method sysid`. *Expect:* a positive kV and a positive kA.
 #
 # You may run the four tests in any order.
 #
-# **Do step 10 before anybody packs up.** To repeat a test takes five minutes now, and an evening
-# tomorrow.
+# **Do step 10 before anybody packs up.** Repeating a test takes five minutes today, but a whole
+# evening tomorrow.
 #
 # Here are steps 9 to 11 with a simulated log:
 
@@ -801,7 +802,7 @@ print(f"The four tests take {seconds:.0f} s, which is {seconds / (8 * 60):.0%} o
 print(f"A ramp test of 0.5 V/s needs up to {slow.final_position / FOOT:.0f} feet.")
 
 # %% [markdown]
-# But it takes long to find room, charge a battery, fetch the log and try again.
+# But it takes a long time to find room, charge a battery, fetch the log and try again.
 #
 # **Plan it for the last two weeks of build season.** Then the robot is mechanically finished, and
 # you still have time to use the gains.
@@ -838,13 +839,13 @@ Table(
 #
 # Read this list aloud before the first test. If one point is not true, do not start:
 #
-# - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. Tape is on
-#   the floor.
+# - [ ] **Room.** The way is clear in both directions, for the distance you *computed*. There is
+#   tape on the floor.
 # - [ ] **Battery.** It is charged: 12.5 V or more at rest, 20 mΩ or less.
 # - [ ] **Encoder.** When you push forward, the position rises smoothly. A positive voltage gives a
 #   positive velocity.
-# - [ ] **Log.** You have fetched a log from this robot before, and know its folder. Each log holds
-#   one mechanism.
+# - [ ] **Log.** You have fetched a log from this robot before, and know its folder. Each mechanism
+#   gets its own log.
 # - [ ] **Guard.** While the guard locks the tests, no button moves anything. One person only waits
 #   to disable the robot.
 #
@@ -886,9 +887,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# You must be careful. But limits that you set in the motor controller work during a test. Only the
-# limits in your other commands do not work. So set the limits in the motor controller. If one acts,
-# run that test again with a lower voltage.
+# You must be careful. But limits that you set in the motor controller work during a test. The only
+# limits that do not work are those in your other commands. So set the limits in the motor
+# controller. If such a limit acts during a test, run this test again with a lower voltage.
 # </details>
 #
 # **3.** The tests went well, but the Driver Station's folder contains no `.wpilog`. Where do you
@@ -907,9 +908,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# A positive voltage gave a negative velocity: the encoder or the motor is inverted. Otherwise the
-# data are good, so you could change the sign in the log. But the robot's code has the same mistake,
-# so fix it there, and run the tests again.
+# A positive voltage gave a negative velocity: the encoder or the motor is inverted. Apart from the
+# sign of the velocity, the data are good, so you could change this sign in the log. But the robot's
+# code has the same mistake, so fix it there, and run the tests again.
 # </details>
 #
 # **5.** When would you run these tests, and why not at the first regional?

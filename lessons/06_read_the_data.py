@@ -74,7 +74,8 @@ sound = simulate(ROBOT, ROUTINE, rng=np.random.default_rng(6))
 TAU = TRUTH["kA"] / TRUTH["kV"]
 print(f"The truth: kS {TRUTH['kS']:.3f} V, kV {TRUTH['kV']:.3f} V·s/m, kA {TRUTH['kA']:.3f} V·s²/m")
 print(
-    f"kA/kV = {1000 * TAU:.0f} ms: after this time, a step has nearly two thirds of its final speed"
+    f"kA/kV = {1000 * TAU:.0f} ms: this long after a step of voltage, the robot has reached nearly "
+    "two thirds of its final speed"
 )
 
 # %% [markdown]
@@ -101,7 +102,7 @@ plot_time_series(sound, dynamic_seconds=0.6)
 #   in a straight line.
 # - Forward and reverse are nearly mirror images. (For an elevator or an arm they are not: lesson
 #   2.)
-# - Voltage over velocity is a straight line with little scatter, as in the plot below.
+# - Voltage against velocity is a straight line with little scatter, as in the plot below.
 #
 # **A good dynamic test** (right):
 #
@@ -117,24 +118,24 @@ plot_time_series(sound, dynamic_seconds=0.6)
 plot_voltage_velocity(sound)
 
 # %% [markdown]
-# The straight line is a good sign. At velocity 0 it meets the voltage axis near kS, but not exactly
-# at kS (lesson 7 explains why).
+# At velocity 0, the straight line meets the voltage axis near kS, but not exactly at kS (lesson 7
+# explains why).
 #
 # <details><summary>For mentors: the plots of SysId, with source</summary>
 #
 # > **Lesson says:** "Voltage vs. velocity forms a straight line with low scatter. The forward and
 # > reverse runs are near-symmetric. R² value is above 0.9 in the analyzer."
 # >
-# > **Source says:** SysId 2026 has no plot of voltage over velocity. It draws velocity over time,
-# > acceleration over velocity, and the time steps. And it has *two* R², which mean different things
-# > (section 5). ([WPILib docs: Viewing
+# > **Source says:** SysId 2026 has no plot of voltage against velocity. It draws velocity over
+# > time, acceleration against velocity, and the time steps. And it has *two* R², which mean
+# > different things (section 5). ([WPILib docs: Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst))
 # >
 # > **Try it:** look where our line meets velocity 0. That is near kS, but not exactly at kS (lesson
 # > 7 explains why).
 # </details>
 #
-# Now look at the rise of the dynamic test: acceleration over velocity.
+# Now look at the dynamic test in a plot of acceleration against velocity:
 
 # %%
 plot_acceleration_velocity(sound)
@@ -152,13 +153,13 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # ### Explain
 #
 # The voltage that remains for the acceleration is V − kS − kV·v. The faster the robot goes, the
-# less remains. So the acceleration is **largest at the start**. Each time that kA/kV seconds pass,
-# the acceleration drops to about 37 % of its value. Such a curve is called *exponential*. In the
-# plot above, acceleration over velocity, it is a straight line that falls.
+# less voltage remains. So the acceleration is **largest at the start**. Each time that kA/kV
+# seconds pass, the acceleration drops to about 37 % of its value. Such a curve is called
+# *exponential*. In the plot of acceleration against velocity, it is a straight line that falls.
 #
 # **Myth check.** "The acceleration is constant while the velocity rises." *False* in a good test. A
-# constant acceleration means that something is wrong. The log *current limit* in section 3 is an
-# example.
+# constant acceleration means that something is wrong. The log named *current limit* in section 3 is
+# an example.
 #
 # <details><summary>For mentors: the rise is exponential, with source</summary>
 #
@@ -173,15 +174,15 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # </details>
 
 # %% [markdown]
-# ## 3 Reading: thirteen ways to damage a log
+# ## 3 Read the plots: thirteen ways to damage a log
 #
-# A *fault* is something that makes a log wrong. The first four are the classic *contaminations*.
-# Five more are common on real robots, and four are easy to see. Exercise 7 and `sysid inspect` use
-# the same names.
+# A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
+# classic faults, five more that are common on real robots, and four that are easy to see. Exercise
+# 7 and `sysid inspect` use the same names.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
-# | **the first four** | | |
+# | **four classic faults** | | |
 # | encoder slip | the encoder slips on its shaft for a while | fix it, run again |
 # | brownout | the battery voltage drops, the controller turns the motors off | charge, run again |
 # | hard stop | the mechanism hits its end, the voltage stays on | cut off that part, or run again |
@@ -203,7 +204,7 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 # %%
 guess_late = Prediction(
     "A velocity filter makes the velocity late. Which plot shows it best?",
-    "voltage over velocity",
+    "voltage against velocity",
     "the time steps",
     "the velocity next to the slope of the position",
 )
@@ -217,7 +218,7 @@ guess_gap = Prediction(
 display(guess_late, guess_gap)
 
 # %% [markdown]
-# Choose a log and a plot. First look at *clean* in every plot.
+# Choose a log and a plot. First look at the log *clean* in every plot.
 
 
 # %%
@@ -265,8 +266,8 @@ def position_slope(log: sim.Log) -> Picture:
 
 PLOTS = {
     "over time": lambda log: plot_time_series(log, dynamic_seconds=0.6),
-    "voltage over velocity": plot_voltage_velocity,
-    "acceleration over velocity": plot_acceleration_velocity,
+    "voltage against velocity": plot_voltage_velocity,
+    "acceleration against velocity": plot_acceleration_velocity,
     "time steps": plot_timesteps,
     "velocity and position's slope": position_slope,
 }
@@ -319,7 +320,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # within one sample.
 #
 # - **Encoder slip.** From one sample to the next, the velocity drops to a fraction of its value.
-#   Later it jumps back. The plot of voltage over velocity shows a second line.
+#   Later it jumps back. The plot of voltage against velocity shows a second line.
 # - **Brownout.** The controller turned the motors off. The velocity falls along a *curve*, and
 #   later rises again along a curve. If the log holds the **commanded** voltage, it shows a voltage
 #   although the motors got none. If it holds the **applied** voltage (lesson 4), the voltage drops
@@ -327,10 +328,10 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #   see it fall below the threshold of lesson 5.
 # - **Hard stop.** The velocity goes to zero within a few samples. The position stays the same, and
 #   the voltage stays on.
-# - **Loop overrun.** In *time steps*, some points are far above 20 ms. The other plots hardly show
-#   the fault.
-# - **Command logged.** The voltage of the step looks perfect, but at first the velocity rises in a
-#   straight line.
+# - **Loop overrun.** In the plot *time steps*, some points are far above 20 ms. The other plots
+#   hardly show the fault.
+# - **Command logged.** The voltage of the step test looks perfect, but at first the velocity rises
+#   in a straight line.
 # - **Current limit.** The velocity rises in a straight line, too. But the *voltage* shows the
 #   limit, because this log holds the applied voltage. So the log is correct, and the errors of its
 #   gains are small.
@@ -455,7 +456,7 @@ Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), 
 #
 # SysId's window has three settings: *Velocity Threshold* (quasistatic tests only), *Window Size*
 # (the median filter) and *Test Duration* (dynamic tests only). None of them sets where a ramp ends,
-# but you can do that here. Below is a log with a hard stop, a noisy standstill and three wild
+# but a slider below does. Below is a log with a hard stop, a noisy standstill and three wild
 # readings. Which setting repairs which fault?
 #
 # <details><summary>For mentors: trimming in SysId, with source</summary>
@@ -578,7 +579,7 @@ Table(
 # %% [markdown]
 # ## 5 R² does not find every bad log
 #
-# Now you see no plots. You see only one score: SysId's **simulated velocity R²**. SysId simulates
+# This section shows no plots, only one score: SysId's **simulated velocity R²**. SysId simulates
 # the robot with the fitted gains and the voltage of the log. The score compares simulated and
 # measured velocity. Below are logs A to V of one drivetrain. One is clean. One was damaged and then
 # repaired. In all others something is wrong.
@@ -707,10 +708,10 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 #   a second. So kA may be wrong by half, and the score hardly changes.
 # - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
 #   information about kV, and only a few about kA.
-# - **The acceleration R² compares accelerations row by row (lesson 7), and it finds more
-#   faults.** Sort the logs by it: the logs with spikes (wild readings), the lurch (a sudden jump)
-#   and the worst slips are at the bottom. But this score does *not notice* a wrong voltage, a wrong
-#   gear ratio or a wrong sign. And a low value proves nothing: many good logs have one.
+# - **The acceleration R² compares accelerations row by row (lesson 7), and it finds more faults.**
+#   Sort the logs by it: spikes (wild readings), the sudden jump and the worst slips are at the
+#   bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or a wrong sign.
+#   And a low value proves nothing: many good logs have one.
 #
 # <details><summary>Want to know more?</summary>
 #
@@ -719,12 +720,11 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 #   readings of the repaired log. But for the score, SysId compares its simulation with all recorded
 #   samples, and the wild readings are among them.
 # - Each row of the table is only one simulated log. Its errors also depend on luck, for example on
-#   where a gap is. So learn the *kind* of error from this table, not its digits.
+#   where a gap is. So remember from this table which *kind* of error a fault causes, not the exact
+#   numbers.
 # </details>
 #
-# ## 6 Checks that find more
-#
-# These five checks find more than a score:
+# ## 6 Checks that find more than R²
 #
 # 1. **Signs.** kV and kA are positive, kS is not negative.
 # 2. **kV is right for these motors and gears**: it differs from the computed kV (lesson 1) by less
@@ -761,7 +761,7 @@ by_signs = sum(found["signs"] for found in caught.values())
 print(f"The signs find {by_signs} logs.  No check finds these logs: {'; '.join(escaped)}.")
 
 # %% [markdown]
-# No check reports the clean log, which is right. But the other two logs in that last line are
+# The clean log has no fault, so no check reports it. But the other two logs in that last line are
 # damaged. Only somebody who knows the robot can find such damage. For example, look for a velocity
 # filter in the settings of your motor controller.
 #
@@ -821,7 +821,7 @@ from grader import QuickCheck
 quick = QuickCheck(
     "Some samples come 100 ms late. Which plot shows this best?",
     {
-        "voltage over velocity": "Neither axis shows the time.",
+        "voltage against velocity": "Neither axis shows the time.",
         "time steps over time": "Every late sample is a point above the line.",
         "the simulated velocity R²": "It may be high although the log is wrong.",
     },
@@ -837,12 +837,13 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# a2, b4, c3, d1. Only a log of the applied voltage shows what a current limit did to it.
-# If it holds the commanded voltage, look at the rise of the velocity: it starts as a straight line.
+# a2, b4, c3, d1. Only a log of the applied voltage shows what a current limit did to it. If the log
+# contains the commanded voltage, look at how the velocity rises: under a current limit, it rises in
+# a straight line at first.
 # </details>
 #
-# **2.** In the middle of the quasistatic forward test the mechanism lurched: its velocity jumped.
-# The rest is clean. What was the cause, and what happens to the gains?
+# **2.** In the middle of the quasistatic forward test, the mechanism suddenly jumped forward. The
+# rest of the log is clean. What was the cause, and what happens to the gains?
 #
 # <details><summary>Answer</summary>
 #
@@ -851,8 +852,8 @@ quick
 # that the mechanism did *not* move.) The few samples of the jump matter a lot, because a fit
 # squares the errors: an error that is three times as large counts nine times as much. So kS is too
 # small or negative, kA is too large, kV hardly changes, and R² stays above 0.9. Find the log
-# "lurch" in the table of section 5. Fix the mechanism and run again. A median filter or trimming
-# helps less.
+# "sudden jump" in the table of section 5. Fix the mechanism and run again. A median filter or
+# trimming helps less.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?
@@ -860,8 +861,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # Which R²? Are kV and kA close to the values you expect from motors, gears and mass? Does the log
-# hold the applied voltage? Did anybody look at the plots? In our table nearly all wrong logs would
-# pass.
+# hold the applied voltage? Did anybody look at the plots? In our table, nearly all wrong logs have
+# a simulated velocity R² above 0.9.
 # </details>
 #
 # **4.** The end of the ramp is noisy. A teammate wants to cut it off, "so that the line looks
@@ -869,8 +870,9 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# No. The equation is true for noisy samples too, and the fast ones contain the most about kV. Cut
-# only where something *other than the motor* moves or holds the mechanism: at a stop, at rest.
+# No. The equation is true for noisy samples, too, and the fast samples contain the most information
+# about kV. Cut only where something *other than the motor* moves or holds the mechanism: where it
+# hits a hard stop, or where it stands still.
 # </details>
 #
 # **5.** The battery was weak in a test. Do you have to run it again?
@@ -879,9 +881,10 @@ quick
 #
 # If the controller turned the motors off (a brownout), run it again with a charged battery. You see
 # a brownout if the velocity falls along a curve, or if the applied voltage drops to 0 and comes
-# back. The bus voltage shows it in both cases. If the voltage only dropped a little, look at what
-# the log holds. If it holds the applied voltage, the log is correct, and you do not have to run
-# again. If it holds the commanded voltage, fix the logging, then run again.
+# back. The bus voltage shows it in both cases. If the voltage only dropped a little, look at which
+# voltage the log contains. If the log contains the applied voltage, it is correct, and you do not
+# have to run the test again. If the log contains the commanded voltage, fix the logging, then run
+# the test again.
 # </details>
 
 # %% [markdown]

@@ -27,9 +27,9 @@
 # %% [markdown]
 # ## 1 Why: the analyzer is not magic
 #
-# SysId reads a log and prints gains. Often the gains are good. Sometimes they are wrong, but they
-# look just as good. When you have built the fit (the calculation that finds the gains) yourself,
-# you know where it can go wrong.
+# SysId reads a log and prints gains. Often the gains are good. Sometimes they are wrong, but look
+# just as good. When you have built the fit (the calculation that finds the gains) yourself, you
+# know where it can go wrong.
 #
 # Today's robot is our simulated drivetrain. Its gears rattle a little, so its measured velocity is
 # noisy. We know its true gains.
@@ -81,7 +81,7 @@ log = simulate(robot, routine, rng=np.random.default_rng(7))
 plot_time_series(log, dynamic_seconds=1.0)
 
 # %% [markdown]
-# ## 2 Look first: voltage over velocity
+# ## 2 Look first: voltage against velocity
 #
 # The model gives the voltage for a motion:
 #
@@ -189,7 +189,7 @@ Table(
 # >
 # > **Source says:** SysId does not read lines off a plot. It fits all four tests together, and the
 # > model computes the acceleration, not the voltage. Its window has no voltage–velocity plot
-# > either: it shows velocity over time, acceleration over velocity, and the time steps. (Its
+# > either: it shows velocity over time, acceleration against velocity, and the time steps. (Its
 # > predecessor, frc-characterization, [had
 # > one](https://github.com/wpilibsuite/frc-characterization/issues/7).) ([WPILib docs: Viewing
 # > Diagnostics](https://github.com/wpilibsuite/frc-docs/blob/c94b51df80ed991bdb634ed20dbf758e31dc0d3c/source/docs/software/advanced-controls/system-identification/viewing-diagnostics.rst),
@@ -338,7 +338,7 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 
 # %% [markdown]
 # Noise on the **left** side of the equation averages out over many rows. Noise in a **column** does
-# not: it makes the number found for that column too small. More data does not help.
+# not average out: it makes the fit's number for that column too small. More data does not help.
 #
 # Our noisiest signal is the acceleration, because it is computed from differences of noisy
 # velocities. In the five lines above, the acceleration was a column. So move it to the left side,
@@ -351,15 +351,15 @@ print(f"noise in y: slope {in_y:.3f}    noise in x: slope {in_x:.3f}    truth: 2
 #
 # <details><summary>Want to know more? With gravity</summary>
 #
-# (The formula above is for the analysis type *Simple*. With gravity, SysId adds columns. For
-# *Elevator* it adds a column of ones. For *Arm* it adds cos θ and sin θ, where θ is the angle of
-# the arm. From these columns it computes kG, and for an arm also the offset of the sensor. [SysId's
-# source:
+# (The formula above is for the analysis type *Simple*. If gravity acts on the mechanism, SysId adds
+# columns to the fit. For *Elevator* it adds a column of ones. For *Arm* it adds cos θ and sin θ,
+# where θ is the angle of the arm. From these columns it computes kG, and for an arm also the offset
+# of the sensor. [SysId's source:
 # FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # </details>
 #
-# **Now you write it.** Replace the four `...` in the next cell. Run the cell. Then run the cell
-# below it, which checks your answers.
+# **Now you write it.** Replace the four `...` in the next cell. Run the cell, then the cell below
+# it, which checks your answers.
 
 
 # %%
@@ -442,9 +442,9 @@ plot_curves(
 )
 
 # %% [markdown]
-# The acceleration on the left side is the better choice, so SysId uses it. But this choice is not
-# perfect: the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA,
-# which is 1/β, becomes larger.
+# The acceleration on the left side is the better choice, so SysId uses it. But it is not perfect:
+# the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA, which is
+# 1/β, becomes larger.
 #
 # <details><summary>Want to know more? What SysId's source says</summary>
 #
@@ -468,7 +468,7 @@ plot_curves(
 # 2. **Median filter** of the velocity, if you switch it on (*Window Size*, up to 15 samples). It
 #    sorts each value and its neighbors by size, and keeps the middle one.
 # 3. **Acceleration**: SysId takes the velocity one row later minus the velocity one row earlier. It
-#    divides by two **mean** time steps of the test.
+#    divides this difference by twice the **mean** time step of the test.
 # 4. **Trim the dynamic tests** (*Test Duration*): Unless you change the setting, SysId keeps only
 #    the rows from the largest acceleration to 90 % of the top speed.
 #
@@ -554,8 +554,8 @@ print(f"and {used['dynamic-forward']} rows of the dynamic forward test.")
 # > **Lesson says:** if you run the dynamic test too long, "kA becomes unobservable".
 # >
 # > **Source says:** SysId cuts the dynamic test at 90 % of the top speed by itself (*Test
-# > Duration*). The danger of a long test is to the hardware. For kA, it is only a danger if you
-# > write your own fit and do not trim. ([SysId's source:
+# > Duration*). A long test can damage the hardware. It makes kA wrong only if you write your own
+# > fit and do not trim. ([SysId's source:
 # > FilteringUtils.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/FilteringUtils.cpp))
 # >
 # > **Try it:** choose `trim=False` in the next section.
@@ -614,9 +614,9 @@ plot_choices(
 )
 
 # %% [markdown]
-# Each dot is the mean of eight logs, and its bar shows how much the results of the logs differ.
-# None of these choices is a mistake in the calculation. They are decisions that SysId makes for
-# you. Try other choices:
+# Each dot is the mean of eight logs, and its bar shows how much their results differ. None of these
+# choices is a mistake in the calculation. They are decisions that SysId makes for you. Try other
+# choices:
 
 
 # %%
@@ -656,8 +656,9 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # %% [markdown]
 # ### Explain
 #
-# - **Filter** and **side** matter most. A filter window that is longer than the rise makes kA too
-#   small (section 9). Noise in the column of the acceleration makes it too small, too (section 4).
+# - The **filter** and the **left side** matter most. A filter window that is longer than the rise
+#   makes kA too small (section 9). Noise in the acceleration column also makes kA too small
+#   (section 4).
 # - **Time step.** SysId uses the mean time step, which is wrong for the rows next to a gap. So gaps
 #   in the log make kA less accurate. kV hardly changes.
 # - **Trim.** At full speed the acceleration is zero, so the rows at full speed only bring noise
@@ -702,8 +703,8 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect. 0 is no better than if you guess the mean every time. (For the simulation we use
-# the two forward tests. SysId uses all four.)
+# So 1 is perfect. A score of 0 is no better than guessing the mean every time. (For the simulation
+# we use the two forward tests. SysId uses all four.)
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -733,9 +734,9 @@ print(
 #
 # <details><summary>Want to know more? What “adjusted” means</summary>
 #
-# *Adjusted* means that each unknown makes the score a little lower. The reason: every additional
-# column matches some of the noise by chance. With hundreds of rows the difference is very small.
-# ([SysId's source:
+# *Adjusted* means that the score becomes a little lower with each unknown in the model. The reason:
+# every additional column matches some of the noise by chance. With hundreds of rows the difference
+# is very small. ([SysId's source:
 # OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
 # </details>
 #
@@ -830,7 +831,7 @@ Table(("noise [m/s]", "kS [V]", "kA [V·s²/m]", "kS + kA·(ramp/kV) [V]"), tupl
 # As long as the noise is moderate, the sum in the last column hardly changes. You know this sum
 # from section 2: it is the voltage of the straight line at velocity 0. The ramp has many rows, and
 # they determine the **sum** well. But they do not show how much of the sum comes from kS and how
-# much from kA. Only the few rows of the step show that. So when noise makes kA too large, kS
+# much from kA. Only the few rows of the step test show that. So when noise makes kA too large, kS
 # becomes too small, or even negative.
 #
 # So if kS is negative, do not look at friction first. Ask: **why is kA too large?** Possible causes
@@ -929,7 +930,7 @@ QS = np.round(np.arange(0.5, 4.01, 0.25), 2)
 
 
 def kp_picture(q: float, r: float, delay: int) -> Picture:
-    """The suggested kP over the allowed error, for the source lesson's gains."""
+    """The suggested kP for each allowed error, with the source lesson's gains."""
 
     def suggested(error: float) -> float:
         loop = design_velocity_loop(
@@ -988,18 +989,17 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 #
 # <details><summary>Want to know more? Where these numbers come from</summary>
 #
-# [SysId's source:
-# Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp)
-# for the quarter,
-# [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h)
-# for the delays.
+# The quarter of the top speed is in [SysId's source:
+# Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp).
+# The delays are in
+# [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h).
 # </details>
 
 # %% [markdown]
 # ## 11 Your own log
 #
 # In exercise 9 you fit a log of your own mechanism. `grade start` or `grade exercise9` makes this
-# log. If the log exists, the next cell reads it.
+# log. If it exists, the next cell reads it.
 
 # %%
 own_logs = sorted(Path("..", "exercises", "exercise9", "data").glob("*/log.wpilog"))
@@ -1083,7 +1083,7 @@ quick
 # <details><summary>Answer</summary>
 #
 # The acceleration is the noisiest signal. Noise on the left side averages out. Noise in a column
-# makes the number found for that column too small, and a longer log does not help.
+# makes the fit's number for that column too small, and a longer log does not help.
 # </details>
 #
 # **2.** In somebody's fit, kS is −0.1 V, kA is three times as large as you expect, and the
@@ -1134,7 +1134,7 @@ quick
 # grade exercise9
 # ```
 #
-# If a number is wrong by a well-known factor (2π, a sign), or if you swapped two numbers, the
+# If a number is wrong by a well-known factor (2π or −1), or if you swapped two numbers, the
 # feedback says so. Hints cost nothing: `grade exercise9 --hint`. You also write your fit into
 # `fit.py`. `grade watch exercise9` in a terminal grades it each time you save.
 #

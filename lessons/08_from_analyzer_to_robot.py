@@ -28,11 +28,11 @@
 #
 # SysId shows three or four numbers, and you put them into your code. Much can go wrong: the gain is
 # per rotation but the code uses radians, kG and kV are swapped, or somebody uses the suggested kP
-# without a test. **There is no error message.** The robot only moves in a wrong way.
+# without a test. **There is no error message.** The robot just does not move correctly.
 #
 # A *feedforward* computes the voltage from the motion that you **want**: "for 40 rotations per
 # second I need 5 V". *Feedback* measures the motion that you **get**, and corrects the voltage.
-# Today we simulate both, with mistakes.
+# Today we simulate both, and make mistakes on purpose.
 
 # %%
 import math
@@ -164,7 +164,7 @@ for language in ("java", "python"):
 print(guess_season.reveal("the package and a method's name"))
 
 # %% [markdown]
-# The gains do not change with the season, but names in the code do. (They may still change.)
+# The gains do not change with the season, but names in the code do.
 #
 # **Units.** `kS` and `kG` are always in volts. `kV` and `kA` are per meter, per rotation or per
 # radian: *use the unit of the velocity that your code passes to the feedforward*. Two rules:
@@ -198,12 +198,12 @@ print(guess_season.reveal("the package and a method's name"))
 # > are plain numbers, so a compiler accepts them in any order.
 # > ([WPILib docs: Feedforward Control in WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
 # >
-# > **Try it:** somebody learned "kS, kV, kA" and puts kG last. The next cells show what an elevator
-# > does then.
+# > **Try it:** suppose that somebody learned the order "kS, kV, kA" and adds kG at the end. The
+# > next cells show what an elevator does then.
 # </details>
 #
-# Somebody remembers "kS, kV, kA" and puts kG last. The target of the *carriage* (the moving part of
-# the elevator) is to hold still. **Predict:**
+# Somebody remembers the order "kS, kV, kA" and puts kG last. The *carriage* (the elevator's moving
+# part) should hold still. **Predict:**
 
 # %%
 lift = elevator.gains
@@ -316,10 +316,10 @@ print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 #
 # <details><summary>If your motors are CTRE's: FOC, and sources</summary>
 #
-# **FOC as in the tests.** If FOC was on in the tests, use it on the robot, too. FOC is a mode of
-# CTRE's motors that needs a Phoenix Pro license. With the license, `setVoltage` and `VoltageOut`
-# turn it on unless you say otherwise. Gains that were measured with FOC are wrong without it.
-# (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release
+# **Use the same FOC setting as in the tests.** If FOC was on in the tests, use it on the robot,
+# too. FOC is a mode of CTRE's motors that needs a Phoenix Pro license. With the license,
+# `setVoltage` and `VoltageOut` turn it on unless you say otherwise. Gains that were measured with
+# FOC are wrong without it. (`VelocityVoltage` and `Slot0Configs` in [Phoenix 6, release
 # 26.3.0](https://pypi.org/project/phoenix6/26.3.0/), [REVLib API:
 # FeedForwardConfig](https://codedocs.revrobotics.com/java/com/revrobotics/spark/config/feedforwardconfig))
 # </details>
@@ -368,7 +368,7 @@ measured = {name: found.gains[name] for name in ORDER["simple"]}
 
 
 def scaled(factor: float) -> dict[str, float]:
-    """The measured gains with kV and kA per another unit."""
+    """The measured gains with kV and kA in another unit."""
     return measured | {"kV": measured["kV"] * factor, "kA": measured["kA"] * factor}
 
 
@@ -447,10 +447,11 @@ Table(
 # %% [markdown]
 # ### Explain
 #
-# - **Per radian, but the code passes rotations:** the voltage is 2π times too small. The wheel is
-#   very slow.
-# - **Per rotation, but the code passes radians:** the voltage is 2π times too large. There are only
-#   12 V, so the wheel runs as fast as it can. With a drivetrain or an arm this is dangerous.
+# - **Gains per radian, but the code passes rotations:** the voltage is 2π times too small. The
+#   wheel is very slow.
+# - **Gains per rotation, but the code passes radians:** the voltage is 2π times too large. There
+#   are only 12 V, so the wheel runs as fast as it can. With a drivetrain or an arm this is
+#   dangerous.
 # - **kV and kA swapped:** there is far too much voltage while the wheel speeds up, and far too
 #   little while it holds its speed.
 # - **Without kA:** the speed is right while the target is constant, and late while the target
@@ -459,7 +460,7 @@ Table(
 #   but badly. So if feedback does not help enough, check the units before you change kP.
 #
 # The easiest check is to compute one voltage by hand. `kS + kV · (a speed you know)` must be
-# between 0 and 12 V, and you must be able to believe it.
+# between 0 and 12 V, and it must make sense for this speed.
 #
 # <details><summary>Want to know more? When you may leave out kA</summary>
 #
@@ -473,11 +474,11 @@ Table(
 # </details>
 
 # %% [markdown]
-# ## 5 Droop: what kP can do, and what not
+# ## 5 What kP can do, and what not
 #
-# A shooter has good gains. Its target is 4000 rpm (rotations per minute), but it reaches 3900. Here
-# we know the reason: the code calls `set(volts / 12)`, and the battery has only 11.7 V, so the
-# motor gets 2.5 % less voltage.
+# A shooter has good gains. Its target is 4000 rpm (rotations per minute), but it reaches 3900. The
+# reason: the code calls `set(volts / 12)`, and the battery has only 11.7 V, so the motor gets 2.5 %
+# less voltage.
 #
 # Now add kP, and change nothing else. **Predict:**
 
@@ -506,14 +507,15 @@ def left_over(kp: float, share: float = 11.7 / 12.0) -> float:
 
 
 KPS = np.array([0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
-DROOP = [left_over(kp) for kp in KPS.tolist()]
+REMAINING = [left_over(kp) for kp in KPS.tolist()]
 
 
-def droop(kp: float) -> Picture:
-    """The remaining error, over kP."""
+def remaining_error(kp: float) -> Picture:
+    """The remaining error for each kP."""
+    rule = REMAINING[0] / (1 + KPS / wheel["kV"])
     return plot_curves(
         KPS,
-        {"simulated": DROOP, "error without kP ÷ (1 + kP/kV)": DROOP[0] / (1 + KPS / wheel["kV"])},
+        {"simulated": REMAINING, "error without kP ÷ (1 + kP/kV)": rule},
         xlabel="kP [V per rot/s]",
         ylabel="rpm below the target",
         marked=(kp, left_over(kp)),
@@ -522,7 +524,7 @@ def droop(kp: float) -> Picture:
 
 
 show_interactive(
-    droop,
+    remaining_error,
     kp=widgets.FloatSlider(
         min=0, max=0.6, step=0.02, value=0.12, description="kP", continuous_update=False
     ),
@@ -532,7 +534,7 @@ show_interactive(
 # No slider? Change the number here:
 
 # %%
-droop(0.12)
+remaining_error(0.12)
 
 # %%
 print(guess_kp.reveal("half of it"))
@@ -540,14 +542,14 @@ Table(
     ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "share of the error that remains"),
     tuple(
         (f"{times}", times * wheel["kV"], left_over(times * wheel["kV"]),
-         f"{100 * left_over(times * wheel['kV']) / DROOP[0]:.0f} %")
+         f"{100 * left_over(times * wheel['kV']) / REMAINING[0]:.0f} %")
         for times in (0, 1, 2, 4)
     ),
 )  # fmt: skip
 
 # %% [markdown]
 # Feedback with kP acts only if there is an error. So it never removes the whole error: about
-# **error ÷ (1 + kP/kV)** remains. This remaining error is called *droop*. With a larger kP, less
+# **error ÷ (1 + kP/kV)** remains. (Engineers call it *droop*.) With a larger kP, less of the error
 # remains. So why not use a very large kP?
 
 # %%
@@ -579,8 +581,8 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 #
 # <details><summary>Want to know more? How late motor controllers are</summary>
 #
-# In SysId's presets the velocity of Phoenix 6 is 1 ms late. The velocity of a NEO's own encoder is
-# 112 ms late. ([SysId's source:
+# SysId's presets assume that the velocity from Phoenix 6 is 1 ms late, and that the velocity from a
+# NEO's own encoder is 112 ms late. ([SysId's source:
 # FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h))
 # </details>
 #
@@ -597,8 +599,8 @@ Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error 
 # </details>
 #
 # So if the shooter reaches 3900 rpm instead of 4000: **keep the gains**, use `setVoltage` instead
-# of `set(volts / 12)`, then add feedback to correct the rest. Do *not* make kV larger: the larger
-# kV would be right only for one speed and one battery voltage.
+# of `set(volts / 12)`, then add feedback to correct the rest. Do *not* make kV larger: this kV
+# would be right only for one speed and one battery voltage.
 
 # %% [markdown]
 # ## 6 Use the gains: one loop, one move
@@ -729,10 +731,10 @@ Table(
 )
 
 # %% [markdown]
-# - **Guessed:** kG and kA are too small, and kS is missing.
-# - **Measured:** the worst error is about a third of the one with guessed gains. But kS is nearly
-#   zero! The model has no tube, so the fit put the force of the tube into the gains.
-# - **Reconciled:** kS is right again. But the tube still pulls. So add **one more term** ("+
+# - **Guessed gains:** kG and kA are too small, and kS is missing.
+# - **Measured gains:** the worst error is about a third of the worst error with guessed gains. But
+#   kS is nearly zero! The model has no tube, so the fit put the force of the tube into the gains.
+# - **Reconciled gains:** kS is right again. But the tube still pulls. So add **one more term** ("+
 #   tube"), the voltage that balances the tube: `+ kTubeRate * position + kTubePreload`. Then the
 #   worst error is only two millimeters.
 #
@@ -752,9 +754,9 @@ Table(
 # ```
 # </details>
 #
-# **Motion Magic** does all of this inside the motor controller, a thousand times a second. It uses
-# the gains of `Slot0Configs`, in volts per rotation of the *mechanism*. Here that is the drum that
-# winds up the rope.
+# **Motion Magic** does all of this inside the motor controller. It uses the gains of
+# `Slot0Configs`, in volts per rotation of the *mechanism*. Here that is the drum that winds up the
+# rope.
 
 # %%
 DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
@@ -817,11 +819,11 @@ Table(
 # </details>
 
 # %% [markdown]
-# ## 7 An arm that droops
+# ## 7 An arm that sinks
 #
-# Gravity also causes droop. Somebody measured the gains of an **empty** arm. Now the arm is level
-# and holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for each
-# radian of error.
+# Gravity also causes such an error. Somebody measured the gains of an **empty** arm. Now the arm is
+# level and holds a game piece at its end. A *position* loop with kP holds the arm: kP volts for
+# each radian of error.
 #
 # **Predict:**
 
@@ -879,9 +881,10 @@ Table(
 )
 
 # %% [markdown]
-# The arm hangs (missing kG)/kP below level, or less, because friction helps to hold it. A larger kP
-# makes the droop smaller, but never zero. The right kG removes it. So measure **with and without**
-# the piece (or compute the second kG), and switch the gains when a sensor detects the piece.
+# The arm hangs below level by an angle of (missing kG)/kP or less, because friction helps to hold
+# it. A larger kP makes this angle smaller, but never zero. The right kG removes the error. So
+# measure **with and without** the piece (or compute the second kG), and switch the gains when a
+# sensor detects the piece.
 #
 # With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF and
 # the gears. The table shows our elevator with three loads:
@@ -949,9 +952,9 @@ Table(("set", "mechanism", "class", "top speed at 12 V [m/s or rad/s]"), tuple(r
 # %% [markdown]
 # <details><summary>How can you see it?</summary>
 #
-# If there is a kG, gravity acts. (12 − kS)/kV is the top speed (with gravity, subtract kG as well):
-# a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows how slowly the
-# mechanism reacts: a heavy wheel reacts slowly.
+# If there is a kG, gravity acts on the mechanism. The top speed is (12 − kS)/kV (with gravity,
+# subtract kG as well): a drivetrain reaches a few m/s, a wheel hundreds of rad/s. And kA/kV shows
+# how slowly the mechanism reacts: a heavy wheel reacts slowly.
 # </details>
 
 # %% [markdown]
@@ -977,23 +980,24 @@ Table(("set", "mechanism", "class", "top speed at 12 V [m/s or rad/s]"), tuple(r
 # - **Arm:** test it first without the game piece, then with it (section 7). For a light, short arm,
 #   computed gains may be enough.
 # - **Elevator:** test it with its load. kA and kG change with the mass, kV does not.
-# - **Optional** means that it depends on the task on *your* robot. Either answer is right if you
-#   give the reason.
+# - **Optional** means: what the mechanism does on *your* robot decides whether you need its gains.
+#   Either answer is right if you give the reason.
 # </details>
 #
-# If nothing would be worse, do not test. If you have no room or no time, you can compute kG, kV and
-# kA. But you must measure kS.
+# If nothing would be worse with inexact gains, do not test. If you have no room or no time, you can
+# compute kG, kV and kA. But you must measure kS.
 #
 # <details><summary>For mentors: does every team characterize everything?</summary>
 #
 # > **Lesson says:** "Teams like 2910 and 254 characterize every motorized mechanism that needs
 # > closed-loop control."
 # >
-# > **Source says:** we could not verify that, and experienced people have different opinions.
-# > WPILib's docs name another way for teams that have no room or no time: "reasonable estimates of
-# > kG, kV, and kA can be obtained by fairly simple computation", while kS "must be measured".
-# > ([WPILib docs: Feedforward Control in
+# > **Source says:** WPILib's docs name another way for teams that have no room or no time:
+# > "reasonable estimates of kG, kV, and kA can be obtained by fairly simple computation", while kS
+# > "must be measured". ([WPILib docs: Feedforward Control in
 # > WPILib](https://docs.wpilib.org/en/stable/docs/software/advanced-controls/controllers/feedforward.html))
+# > The authors of this course could not check what the two teams do. Experienced people have
+# > different opinions about this question.
 # >
 # > **Try it:** for each row of the table, say what your robot would do worse. If you find nothing,
 # > do not test it.
@@ -1030,8 +1034,8 @@ Table(("set", "mechanism", "class", "top speed at 12 V [m/s or rad/s]"), tuple(r
 #
 #   Here r is the lever of a wheel. The wheel pushes along a line, and r is the distance of this
 #   line from the middle of the robot. For a **tank drive** that is half the trackwidth, r =
-#   trackwidth/2. The modules of a **square swerve** stand in the corners and push across the
-#   diagonal: r = trackwidth/√2. The pages of both planners use trackwidth/2 for every robot.
+#   trackwidth/2. The modules of a **square swerve** are at the corners and push at a right angle to
+#   the diagonal: r = trackwidth/√2. The pages of both planners use trackwidth/2 for every robot.
 #   ([PathPlanner](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md),
 #   [Choreo](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md),
 #   each at one commit)
@@ -1065,9 +1069,9 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # %% [markdown]
 # ### When
 #
-# Plan two evenings in the last two weeks of build season: measure on the first, and measure again
-# on the second. Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or
-# if something rubs (kS). Keep the old log and compare.
+# Plan two evenings in the last two weeks of build season: measure on the first, and again on the
+# second. Measure again if the mass changed (kA, kG), if gears or wheels changed (kV, kA), or if
+# something rubs (kS). Keep the old log and compare.
 #
 # <details><summary>For mentors: the schedule, with source</summary>
 #
@@ -1075,11 +1079,11 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 # > build season, when the robot is mechanically done but the software is still being written." And
 # > the gains from the shop "will transfer directly to competition".
 # >
-# > **Source says:** the first sentence is good advice. WPILib's docs ask for at least 10 feet to
-# > drive, ideally 20, and a pit does not have that. The second sentence is true only under one
-# > condition: the robot and the floor must be the same as in the test. The source lesson says so
-# > itself: measure again if gearing, wheels or carpet contact change. ([WPILib docs: Characterizing
-# > Your Robot
+# > **Source says:** WPILib's docs ask for at least 10 feet to drive, ideally 20, and a pit does not
+# > have that. So the lesson's first sentence is good advice. Its second sentence is true only under
+# > one condition: the robot and the floor must be the same as in the test. The source lesson says
+# > so itself: measure again if gearing, wheels or carpet contact change. ([WPILib docs:
+# > Characterizing Your Robot
 # > Drive](https://docs.wpilib.org/en/stable/docs/software/pathplanning/trajectory-tutorial/characterizing-drive.html))
 # >
 # > **Try it:** count back from your first competition. Write two evenings into the calendar:
@@ -1114,7 +1118,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # 4. Compute one voltage by hand before you enable. Then use small targets. The robot is on the
 #    floor, and somebody is ready to press *Disable*. Start with kP = 0, and check that the
-#    mechanism *nearly* follows. Then add kP.
+#    mechanism *nearly* follows its target. Then add kP.
 #
 # If the gains cannot be right, the command writes no code and explains why.
 #
@@ -1177,14 +1181,14 @@ quick
 # Then add feedback. kP alone does not remove the whole error.
 # </details>
 #
-# **2.** A team characterized an empty arm. With a game piece, the arm droops. What changed, and
-# what do you do?
+# **2.** A team characterized an empty arm. With a game piece, the arm sinks. What changed, and what
+# do you do?
 #
 # <details><summary>Answer</summary>
 #
 # kG and kA are larger with the piece. kV and kS hardly change. Measure (or compute) the gains of
-# the loaded arm, and use them when a sensor sees the piece. A larger kP makes the droop smaller,
-# but not zero.
+# the loaded arm, and use them when a sensor sees the piece. With a larger kP the arm sinks less,
+# but it still sinks.
 # </details>
 #
 # **3.** An arm has kS 0.2, kV 1.2, kA 0.08 and kG 1.5. Its code says `new ArmFeedforward(0.2, 1.2,

@@ -100,8 +100,8 @@ held_out = simulate(
 print(fill(f"This course knows {len(EFFECTS)} effects: {', '.join(EFFECTS)}.", 90))
 
 # %% [markdown]
-# Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain.
-# It has four Kraken X60 and a mass of 60 kg, and it does not follow its paths.
+# Today's robot has two of these effects. Its team does not know which. The robot is a drivetrain
+# with four Kraken X60 and a mass of 60 kg, and it does not follow its paths.
 #
 # The team recorded **three logs**, and each has one job:
 #
@@ -225,11 +225,12 @@ animate_mechanism(
     knobs=knobs,
     score=Score("model"),
     alt="The solid robot is the log. The dashed robot is the model with the same voltage. After "
-    "the step the model is ahead at first, and behind later. Its velocity curve has another shape.",
+    "the step the model is ahead at first, and behind later. Its velocity curve has a different "
+    "shape.",
 )
 
 # %% [markdown]
-# The solid robot shows the log. The dashed robot shows the model. Their two curves have different
+# The solid robot shows the log, the dashed robot the model. Their two curves have different
 # *shapes*. Move the sliders: no values of kS, kV and kA make the curves equal.
 #
 # <details><summary>Want to know more? SysId's kA in the table</summary>
@@ -246,7 +247,8 @@ animate_mechanism(
 # <details><summary>Want to know more? How we measure the noise</summary>
 #
 # Compute the changes from sample to sample. Then compute the changes of these changes, and then
-# once more. For a smooth motion almost nothing remains after three times. So what remains is noise.
+# once more. If the motion is smooth, these three differences remove nearly all of it. So what
+# remains is noise.
 # </details>
 
 
@@ -272,9 +274,9 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 #
 # <details><summary>Want to know why? The numbers in this cell</summary>
 #
-# (The standard deviation is the usual measure of noise. It is 1.4826 times the median of the errors
-# without their signs. A third difference multiplies the square of the noise by 1² + 3² + 3² + 1² =
-# 20.)
+# (The standard deviation is the usual measure of noise. It is 1.4826 times the median of the
+# absolute values of the errors. A third difference multiplies the square of the noise by 1² + 3² +
+# 3² + 1² = 20.)
 # </details>
 
 # %% [markdown]
@@ -289,14 +291,14 @@ print(f"Gap with gains alone: log {gap(base, log):.1f}, validation {gap(base, va
 # few volts: volts are *missing*. If it is above zero, the robot moves as if it got too many volts.
 # We plot the voltage residual in four ways:
 #
-# | plotted over | an effect that you see there |
+# | plotted against | an effect that you see there |
 # |---|---|
 # | speed | friction that changes with speed |
 # | time since the voltage jumped | something late: a delay, a filter |
 # | battery voltage | volts that did not reach the motor |
 # | direction | something that pulls in one direction only |
 #
-# (If you plot it over the position, you see a spring, or a bump in the gears: section 7.)
+# (If you plot it against the position, you see a spring, or a bump in the gears: section 7.)
 #
 # First practice on four robots with **one** effect each. Here we use the true gains, so the
 # residual shows nothing but this effect.
@@ -392,27 +394,28 @@ Table(
 #   turn the robot around.)
 # - **B, time since the jump.** An averaged velocity is *late*. Right after a jump of the voltage,
 #   many volts seem to be missing. A moment later, none are missing.
-# - **C, battery.** The lower the battery voltage, the more volts are missing. The plot over time
+# - **C, battery.** The lower the battery voltage, the more volts are missing. The plot against time
 #   shows this, too, because the battery voltage is lowest just after a jump. If two plots show an
 #   effect, take the plot with the higher percentage.
-# - **D, speed.** Volts are missing only at very low speed. (The points in a straight row come from
-#   the start of the ramp. There the simulation already moves, but the robot still stands.)
+# - **D, speed.** Only at very low speed, the robot moves as if it got too few volts. (The points
+#   that form a straight line come from the start of the ramp. There the simulation already moves,
+#   but the robot still stands.)
 #
 # No plot explains 100 %. The rest is noise.
 
 # %% [markdown]
 # ## 4 Doing it: name, add, fit again
 #
-# Now look at the team's robot. Its gains were **fitted**. So they contain a part of the effects,
-# and the pattern is less clear. On a real robot it is the same.
+# Now look at the team's robot. Its gains were **fitted**. So the gains already describe a part of
+# the effects, and the pattern is less clear.
 
 # %%
 plot_voltage_residual(log, simulated(base, log), base.gains)
 
 # %% [markdown]
-# The plot over the time since the jump explains most. Look at its shape, too: first volts are
-# missing, then there are too many. A late sensor causes such a shape. A weak battery does not. At
-# very low speed, about 0.1 V is missing, too.
+# The plot against the time since the jump explains the largest share. Look at its shape, too: first
+# the robot seems to get too few volts, then too many. A late sensor causes such a shape. A weak
+# battery does not. At very low speed, about 0.1 V is missing, too.
 #
 # **Predict** the first effect to add:
 
@@ -429,8 +432,8 @@ guess_first
 
 # %% [markdown]
 # The next cell tries seven effects. It adds one effect at a time, and fits all gains again. Compare
-# two numbers: the gap of the `log`, which was fitted, and the gap of the `validation`, which the
-# fit never used.
+# two numbers: the gap on `log`, which was fitted, and the gap on `validation`, which the fit never
+# used.
 
 # %%
 TRIED = (
@@ -457,10 +460,10 @@ plot_gap_bars({name: both_gaps(model) for name, model in models.items()})
 # %% [markdown]
 # **What the bars show:**
 #
-# - No effect makes the gap of the *log* larger, because another parameter never makes the fit
+# - No effect makes the gap on the *log* larger, because one more parameter never makes the fit
 #   worse. If you judge by this gap, every effect looks like an improvement.
-# - The gap of the *validation* shows which models are really better. `current-limit` makes the gap
-#   of the log smaller, but the gap of the validation larger. So do not keep it.
+# - The gap on the *validation* log shows which models are really better. `current-limit` makes the
+#   gap on the fitted log smaller, but the gap on the validation log larger. So do not keep it.
 # - `delay` is almost as good as `velocity-filter`, because it also makes the velocity late (section
 #   6).
 #
@@ -487,7 +490,7 @@ show_interactive(
 display(*with_it("+ velocity-filter"))
 
 # %% [markdown]
-# With the filter in the model, the error right after the jumps is gone. Now the plot over the speed
+# With the filter in the model, the error right after the jumps is gone. Now the plot against speed
 # shows something else: volts are missing at very low speed. So add a second effect:
 
 # %%
@@ -551,7 +554,7 @@ Table(
 
 # %%
 guess_held = Prediction(
-    "With gains alone, compare the gap of the held-out log with the gap of the fitted log.",
+    "With gains alone, compare the gap on the held-out log with the gap on the fitted log.",
     "it is about the same",
     "it is twice as large or more",
     "it is smaller",
@@ -583,7 +586,7 @@ plot_gap_bars(
 # a certain force. (In the model, this limit is in volts: the voltage minus the back-EMF.) The team
 # records a gentle log with a 2.5 V step. Later it records a 6 V step.
 #
-# The next cell tries limits from very low to very high, and plots the gap of both logs.
+# The next cell tries limits from very low to very high, and plots the gap on both logs.
 #
 # **Predict:**
 
@@ -688,9 +691,9 @@ rows += [
 Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 
 # %% [markdown]
-# Both ways give nearly the same numbers. One thing is different: with gains alone, reconcile has a
-# *larger* gap than your fit. Reconcile also fits the position, which the filter does not change, so
-# kA cannot hide the slow sensor.
+# Both ways give nearly the same numbers. But with gains alone, reconcile has a *larger* gap than
+# your fit. Reconcile also fits the position, which the filter does not change, so kA cannot hide
+# the slow sensor.
 #
 # **What its verdict means**
 #
@@ -703,7 +706,7 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 #
 # Reconcile can be wrong. So it says how likely each effect is: if it says "90 % likely" for ten
 # effects, about nine of them are real. (We counted this on hundreds of simulated logs with known
-# effects.) So ask two questions. Does the gap of other data become smaller (section 4)? And can you
+# effects.) So ask two questions. Does the gap on other data become smaller (section 4)? And can you
 # find the cause on the robot?
 
 # %% [markdown]
@@ -722,8 +725,8 @@ Table(("number", "by hand", "reconcile", "the truth"), tuple(rows))
 # section 7 and works offline. For an arm or an elevator, add `--type arm` or `--type elevator`.
 #
 # The next cell plots the voltage residual of your log of exercise 12. To use another log, write its
-# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, the plot over
-# the battery voltage is missing.)
+# name into the list: `mine = ["my_log.wpilog"]`. (If the log has no battery voltage, the plot
+# against the battery voltage is missing.)
 
 # %%
 mine = sorted(Path("..", "exercises", "exercise12", "data").glob("*/log.wpilog"))
@@ -789,12 +792,12 @@ quick
 # wheel, noise.)
 # </details>
 #
-# **3.** You add "cogging" and the gap of your log falls from 1.3 to 1.1. The gap of the validation
-# rises from 1.4 to 1.6. Do you keep this effect?
+# **3.** You add "cogging" and the gap on your log falls from 1.3 to 1.1. The gap on the validation
+# log rises from 1.4 to 1.6. Do you keep this effect?
 #
 # <details><summary>Answer</summary>
 #
-# No. It fitted the noise of one log. The gap of the fitted log nearly always falls, so that proves
+# No. It fitted the noise of one log. The gap on the fitted log nearly always falls, so that proves
 # nothing.
 # </details>
 #
@@ -803,7 +806,8 @@ quick
 # <details><summary>Answer</summary>
 #
 # Record the four tests with a second step voltage, or log the applied voltage. The battery sag
-# grows with the step, and drag grows with the speed. The old log cannot show which of them it is.
+# grows with the step voltage, and drag grows with the speed. The old log cannot show which of them
+# it is.
 # </details>
 #
 # **5.** The gap is 1.05 times the noise. Are your gains the true ones?

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 10: Swerve
 #
-# *About 45 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
+# *About 40 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
 #
 # **At the end you can**
 #
@@ -21,7 +21,7 @@
 # - fit each module alone and all of them together, and find a worn wheel;
 # - find the radius of a wheel from a slow spin;
 # - find the **moment of inertia** from two tests, with the right lever;
-# - find the **slip current** and the **grip** from a push at a wall;
+# - find the **slip current** and the **grip** from a push against a wall;
 # - put these numbers into PathPlanner and Choreo.
 
 # %% [markdown]
@@ -54,7 +54,7 @@
 # > guess?
 # </details>
 #
-# Our robot has four Kraken X60, 4 inch wheels and a mass of 60 kg. Its wheels stand in a square.
+# Our robot has four Kraken X60, 4 inch wheels and a mass of 60 kg. Its wheels form a square.
 
 # %%
 import numpy as np
@@ -147,8 +147,8 @@ animate_mechanism(
     choices=(Choice("routine", ("translation", "rotation")),),
     panels=(Panel("velocity", "velocity [m/s, rad/s]"),),
     alt="A swerve robot from above. In the translation test its four wheels point forward, and the "
-    "robot drives ahead. In the rotation test the wheels point across the diagonals, and the robot "
-    "turns on the spot.",
+    "robot drives ahead. In the rotation test the wheels point at right angles to the diagonals, "
+    "and the robot turns on the spot.",
 )
 
 # %% [markdown]
@@ -191,16 +191,16 @@ Table(
 # ### Explain
 #
 # A smaller wheel turns more often over the same distance. The code multiplies these turns by the
-# radius of a *new* wheel, so this module reports more meters than there were. If the voltage is the
-# same and there are more meters per second, kV is smaller.
+# radius of a *new* wheel, so this module reports more meters than the robot drove. The voltage is
+# the same, but the reported speed is larger, so kV is smaller.
 #
 # The gains of the three other modules are almost equal. There is a reason: all motors get the same
 # voltage, and the floor forces all wheels to the same speed. If one module rubs, it slows down
 # *all* modules, and its fit looks like the other fits. To find a module that rubs, lift the robot
 # and turn each wheel by hand, or compare the currents.
 #
-# So **compare the modules first, then pool**. The mean of three good wheels and a worn wheel is
-# wrong for all four. `sysid fit` compares the modules for you and prints the kV and kA of each.
+# So **compare the modules first, then pool them**. The mean of three good wheels and a worn wheel
+# is wrong for all four. `sysid fit` compares the modules for you and prints the kV and kA of each.
 
 # %% [markdown]
 # ## 4 A slow spin: how large is a wheel?
@@ -213,7 +213,7 @@ Table(
 #
 # > distance that a wheel rolls = angle of the robot [rad] · distance of the wheel from the middle
 #
-# The same distance is 2π · radius · turns of the wheel. The wheels of a square robot stand in its
+# The same distance is 2π · radius · turns of the wheel. The wheels of a square robot are at its
 # corners. With trackwidth T, the distance from the middle is half of the diagonal: **T/√2**.
 
 # %%
@@ -229,15 +229,15 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 
 # %% [markdown]
 # The radius of the back left wheel is 2.4 mm smaller. Change the wheel, or write the right radius
-# into the code. Do the spin on carpet. On a hard floor the wheel does not sink in, so you measure
-# another radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit
+# into the code. Do the spin on carpet. On a hard floor the wheel does not sink in, so you measure a
+# different radius. AdvantageKit's swerve templates contain this spin as a routine. ([AdvantageKit
 # docs: TalonFX Swerve Template, at one
 # commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 
 # %% [markdown]
 # ## 5 Turning on the spot: the moment of inertia
 #
-# Now each wheel points across the line from the middle to it, and the robot turns on the spot. Both
+# Now each wheel points at a right angle to the diagonal, and the robot turns on the spot. Both
 # tests use the same motors:
 #
 # - straight, kA is a constant of the motors times the **mass**;
@@ -268,9 +268,9 @@ Table(("module", "turns of the motor", "radius of the wheel [mm]"), tuple(rows))
 # page](https://github.com/mjansen4857/pathplanner/blob/207d36a66b09c96673428cddd62785b56fb29fee/Writerside/topics/Robot-Config.md)
 # and [Choreo's
 # page](https://github.com/SleipnirGroup/Choreo/blob/2f4fff4bd823e15d62ed803b0c61a755fa527d0b/docs/usage/estimating-moi.md)
-# (each at one commit) give the formula with *half the trackwidth*. That is right for a tank drive:
-# its wheels push straight forward, T/2 away from the middle. The modules of a square swerve push
-# across the diagonal, so each force F turns the robot with F · T/√2.
+# (at one commit each) give the formula with *half the trackwidth*. That is right for a tank drive:
+# its wheels push straight forward, T/2 away from the middle. The modules of a square swerve push at
+# a right angle to the diagonal, so each force F turns the robot with F · T/√2.
 #
 # Our robot has 5.0 kg·m². **Predict:**
 
@@ -318,9 +318,9 @@ for doubt in found["half the trackwidth, T/2"].doubts:
 #
 # ### Why 5.2 and not 5.0?
 #
-# The motors must also speed up wheels, gears and rotors. These are part of both kA, but not
-# equally. Usually they act like an additional mass of 3 to 10 %. Then the result is a few percent
-# too large. So do not trust the third digit.
+# The motors must also speed up wheels, gears and rotors. They add to both kA values, but not by the
+# same amount. Usually they act like an additional mass of 3 to 10 %. Then the result is a few
+# percent too large. So do not trust the third digit.
 #
 # <details><summary>Want to know why? How much the rotors change</summary>
 #
@@ -335,12 +335,12 @@ least, most = found["half the diagonal, T/√2"].without_rotors
 print(f"Without wheels and rotors: {least:.2f} to {most:.2f} kg·m².")
 
 # %% [markdown]
-# ## 6 The push at a wall: when do the wheels slip?
+# ## 6 The push against a wall: when do the wheels slip?
 #
 # The carpet can hold only a limited force. If a motor pushes harder, the wheel spins on the floor:
 # it **slips**. While it slips, your log shows the speed of the wheel, not the speed of the robot.
 #
-# CTRE's program drives its translation test with a step of 4 V. **Predict:**
+# CTRE's program runs its translation test with a step of 4 V. **Predict:**
 
 # %%
 guess_step = Prediction(
@@ -380,15 +380,6 @@ animate_mechanism(
     panels=(Panel("velocity", "speed [m/s]"),),
     alt="A robot from above. A dashed robot shows the place that its log gives. With a step of 1 V "
     "the two are at the same place. With 4 V the wheels spin, and the log is ahead of the robot.",
-)
-
-# %% [markdown]
-# The next table shows these speeds 20 ms after the step:
-
-# %%
-Table(
-    ("step [V]", "wheels [m/s]", "robot [m/s]"),
-    tuple((f"{step:g}", *(float(one[4]) for one in speeds(step)[1:])) for step in (1.8, 3.0, 4.0)),
 )
 
 # %% [markdown]
@@ -436,7 +427,8 @@ plot_curves(
 #
 # 1. A part of the current only turns the gears. It is kS divided by the resistance of a motor (12 V
 #    / stall current). Subtract this part.
-# 2. Compute the torque of each motor from the rest: stall torque · current / stall current.
+# 2. Compute the torque of each motor from the remaining current: stall torque · current / stall
+#    current.
 # 3. The push of one wheel is torque · gear ratio / wheel radius. There are four wheels:
 #
 # > µ = 4 · torque · gear ratio / (wheel radius · mass · 9.81 m/s²)
@@ -489,16 +481,16 @@ Table(
 # | distances between the wheels [m] | tape measure | Module Offsets | Wheelbase, Trackwidth |
 #
 # A motor's torque is proportional to its current. So the torque at the slip current is stall torque
-# · slip current / stall current. A larger torque makes no sense. If your current limit is lower,
-# use the torque at that limit. For the top speed, PathPlanner's page says: drive as fast as you can
-# with a charged battery, and write down the speed. If you have no room for that, use the formula.
-# The real top speed is lower, because there are losses at high speed that the slow tests do not
-# show.
+# · slip current / stall current. If your current limit is lower, use the torque at that limit. If
+# you can, measure the top speed: the real top speed is a little lower than the formula says.
 #
 # <details><summary>For mentors: which speed, which current and which torque, with sources</summary>
 #
-# If you do not measure the top speed, PathPlanner's page proposes 85 % of the free speed. For its
-# *Motor Speed Limit*, Choreo proposes about 80 %, so that some speed remains for corrections.
+# For the top speed, PathPlanner's page says: drive as fast as you can with a charged battery, and
+# write down the speed. The real top speed is lower than (12 V − kS) / kV, because there are losses
+# at high speed that the slow tests do not show. If you do not measure the top speed, PathPlanner's
+# page proposes 85 % of the free speed. For its *Motor Speed Limit*, Choreo proposes about 80 %, so
+# that some speed remains for corrections.
 #
 # PathPlanner's page calls *Drive Current Limit* a supply limit. But its library uses this number as
 # the current *in the motor*, and computes the torque from it. So enter the stator limit that you
@@ -507,28 +499,13 @@ Table(
 # [ModuleConfig.java, at one
 # commit](https://github.com/mjansen4857/pathplanner/blob/c8ac86828f398c73cc945206dcd519279b3e50df/pathplannerlib/src/main/java/com/pathplanner/lib/config/ModuleConfig.java))
 # Choreo's page proposes the torque at 1.5 times the current of the breaker: 60 A for a 40 A
-# breaker. Then some torque remains for corrections. But a torque above the one at the slip current
-# does not help. Choreo's window has *Wheel COF*, too. ([Robot Configuration, at one
+# breaker. Then some torque remains for corrections. But a torque above the torque at the slip
+# current does not help. Choreo's window has *Wheel COF*, too. ([Robot Configuration, at one
 # commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
 # [ModuleConfigPanel.tsx, at one
 # commit](https://github.com/SleipnirGroup/Choreo/blob/083dd735db2cc0fe83d62bd8a6edbeb6ad9e7138/src/components/config/robotconfig/ModuleConfigPanel.tsx))
 # </details>
-
-# %%
-kraken = robot.motor
-top_speed = (12.0 - straight.gains["kS"]) / straight.gains["kV"]
-Table(
-    ("setting", "value"),
-    (
-        ("moment of inertia [kg·m²]", found["half the diagonal, T/√2"].value),
-        ("top speed [m/s]", top_speed),
-        ("grip µ", grip_of(slip_current - idle)),
-        ("current limit [A]", slip_current),
-        ("max torque of a motor [N·m]", kraken.torque_constant * slip_current),
-    ),
-)
-
-# %% [markdown]
+#
 # kS, kV and kA do not go into a planner. They go into your drive code (lesson 8). In CTRE's program
 # they are the gains of the drive motor, per rotation of the *motor*. In AdvantageKit's template
 # they are per rotation of the *wheel*. In YAGSL and WPILib they are per meter.
@@ -616,10 +593,10 @@ Table(
 )
 
 # %% [markdown]
-# Their wheels are worn, so the robot drives 2.6 % less far than its code computes. And their wheels
-# have less grip than the number in their code: with µ = 1.2 a planner plans curves in which the
-# wheels slip. Their moment of inertia is good enough: the measured value is a few percent too
-# large, because it contains wheels and rotors (section 5).
+# Their wheels are worn, so the robot drives 2.6 % less than its code computes. And their wheels
+# have less grip than their code assumes: with µ = 1.2 a planner plans curves in which the wheels
+# slip. Their moment of inertia is good enough: the measured value is a few percent too large,
+# because it contains wheels and rotors (section 5).
 
 # %% [markdown]
 # ## 8 Your own robot
@@ -630,8 +607,8 @@ Table(
 # 3. **Spin** slowly, five turns or more, on carpet. Write down the angle of the gyro and the turns
 #    of each motor.
 # 4. **Turn.** Run the four tests of the rotation routine. You need a circle of 2 meters around the
-#    robot, and nobody in it. Use a small step here, too. CTRE's own, π rad/s, is 3.4 V on our
-#    robot, and its wheels slip above 2.4 V. At 2 rad/s they do not slip.
+#    robot, and nobody in it. Use a small step here, too. CTRE's step of π rad/s is 3.4 V on our
+#    robot, and its wheels slip above 2.4 V. With a step of 2 rad/s they do not slip.
 # 5. **Fit it**, and let the command compute the inertia. `sysid entries turning.wpilog` shows the
 #    names in your log. Replace V by a `MotorVoltage`, P by the gyro's `Yaw`, and W by its
 #    `AngularVelocityZWorld`:
@@ -643,14 +620,14 @@ Table(
 #    Add `--straight straight.wpilog --mass 60 --lever 0.424`, and it prints the moment of inertia.
 #    (CTRE logs the straight drive in motor rotations. `sysid fit` converts them with the lever.)
 #
-# 6. **Push** at a wall, once.
+# 6. **Push** against a wall, once.
 #
 # <details><summary>For mentors: AdvantageKit and YAGSL</summary>
 #
 # AdvantageKit's templates have only one routine: it drives the robot straight. AdvantageKit's page
-# shows which two lines you change so that the modules point across the diagonals. The first drives
-# open loop. The second steers each module to the angle of its place plus 90°. Then a *voltage*
-# turns the robot, and the log contains this voltage. ([TalonFX Swerve Template, at one
+# shows which two lines you change so that the modules point at right angles to the diagonals. The
+# first drives open loop. The second steers each module to the angle of its place plus 90°. Then a
+# *voltage* turns the robot, and the log contains this voltage. ([TalonFX Swerve Template, at one
 # commit](https://github.com/Mechanical-Advantage/AdvantageKit/blob/e847e20eb8a173e60140599ba35fc0c27a7d1d9b/docs/docs/getting-started/template-projects/talonfx-swerve-template.md))
 # YAGSL's `SwerveDriveTest` has a drive routine and an angle routine. The drive routine first
 # centers the modules, and the log of each module is in meters. The gyro's angle is not in the log,
@@ -718,7 +695,7 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# The slip current grows: more weight presses the wheels on the carpet, so they have more grip.
+# The slip current grows: more weight presses the wheels onto the carpet, so they have more grip.
 # Measure it again, and measure both kA again.
 # </details>
 
@@ -746,7 +723,7 @@ quick
 # <details><summary>More, if you like</summary>
 #
 # Give the robot of section 1 a mass of 68 kg, but the same moment of inertia, and run the lesson
-# again. Which numbers of section 7 change?
+# again. Which results change?
 # </details>
 #
 # **Next:** `grade` in a terminal shows which exercises are left.

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from chromium import LEAST_CONTRAST, least_contrast
 from lab import (
     LESSONS,
     OFTEN,
@@ -26,6 +27,7 @@ from sim.plot.animation import (
     TestPlan,
     animate_mechanism,
 )
+from sim.plot.picture import COLORS_ON_DARK
 
 pytestmark = pytest.mark.browser
 
@@ -222,6 +224,31 @@ def test_each_mechanism_is_drawn_moves_and_fits_a_phone(kind, scheme, shown):
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
     for svg in figure.locator("svg[role=img]").all():
         assert len(svg.get_attribute("aria-label")) > 3
+
+
+@pytest.mark.parametrize(
+    "darken",
+    [
+        "document.body.dataset.jpThemeLight = 'false'",  # JupyterLab's dark theme
+        "document.documentElement.style.colorScheme = 'dark'",
+    ],
+)
+def test_its_colors_stand_out_from_a_dark_page(darken, shown):
+    page, figure = shown(race())
+    page.evaluate(f"() => {{ {darken}; }}")
+    fills = (
+        "figure => [...figure.querySelectorAll('svg *')].map(node => getComputedStyle(node).fill)"
+    )
+    blue = tuple(int(COLORS_ON_DARK[0][at : at + 2], 16) for at in (1, 3, 5))
+    assert f"rgb{blue}" in figure.evaluate(fills)
+    for at in range(len(COLORS_ON_DARK)):
+        style = f"color: var(--motion-color-{at}); background: #121212"
+        figure.evaluate(
+            "(figure, style) => figure.insertAdjacentHTML('beforeend',"
+            " `<b class='sample' style='${style}'>robot</b>`)",
+            style,
+        )
+    assert least_contrast(page, ".sample") >= LEAST_CONTRAST
 
 
 def test_a_menu_picks_the_scene(shown):

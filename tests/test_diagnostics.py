@@ -80,7 +80,7 @@ PLANTED = {
             drawn("drivetrain"),
             lambda run: scaled(run, 0.85 if run.direction == "forward" else 1.0),
         ),
-        "Plot voltage over velocity",
+        "Plot voltage against velocity",
     ),
     "fine-r2": (lambda: only(drawn("shooter"), "dynamic-forward", slowed), "dynamic-forward at"),
     "repeats-differ": (

@@ -46,7 +46,7 @@ PICTURES = {
     ),
     "time series in rotations": lambda: plot_time_series(SHOOTER),
     "one test only": lambda: plot_time_series(replace(DRIVE, runs=DRIVE.runs[:1])),
-    "voltage over velocity": lambda: plot_voltage_velocity(DRIVE),
+    "voltage against velocity": lambda: plot_voltage_velocity(DRIVE),
     "with lines": lambda: plot_voltage_velocity(
         DRIVE, lines={"a": Line(0.2, 2.5), "b": Line(0.1, 2.4)}
     ),
@@ -54,7 +54,7 @@ PICTURES = {
         DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
     ),
     "timesteps": lambda: plot_timesteps(DRIVE),
-    "acceleration over velocity": lambda: plot_acceleration_velocity(DRIVE),
+    "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
     "choices": lambda: plot_choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
     "choices with spreads": lambda: plot_choices(
         {"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}

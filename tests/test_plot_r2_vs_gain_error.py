@@ -5,10 +5,10 @@ import pytest
 from sim.core.errors import BadRequest
 from sim.plot import plot_r2_vs_gain_error
 
-SCORES = {"clean": 0.99, "a lurch": 0.92, "spikes": 0.81}
+SCORES = {"clean": 0.99, "a jump": 0.92, "spikes": 0.81}
 OFF = {
-    "kV": {"clean": 0.0, "a lurch": 0.01, "spikes": 0.05},
-    "kA": {"clean": 0.02, "a lurch": 1.49, "spikes": -6.48},
+    "kV": {"clean": 0.0, "a jump": 0.01, "spikes": 0.05},
+    "kA": {"clean": 0.02, "a jump": 1.49, "spikes": -6.48},
 }
 
 
@@ -46,7 +46,7 @@ def test_words_and_table_tell_the_errors():
         "kA is off by more than 149 % in half of the logs. The largest error is −648 %, in spikes."
         in picture.alt
     )
-    assert picture.table.rows[1] == ("a lurch", 0.92, "yes", "+1 %", "+149 %")
+    assert picture.table.rows[1] == ("a jump", 0.92, "yes", "+1 %", "+149 %")
 
 
 def test_a_score_at_the_threshold_does_not_pass():

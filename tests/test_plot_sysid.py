@@ -1,4 +1,4 @@
-"""Acceleration over velocity of the rows that SysId uses."""
+"""Acceleration against velocity of the rows that SysId uses."""
 
 from dataclasses import replace
 

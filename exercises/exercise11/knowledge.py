@@ -67,8 +67,8 @@ CHECKS = (
             ),
             Option(
                 "kV is wrong, but kS and kA are right.",
-                "kV is the slope of voltage over speed, and this slope depends on the whole long "
-                "test. Which gain depends on the few samples with a large acceleration?",
+                "kV is the slope of voltage against speed, and this slope depends on the whole "
+                "long test. Which gain depends on the few samples with a large acceleration?",
             ),
             Option(
                 "Nothing, once that run is deleted: three runs are enough.",

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 UNITS, LEVER, GEARING = "M-UNITS", "M-LEVER", "M-GEARING"
 HALF = (
-    "half the trackwidth is the lever of a tank. The modules of a square swerve push across the "
-    "diagonal"
+    "half the trackwidth is the lever of a tank drive. The modules of a square swerve push at a "
+    "right angle to the diagonal"
 )
 
 

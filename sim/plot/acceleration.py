@@ -1,4 +1,4 @@
-"""Acceleration over velocity of the rows that SysId's regression uses."""
+"""Acceleration against velocity of the rows that SysId's regression uses."""
 
 from collections.abc import Mapping
 
@@ -16,7 +16,7 @@ FEWEST = 3  # samples that a straight line can miss
 
 
 def plot_acceleration_velocity(log: Log) -> Picture:
-    """Acceleration over velocity of the rows that SysId's regression uses.
+    """Acceleration against velocity of the rows that SysId's regression uses.
 
     Under a constant voltage the acceleration falls on a straight line, because a step approaches
     its end exponentially. A stretch at one height is what a current limit or a slipping wheel looks
@@ -70,13 +70,13 @@ def _table(samples: Mapping[str, tuple[Array, Array]], per: Unit) -> Table:
             (test, speed.size, float(speed.min()), float(speed.max()), *_line(speed, height))
             for test, (speed, height) in samples.items()
         ),
-        caption="Acceleration over velocity, the rows of the fit",
+        caption="Acceleration against velocity, the rows of the fit",
     )  # fmt: skip
 
 
 def _words(table: Table, per: Unit) -> str:
     """What the picture shows; the numbers are those of the table."""
-    said = "The picture shows acceleration over velocity, as recorded and filtered."
+    said = "The picture shows acceleration against velocity, as recorded and filtered."
     for test, samples, slowest, fastest, height, slope in table.rows:
         said += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
         said += f"{per.symbol}/s"

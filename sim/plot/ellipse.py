@@ -103,7 +103,7 @@ def plot_information_map(
     _finish(right, names=names, truth=truth, reach=reach)
     right.set_title("how well two gains are known", fontsize=10, color=INK)
     add_legend(figure, [left, right])
-    alt = "The left panel shows acceleration over velocity. "
+    alt = "The left panel shows acceleration against velocity. "
     alt += " ".join(
         f"{test} has {len(part)} rows, with {_span(part.velocity)} m/s and "
         f"{_span(part.acceleration)} m/s²."

@@ -29,6 +29,8 @@ DARK = 'body[data-jp-theme-light="false"] figure.picture img{filter:invert(0.9) 
 # Okabe and Ito's colors, which people who see few colors can tell apart, without the yellow that
 # is too pale on white. Each has a marker and a line style of its own: color never speaks alone.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#000000")
+# The same on a dark page: only its blue and its black are too dark there.
+COLORS_ON_DARK = ("#3A8FD0", *COLORS[1:-1], "#FFFFFF")
 MARKERS = ("o", "s", "^", "D", "v", "x")
 LINES: tuple[Dash, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)))
 REFERENCE = "#000000"  # what is true, asked for, or really happened

@@ -1,4 +1,4 @@
-"""Voltage over velocity: what speed costs, and what it costs to begin."""
+"""Voltage against velocity: what speed costs, and what it costs to begin."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ ODD = 0.02  # [share of the samples near standstill] that may lie off the panel:
 
 @dataclass(frozen=True)
 class Line:
-    """A straight line in the picture of voltage over velocity: V = intercept + slope·v.
+    """A straight line in the picture of voltage against velocity: V = intercept + slope·v.
 
     Args:
         intercept: [V].
@@ -51,7 +51,7 @@ class _Ramps:
 
 
 def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) -> Picture:
-    """Voltage over velocity of the quasistatic tests, all of it and the part near standstill.
+    """Voltage against velocity of the quasistatic tests, all of it and the part near standstill.
 
     The second panel shows the slowest eighth of forward motion; of a mechanism with gravity of both
     directions, because there the two meet standstill at different voltages, kG + kS and kG - kS.
@@ -187,7 +187,9 @@ def _way(way: str) -> str:
 
 
 def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top: float) -> str:
-    said = "Two panels show voltage over velocity. The first shows the whole voltage ramp, and the "
+    said = (
+        "Two panels show voltage against velocity. The first shows the whole voltage ramp, and the "
+    )
     said += "second only the slow part."
     for one in ramps:
         index = int(np.argmax(np.abs(one.velocity)))

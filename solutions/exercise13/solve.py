@@ -1,4 +1,4 @@
-"""Exercise 13, answered: two fits, a spin, a push at a wall, and some arithmetic."""
+"""Exercise 13, answered: two fits, a spin, a push against a wall, and some arithmetic."""
 
 import csv
 import math

@@ -3,10 +3,10 @@
     straight:  kA = c·m          turning:  kA' = c·J/R          J = m·R·kA'/kA
 
 with c [V/N] the volts that a newton at the wheels takes, and R the lever: how far the push of a
-wheel passes from the middle. For a tank that is half the trackwidth; the modules of a square swerve
-stand in the corners and push across the diagonal, so it is trackwidth/√2. The speeds tell it, too:
-a wheel runs at R·ω, so that R = kV'/kV. (PathPlanner, "Robot Config", and Choreo, "Estimating MoI",
-give the formula, both with half the trackwidth.)
+wheel passes from the middle. For a tank drive that is half the trackwidth; the modules of a square
+swerve are at the corners and push at a right angle to the diagonal, so it is trackwidth/√2. The
+speeds give it, too: a wheel runs at R·ω, so that R = kV'/kV. (PathPlanner, "Robot Config", and
+Choreo, "Estimating MoI", give the formula, both with half the trackwidth.)
 
 Where the test straight ahead was logged in rotations of a motor, as Phoenix 6 does, the lever gives
 the meters: kV'/R volts for each meter per second, whatever the wheel and the gears. What remains is

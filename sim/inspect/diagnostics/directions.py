@@ -54,7 +54,7 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
                 "back-emf-differs",
                 f"Forward takes {forward.kv:.4g} V per unit of speed, reverse {reverse.kv:.4g}: "
                 f"they differ by {apart / kv:.0%}. The load differs between the directions, or "
-                "the sensor reads one direction differently. Plot voltage over velocity, and "
+                "the sensor reads one direction differently. Plot voltage against velocity, and "
                 "trust kV only to this difference.",
             )
         )

@@ -176,8 +176,8 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
             "fast-ramp",
             f"The voltage ramp rises by {rate:.2g} V/s, which is fast for a mechanism with a time "
             f"constant of {features.baseline.timescale:.2g} s. SysId allows for that, but a line "
-            f"drawn through voltage over velocity gives a kS that is {shift:.2f} V too large. If "
-            f"you want to draw one, use half the ramp rate: {0.5 * rate:.2g} V/s.",
+            f"drawn through voltage against velocity gives a kS that is {shift:.2f} V too large. "
+            f"If you want to draw one, use half the ramp rate: {0.5 * rate:.2g} V/s.",
         )
     ]
 

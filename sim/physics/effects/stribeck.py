@@ -2,7 +2,7 @@
 
     V = kS·sgn(v) + ... + extra·exp(-|v|/slow)·sgn(v)
 
-It takes more voltage to break away than to keep moving, so a slow start lurches.
+It takes more voltage to break away than to keep moving, so a slow start jerks.
 """
 
 import math

@@ -15,7 +15,7 @@ import base64
 import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from html import escape
@@ -38,7 +38,7 @@ from sim.plot.animation.scene import (
     Score,
     TestPlan,
 )
-from sim.plot.picture import COLORS, LINES
+from sim.plot.picture import COLORS, COLORS_ON_DARK, LINES
 
 __all__ = [
     "Animation",
@@ -82,7 +82,7 @@ class Animation:
         """Figure, words, style and script as a piece of HTML that needs nothing from elsewhere."""
         data = json.dumps(self.data, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
         data = data.replace("</", "<\\/")  # no name may end the script
-        style = (FOLDER / "animation.css").read_text(encoding="utf-8")
+        style = _write_palette() + (FOLDER / "animation.css").read_text(encoding="utf-8")
         return (
             f"<style>{style}</style>"
             f'<figure class="motion" data-motion data-lm-suppress-shortcuts="true" role="group" '
@@ -99,6 +99,29 @@ class Animation:
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {"text/plain": str(self), "text/html": self.html}
+
+
+def _color_name(at: int) -> str:
+    """The CSS variable of a color of the palette."""
+    return f"--motion-color-{at}"
+
+
+def _write_palette() -> str:
+    """The colors as CSS variables: JupyterLab names its theme, other pages have a color scheme."""
+
+    def rule(selector: str, colors: Iterable[str]) -> str:
+        named = (f"{_color_name(at)}:{color}" for at, color in enumerate(colors))
+        return f"{selector}{{{';'.join(named)}}}"
+
+    either = (
+        f"light-dark({light},{dark})" for light, dark in zip(COLORS, COLORS_ON_DARK, strict=True)
+    )
+    return (
+        rule(".motion", COLORS)
+        + f"@supports(color:light-dark(red,red)){{{rule('.motion', either)}}}"
+        + rule('body[data-jp-theme-light="true"] .motion', COLORS)
+        + rule('body[data-jp-theme-light="false"] .motion', COLORS_ON_DARK)
+    )
 
 
 @cache
@@ -170,7 +193,7 @@ def animate_mechanism(
     }
     data = {
         "stage": stage,
-        "colors": list(COLORS),
+        "colors": [f"var({_color_name(at)})" for at in range(len(COLORS))],
         "choices": [_describe_choice(choice) for choice in choices],
         "knobs": [vars(knob) for knob in knobs],
         "score": None if score is None else vars(score),

@@ -97,7 +97,7 @@ _RECIPES = (
         spoil=harm.add_encoder_slip(0.3),
     ),
     _Recipe(
-        "lurch",
+        "sudden jump",
         "something sticks and lets go in the forward ramp: 1.2 m/s too fast for 0.2 s",
         spoil=harm.add_position_jump,
     ),

@@ -19,7 +19,7 @@ RAMPS = (FORWARD_RAMP, 1)
 PERIOD = 0.02  # [s]
 SPIKE = 1.6  # [m/s]
 WITHIN = (0.3, 0.9)  # [share of the ramp] where spikes fall
-LURCH, LURCHES, LURCHED = 1.2, 0.2, 3.0  # [m/s, s, s] how much too fast, how long, and when
+JUMP, JUMP_LASTS, JUMP_BEGINS = 1.2, 0.2, 3.0  # [m/s, s, s] how much too fast, how long, and when
 STOP, PRESSED = 0.6, 0.3  # [share of the top speed, s]
 CUT = FaultStrike(FORWARD_RAMP, start=1.5, severity=1.0)
 LATE = 0.2  # [share of the loops]
@@ -64,8 +64,8 @@ def add_encoder_slip(loss: float) -> Harm:
 def add_position_jump(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
     """Add a jump of the position to the forward ramp."""
     run = log.runs[FORWARD_RAMP]
-    since = np.clip((run.time - run.time[0] - LURCHED) / LURCHES, 0.0, 1.0)
-    bump = LURCH * np.sin(np.pi * since)
+    since = np.clip((run.time - run.time[0] - JUMP_BEGINS) / JUMP_LASTS, 0.0, 1.0)
+    bump = JUMP * np.sin(np.pi * since)
     moved = run.position + np.cumsum(bump) * PERIOD
     return replace_run(
         log, FORWARD_RAMP, replace(run, velocity=run.velocity + bump, position=moved)
