@@ -4,6 +4,7 @@ A literal behind a name is no constant here. A team sets such a constant before 
 so it serves as a switch.
 """
 
+import operator
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -34,15 +35,12 @@ DEEPEST = 12  # conditions made of conditions
 JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
 NEGATING = frozenset({"not", "!", "~"})
 COMPARISONS: dict[str, Callable[[float, float], bool]] = {
-    "==": lambda one, other: one == other,
-    "is": lambda one, other: one == other,
-    "!=": lambda one, other: one != other,
-    "is not": lambda one, other: one != other,
-    "^": lambda one, other: one != other,
-    "<": lambda one, other: one < other,
-    ">": lambda one, other: one > other,
-    "<=": lambda one, other: one <= other,
-    ">=": lambda one, other: one >= other,
+    **dict.fromkeys(("==", "is"), operator.eq),
+    **dict.fromkeys(("!=", "is not", "^"), operator.ne),
+    "<": operator.lt,
+    ">": operator.gt,
+    "<=": operator.le,
+    ">=": operator.ge,
 }
 
 

@@ -33,6 +33,12 @@ from grader.robotcode.vocabulary import (
     is_motor,
 )
 
+_MARKED_BY = (
+    (APPLIED_VOLTAGE, Mark.APPLIED),
+    (BUS_VOLTAGE, Mark.BUS),
+    (UNSIGNED, Mark.UNSIGNED),
+)
+
 
 class TransferFunctions:
     """Applies operators and library calls to abstract values.
@@ -184,13 +190,7 @@ class TransferFunctions:
         return last_name(node) if last_name(node) in UNITS else node.place.text
 
     def _marks(self, name: str, receiver: Value | None) -> set[Mark]:
-        found = set()
-        if name in APPLIED_VOLTAGE:
-            found.add(Mark.APPLIED)
-        if name in BUS_VOLTAGE:
-            found.add(Mark.BUS)
-        if name in UNSIGNED:
-            found.add(Mark.UNSIGNED)
+        found = {mark for methods, mark in _MARKED_BY if name in methods}
         motor = receiver is not None and is_motor(
             infer_type(receiver.origin, receiver.scope, self._names)
         )
