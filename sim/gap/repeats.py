@@ -30,8 +30,7 @@ class Repeat:
     Args:
         test: its name.
         runs: which two, from 0.
-        correlation: [1] of what is left of the velocities.
-        sure: [standard errors] by which that is above nothing.
+        sure: [standard errors] by which what is left of the velocities correlates.
         excess: [1] mean square of what is left over what noise alone would leave.
         share: [1] of what is left, beyond noise, that is the same in both; may be below 0.
         verdict: ``comes again``, ``comes again in part``, ``changes from run to run`` or ``is no
@@ -40,7 +39,6 @@ class Repeat:
 
     test: str
     runs: tuple[int, int]
-    correlation: float
     sure: float
     excess: float
     share: float
@@ -90,7 +88,7 @@ def _compared(
         verdict = NOISE
     else:
         verdict = AGAIN if share >= MOSTLY else PARTLY if share > HARDLY else CHANGES
-    yield Repeat(one.test, pair, correlation, sure, excess, share, verdict)
+    yield Repeat(one.test, pair, sure, excess, share, verdict)
 
 
 def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:

@@ -156,8 +156,6 @@ def simulate_run(
     wires: Array = NO_WIRES,
     step: float | None = None,
     plain: bool = False,
-    measured: Array = UNSEEN,
-    trust: Array = NO_CORRECTION,
     slide: Array | None = None,
 ) -> Track:
     """Simulate a model under a voltage.
@@ -170,9 +168,6 @@ def simulate_run(
         wires: (9,) battery and limits, see ``power_path.py``; none is an ideal source.
         step: [s] the longest; None chooses.
         plain: in uncompiled Python, for comparison.
-        measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
-            is none; none goes its way.
-        trust: (2, 2) by how much: from both deviations to the corrections of both.
         slide: (n,) [V] by which the voltage slides evenly to the next; None holds it.
 
     Examples:
@@ -194,8 +189,7 @@ def simulate_run(
         np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
         model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
-        np.array([state.clock]), longest, simple, _as_contiguous(measured),
-        _as_contiguous(trust.reshape(-1, 4)[: len(measured)]), np.empty((len(measured), 2)), out,
+        np.array([state.clock]), longest, simple, UNSEEN, np.zeros((0, 4)), np.empty((0, 2)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
