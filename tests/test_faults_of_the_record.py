@@ -182,10 +182,10 @@ def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
 @pytest.mark.parametrize(
     ("factor", "words"),
     [
-        (2 * np.pi, "a factor of 2π"),
-        (1 / 60, "one over 60"),
-        (180 / np.pi, "a factor of 57.3"),
-        (360.0, "a factor of 360"),
+        (2 * np.pi, "2π, the factor"),
+        (1 / 60, "60, the factor"),
+        (180 / np.pi, "57.3, the factor"),
+        (360.0, "360, the factor"),
         (8.46, "a gear ratio"),
     ],
 )

@@ -47,8 +47,8 @@ def picture(figures: Measured) -> Picture:
     else:
         axes[-1].remove()
     alt = (
-        "The kA that two methods find, divided by the true kA, and the velocity error in runs of "
-        "real robots that were held out. " + " ".join(said)
+        "The median kA that two methods find, divided by the true kA, and the velocity error in "
+        "runs of real robots that were held out. " + " ".join(said)
     )
     return Picture(figure, alt)
 
@@ -71,8 +71,8 @@ def simulated(axes: Axes, section: Section, figures: Measured) -> str:
     row = told(section, figures)
     medians = {w: _compared(np.median(figures.rows[row][w].gains["kA"]) / row.ka) for w in WAYS}
     return (
-        f"{section.title} ({row.name}): the median kA of {WAYS[RECIPE]} is {medians[RECIPE]}, and "
-        f"{WAYS[OURS]} is {medians[OURS]}."
+        f"{section.title} ({row.name}): {WAYS[RECIPE]} is {medians[RECIPE]}, {WAYS[OURS]} "
+        f"{medians[OURS]}."
     )
 
 
