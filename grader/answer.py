@@ -216,7 +216,7 @@ class NumberAnswers(Protocol):
         """The numbers asked for."""
 
 
-def number_check(
+def make_number_check(
     name: str,
     description: str,
     *,

@@ -35,7 +35,7 @@ def enable_draw_cache() -> Iterator[None]:
         _KEEPING.reset(token)
 
 
-def cache_draw_on_disk(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+def cache_generated_data(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
     """Decorator: read a student's drawn data from the cache where it is on, else draw them.
 
     Args:
@@ -72,7 +72,7 @@ def find_cache_path(exercise: Path, student: str, what: str) -> Path | None:
         return None
     whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_fingerprint_code(exercise)}"
     name = f"{exercise.name}-{hashlib.sha256(whole.encode()).hexdigest()[:20]}.{what}"
-    return kept_files.cache_folder() / "drawn" / name
+    return kept_files.find_cache_folder() / "drawn" / name
 
 
 @cache

@@ -74,7 +74,7 @@ def exchange_numbers(one: str, other: str) -> Callable[[str], str]:
     return change_numbers(lambda right: {one: right[other], other: right[one]})
 
 
-def set_answer(name: str, value: str) -> Callable[[str], str]:
+def make_wrong_answer(name: str, value: str) -> Callable[[str], str]:
     """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
 
     def edit_text(text: str) -> str:

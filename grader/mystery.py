@@ -152,7 +152,7 @@ def open_mystery(course: Path, folder: Path, state: MysteryState) -> tuple[Myste
     return state, mystery
 
 
-def grade_mystery(mystery: Mystery, answer: str, *, student: str) -> Grade:
+def grade_mystery_answer(mystery: Mystery, answer: str, *, student: str) -> Grade:
     """Grade an answer by the checks of the exercise that the mystery is from."""
     results = run_checks(mystery.checks, mystery.read(answer))
     score = sum(one.points for one in results)

@@ -48,7 +48,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.units import find_unit
-from sim.feedback import allowed_velocity_error, design_velocity_loop
+from sim.feedback import compute_allowed_velocity_error, design_velocity_loop
 from sim.fit import fit
 from sim.fit.sysid_rows import median_filter, prepare_rows
 from sim.plot import (
@@ -969,7 +969,7 @@ show_interactive(
 kp_picture(q=1.5, r=7.0, delay=0)
 
 # %%
-at_load = allowed_velocity_error(ks=0.14, kv=lesson_kv)
+at_load = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)
 rows = []
 for name, q, delay in (
     ("1.5 m/s, the default in SysId's code", 1.5, 0.0),

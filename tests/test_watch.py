@@ -26,7 +26,7 @@ from sim.inspect.detect_faults import inspect
 from sim.io import read, write
 from sim.io.entries.state import FOREVER
 from sim.io.formats.wpilog.growing import GrowingLog
-from sim.report.next_test import ENOUGH, advise_next, find_voltage_limit, settled_step
+from sim.report.next_test import ENOUGH, advise_next, find_settled_step, find_voltage_limit
 
 READ = PartReader().read_file
 SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
@@ -238,7 +238,7 @@ def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():
     way=st.floats(0.01, 10.0),
 )  # fmt: skip
 def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka, ks, way):
-    volts = settled_step({"kS": ks, "kV": kv, "kA": ka}, way)
+    volts = find_settled_step({"kS": ks, "kV": kv, "kA": ka}, way)
     time_ = np.linspace(0.0, 3.0 * ka / kv, 2001)
     speed = (volts - ks) / kv * -np.expm1(-time_ * kv / ka)
     gone = float(np.sum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time_)))

@@ -200,7 +200,7 @@ def _run(
     from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import count_available_cores  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     store = ResultStore(out)
@@ -217,7 +217,8 @@ def _run(
 
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_class(
-                work, left, store, processes=processes or available_cores() + 1, cluster=cluster,
+                work, left, store, cluster=cluster,
+                processes=processes or count_available_cores() + 1,
                 say=say, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:

@@ -8,7 +8,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.edition.notebook_execution import execute_notebook
 from grader.edition.notebook_html import LessonPart, split_notebook
 from sim.core.errors import BadRequest
-from sim.plot.animation import allow_script, read_script
+from sim.plot.animation import make_script_source, read_script
 from sim.report.page_file import load_templates
 
 FOLDER = Path(__file__).parent
@@ -85,7 +85,7 @@ def _write_page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str
         before=before,
         after=after,
         slides=slides,
-        scripts=" ".join(allow_script(text) for text in (read_script(), SLIDES)),
+        scripts=" ".join(make_script_source(text) for text in (read_script(), SLIDES)),
         slides_script=SLIDES,
         other=lesson.page if slides else lesson.slides,
     )

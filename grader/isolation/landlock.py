@@ -39,7 +39,7 @@ def find_abi_version() -> int:
     return max(found, 0)
 
 
-def restrict_files(
+def restrict_file_access(
     *, readable: Iterable[Path], folder: Path, hidden: Path, newest: int | None = None
 ) -> int:
     """From here on this process reads only Python and ``readable``, and writes only ``folder``.

@@ -76,7 +76,7 @@ class CallbackInterpreter(StatementInterpreter):
         self._invoked(callee, [parameter], frame)
         return True
 
-    def follow_method(self, method: Method) -> None:
+    def interpret_method(self, method: Method) -> None:
         """Follow another method of the class after the callback."""
         self.follow_call(method, [], {}, Frame(method[1].home), me="")
 
@@ -153,10 +153,12 @@ class CallbackInterpreter(StatementInterpreter):
             return self.follow_call(found[0], args, named, frame, me=me)
         ways = [partial(self.follow_call, one, args, named, frame, me=me) for one in found]
         return (
-            self.note_agreed_call(call, receiver, ways, frame.unknown_value(call)) if ways else None
+            self.evaluate_ambiguous_call(call, receiver, ways, frame.unknown_value(call))
+            if ways
+            else None
         )
 
-    def note_agreed_call(
+    def evaluate_ambiguous_call(
         self,
         call: Call,  # noqa: ARG002 - for a subclass that can compare
         receiver: Value | None,  # noqa: ARG002 - the same

@@ -33,10 +33,10 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     find_called_functions,
+    get_simple_type_name,
     infer_type,
     infer_type_from,
     last_name,
-    simple_type_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, java_spelling
@@ -201,7 +201,7 @@ class CommandReader:
     def _type(self, seen: BoundNode) -> str:
         """The class of what a method is called on, by its own name; empty if unknown."""
         found = infer_type(seen.node, seen.scope, self._names)
-        return simple_type_name(
+        return get_simple_type_name(
             found or infer_type_from(tuple(find_definitions(seen, self._names)), self._names)
         )
 

@@ -12,8 +12,8 @@ from grader.robotcode.ir import Assign, Call, Cast, Member, Name, Node, Number, 
 from grader.robotcode.name_resolution import (
     find_called_functions,
     find_single_return,
+    get_simple_type_name,
     last_name,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -236,8 +236,8 @@ def _typed(found: FoldedConstant | None, type_: str) -> FoldedConstant | None:
     """A number as a variable of some type keeps it."""
     if found is None or found.dimension != "number":
         return found
-    if simple_type_name(type_) in _REAL:
+    if get_simple_type_name(type_) in _REAL:
         return replace(found, integer=False)
-    if simple_type_name(type_) in _WHOLE:
+    if get_simple_type_name(type_) in _WHOLE:
         return replace(found, value=float(math.trunc(found.value)), integer=True)
     return found

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.robotcode.ir import Assign, Call, Member, Node, Self
-from grader.robotcode.name_resolution import infer_type, last_name, resolve, simple_type_name
+from grader.robotcode.name_resolution import get_simple_type_name, infer_type, last_name, resolve
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import enum_constant, java_spelling
@@ -117,14 +117,14 @@ def _is_slot0(node: Node, scope: Scope, names: SymbolTable) -> bool:
     node = _chain_root(node)
     if isinstance(node, Self):
         return False
-    made = simple_type_name(infer_type(node, scope, names))
+    made = get_simple_type_name(infer_type(node, scope, names))
     return made == SLOT0 or (not made and "slot0" in _bare(last_name(node)))
 
 
 def _is_feed_forward(node: Node, scope: Scope, names: SymbolTable) -> bool:
     """Whether something is the feedforward of a Spark's configuration."""
     node = _chain_root(node)
-    made = simple_type_name(infer_type(node, scope, names))
+    made = get_simple_type_name(infer_type(node, scope, names))
     return made == FEED_FORWARD or _bare(last_name(node)) == "feedforward"
 
 

@@ -8,7 +8,7 @@ from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import DriveCall, Output
 from grader.robotcode.ir import Call, Element, Member, Name, Node, Self
 from grader.robotcode.motors import list_motor_names
-from grader.robotcode.name_resolution import find_class, infer_type, last_name, simple_type_name
+from grader.robotcode.name_resolution import find_class, get_simple_type_name, infer_type, last_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
@@ -48,7 +48,7 @@ class DriveTrace(CallbackInterpreter):
         """How many commands have been noted."""
         return len(self.calls)
 
-    def note_agreed_call(
+    def evaluate_ambiguous_call(
         self, call: Call, receiver: Value | None, ways: Sequence[Callable[[], Value]], at: Value
     ) -> Value | None:
         """Note one command where all classes that a call may run in command their motors alike."""
@@ -112,7 +112,7 @@ class DriveTrace(CallbackInterpreter):
             mode = next(filter(None, map(_mode, args)), None)
             return WITHOUT_MODE[method] if mode is None else mode
         if method in BY_REQUEST and args:
-            type_ = simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
+            type_ = get_simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
             return request_output(type_)
         return COMMANDS.get(method, Output.UNKNOWN)
 
@@ -155,7 +155,7 @@ class DriveTrace(CallbackInterpreter):
         if receiver.carries is not False or not self._is_variable(origin, receiver.scope):
             return False
         type_ = infer_type(origin, receiver.scope, self.names)
-        known = is_motor(type_) or simple_type_name(type_) in GROUPS | DRIVES
+        known = is_motor(type_) or get_simple_type_name(type_) in GROUPS | DRIVES
         if known or not type_ or find_class(origin, receiver.scope, self.names) is not None:
             return True
         return named or method in BY_MODE - {"set"}  # much can be set that is no motor

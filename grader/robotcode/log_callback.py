@@ -67,7 +67,7 @@ class LogTrace(CallbackInterpreter):
             self._note(call, name, receiver.log.name, args)
         return receiver
 
-    def evaluate_variable(self, node: Name | Member, frame: Frame) -> Value:
+    def evaluate_unassigned_variable(self, node: Name | Member, frame: Frame) -> Value:
         """The value of a field: what it is given anywhere in the class."""
         key = self.storage_key(node, frame)
         at = frame.unknown_value(node)

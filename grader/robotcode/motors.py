@@ -19,11 +19,11 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     Placed,
+    get_simple_type_name,
     infer_type,
     infer_type_from,
     last_name,
     resolve,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
@@ -139,7 +139,7 @@ def list_owned_motors(home: Scope, names: SymbolTable) -> tuple[str, ...]:
                 first and first.value and list_group_members(first.value, first.scope, names)
             )
             type_ = infer_type_from(definitions, names)
-            if (is_motor(type_) or simple_type_name(type_) in GROUPS) and not named:
+            if (is_motor(type_) or get_simple_type_name(type_) in GROUPS) and not named:
                 found[name] = None
     following = {name for place in classes for name in _Followers(names).of(place)}
     return tuple(name for name in found if name not in following)
@@ -179,7 +179,7 @@ class _Followers:
         elif name == "setControl" and first is not None:
             return (
                 [motor]
-                if simple_type_name(infer_type(first, scope, self._names)) in FOLLOWERS
+                if get_simple_type_name(infer_type(first, scope, self._names)) in FOLLOWERS
                 else []
             )
         elif name == "set" and first is not None:

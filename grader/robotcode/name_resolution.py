@@ -32,7 +32,7 @@ Placed = tuple[Node, Scope]  # a node, and the scope it stands in
 Method = tuple[Function, Scope]  # a function, and the scope inside it
 
 
-def simple_type_name(type_: str) -> str:
+def get_simple_type_name(type_: str) -> str:
     """A type's own name: ``Config`` of ``SysIdRoutine.Config``, ``List`` of ``List<TalonFX>``."""
     return re.sub(r"[<\[|].*", "", type_, flags=re.DOTALL).strip(" \"'").rpartition(".")[2]
 
@@ -177,7 +177,7 @@ def find_class(node: Node, scope: Scope, names: SymbolTable) -> Scope | None:
     """The class that a node names or is an instance of, if these files hold it."""
     home = names.find_home(node, scope)
     if home is None:
-        type_ = simple_type_name(infer_type(node, scope, names))
+        type_ = get_simple_type_name(infer_type(node, scope, names))
         home = names.find_by_name(type_, scope) if type_ else None
     return home
 

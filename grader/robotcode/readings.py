@@ -12,11 +12,11 @@ from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.ir import Assign, Call, Member, Name, Node, Self, Text
 from grader.robotcode.motors import motor_label
 from grader.robotcode.name_resolution import (
+    get_simple_type_name,
     infer_type,
     infer_type_from,
     last_name,
     resolve,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope, collect_bindings, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
@@ -101,7 +101,7 @@ def find_quantity(method: str, *, motor: bool) -> str:
 
 def find_device(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
     """The name and the class of a motor controller or encoder; two empty texts for other nodes."""
-    type_ = simple_type_name(infer_type(node, scope, names))
+    type_ = get_simple_type_name(infer_type(node, scope, names))
     value, _ = resolve(node, scope, names)
     if isinstance(value, Call) and isinstance(value.target, Member):
         made = PARTS.get(java_spelling(value.target.name), "")
@@ -243,7 +243,7 @@ def _made(home: Scope, names: SymbolTable) -> Iterator[tuple[str, Call]]:
     for name, definitions in (names.find_fields(home) if home.classes else {}).items():
         value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
         if isinstance(value, Call) and value.args:
-            type_ = simple_type_name(infer_type(value, home, names))
+            type_ = get_simple_type_name(infer_type(value, home, names))
             if is_motor(type_) or type_ == "Encoder":
                 yield name, value
 
@@ -255,7 +255,7 @@ def find_shared_ids(
     made: dict[tuple[object, ...], str] = {}
     found: list[tuple[str, str]] = []
     for name, value in _made(home, names):
-        kind = simple_type_name(infer_type(value, home, names))
+        kind = get_simple_type_name(infer_type(value, home, names))
         amounts = [measures.fold(arg, home) for arg in value.args]
         known = [one.value for one in amounts if one is not None]
         texts = [arg.value for arg in value.args if isinstance(arg, Text)]
@@ -270,7 +270,7 @@ def find_devices(home: Scope, names: SymbolTable) -> Iterator[tuple[str, str]]:
     """The motor controllers and encoders that a class owns: name and class."""
     for place in names.list_base_classes(home) if home.classes else ():
         for name, definitions in names.find_fields(place).items():
-            type_ = simple_type_name(infer_type_from(definitions, names))
+            type_ = get_simple_type_name(infer_type_from(definitions, names))
             if is_motor(type_) or ENCODER.fullmatch(type_):
                 yield name, type_
 

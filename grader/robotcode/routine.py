@@ -25,10 +25,10 @@ from grader.robotcode.name_resolution import (
     find_constructed_class,
     find_imported_name,
     find_methods,
+    get_simple_type_name,
     infer_type,
     last_name,
     resolve,
-    simple_type_name,
 )
 from grader.robotcode.readings import (
     find_devices,
@@ -145,7 +145,7 @@ def _kind(node: Node, scope: Scope, names: SymbolTable) -> str:
         return _part_made(value, where, names)
     if isinstance(value, Null | Text | Number | Function | Self):
         return "other"
-    return _part_name(simple_type_name(infer_type(node, scope, names)))
+    return _part_name(get_simple_type_name(infer_type(node, scope, names)))
 
 
 def _part_made(call: Call, scope: Scope, names: SymbolTable) -> str:
@@ -299,7 +299,7 @@ def _besides(
     loop = DriveTrace(names, measures, only_sure=True)
     driven = {call.motor for call in drive.calls if call.method not in STOPS}
     for method in find_methods("periodic", scope.home, names)[:1] if scope.classes else ():
-        loop.follow_method(method)
+        loop.interpret_method(method)
     followed = any(call.text == other.text for call in drive.calls for other in loop.calls)
     return () if followed else tuple(call for call in loop.calls if call.motor in driven)
 
@@ -310,4 +310,4 @@ def _in_periodic(drive: DriveTrace, scope: Scope, names: SymbolTable) -> None:
         return
     if any(value.carries for value in drive.stored.values()):
         for method in find_methods("periodic", scope.home, names)[:1]:
-            drive.follow_method(method)
+            drive.interpret_method(method)

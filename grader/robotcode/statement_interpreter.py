@@ -102,7 +102,7 @@ class StatementInterpreter(ABC):
     ) -> Value:
         """The value of a call of a function in these files."""
 
-    def evaluate_variable(self, node: Name | Member, frame: Frame) -> Value:
+    def evaluate_unassigned_variable(self, node: Name | Member, frame: Frame) -> Value:
         """The value of a variable that no statement so far has assigned."""
         return frame.unknown_value(node)
 
@@ -154,7 +154,7 @@ class StatementInterpreter(ABC):
         if local and isinstance(value, Name | Member | Function):
             outer = Frame(definitions[0].scope, frame.me, around=frame.around)
             return self.evaluate(value, outer)
-        return self.evaluate_variable(node, frame)
+        return self.evaluate_unassigned_variable(node, frame)
 
     def _is_part(self, node: Member, frame: Frame) -> bool:
         """Whether a member belongs to some object: not to this one, nor to a class or a file."""

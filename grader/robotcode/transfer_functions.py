@@ -7,7 +7,7 @@ from grader.robotcode.abstract_value import CHANGED, Mark, Value, join_values
 from grader.robotcode.constant_folding import ConstantFolder, FoldedConstant
 from grader.robotcode.conversions import FACTORS
 from grader.robotcode.ir import Call, Member, Node, Operation
-from grader.robotcode.name_resolution import infer_type, last_name, simple_type_name
+from grader.robotcode.name_resolution import get_simple_type_name, infer_type, last_name
 from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, find_device, find_quantity
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -204,7 +204,7 @@ class TransferFunctions:
         return found
 
     def _is_controller(self, receiver: Value) -> bool:
-        type_ = simple_type_name(infer_type(receiver.origin, receiver.scope, self._names))
+        type_ = get_simple_type_name(infer_type(receiver.origin, receiver.scope, self._names))
         return bool(CONTROLLERS.fullmatch(type_ or receiver.origin.place.text))
 
 

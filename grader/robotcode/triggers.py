@@ -41,10 +41,10 @@ from grader.robotcode.ir import (
     Return,
 )
 from grader.robotcode.name_resolution import (
+    get_simple_type_name,
     infer_type,
     infer_type_from,
     last_name,
-    simple_type_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import java_spelling
@@ -153,7 +153,7 @@ class Triggers:
 
     def _type(self, seen: BoundNode) -> str:
         found = infer_type(seen.node, seen.scope, self._names)
-        return simple_type_name(
+        return get_simple_type_name(
             found or infer_type_from(tuple(find_definitions(seen, self._names)), self._names)
         )
 

@@ -44,7 +44,7 @@ def read_sensor(
     """
     read_at = time if read_at is None else read_at
     noise = rng.standard_normal(velocity.size if read_at is None else read_at.size)
-    if time is not None and read_at is not None and sensor_lags(sensor):
+    if time is not None and read_at is not None and has_sensor_lag(sensor):
         at = read_at - sensor.latency
         if sensor.frame:
             phase = sensor.frame * rng.random()
@@ -69,7 +69,7 @@ def read_sensor(
     )
 
 
-def sensor_lags(sensor: Sensor) -> bool:
+def has_sensor_lag(sensor: Sensor) -> bool:
     """Whether a reading is of another moment than that at which it is read."""
     return bool(sensor.latency or sensor.filter or sensor.frame)
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.slip import slip_part, slip_voltage, wheels_slip
+from sim.bench.slip import compute_slip_voltage, make_slip_effect, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -70,8 +70,11 @@ def simulate(
         ['quasistatic-forward', 'quasistatic-reverse']
     """
     _check_period(period)
-    model, slips = mechanism.model, slip_part(mechanism)
-    wires, parts = power_path_arrays(mechanism, duty_cycle=duty_cycle), _steps_per_loop(mechanism)
+    model, slips = mechanism.model, make_slip_effect(mechanism)
+    wires, parts = (
+        make_power_path_array(mechanism, duty_cycle=duty_cycle),
+        _steps_per_loop(mechanism),
+    )
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -164,7 +167,7 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
     if gripped:
         yield Doubt(
             "slip-left-out",
-            f"Here the wheels would slip above {slip_voltage(mechanism):.1f} V from "
+            f"Here the wheels would slip above {compute_slip_voltage(mechanism):.1f} V from "
             "standstill. Beside a hidden joint (backlash, compliance), the simulation leaves out "
             "the slip. Use a smaller step, or hide no joint.",
         )
@@ -176,7 +179,7 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
         )
 
 
-def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
+def make_power_path_array(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
     """(9,) the wires of a mechanism, in the order of ``sim.physics.engine.power_path``."""
     return np.array(
         [

@@ -144,13 +144,13 @@ def _solved(
         held_out=logs.get("held_out"),
         type=type_ or log.type or "simple",
         travel=travel,
-        time_limit=time_limit or default_time_limit(),
+        time_limit=time_limit or choose_time_limit(),
         damages={name: inspect_damage(some) for name, some in logs.items()},
         progress=progress,
     )
 
 
-def default_time_limit() -> float:
+def choose_time_limit() -> float:
     """[s] of processor time that a person waits for; no limit where the simulation is slow."""
     from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
 
@@ -165,14 +165,16 @@ def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
     """
     from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
     from sim.reconcile import DamagedInterval  # noqa: PLC0415
-    from sim.reconcile.dropout_intervals import dropout_intervals  # noqa: PLC0415
+    from sim.reconcile.dropout_intervals import find_dropout_intervals  # noqa: PLC0415
 
     found = []
     for one in inspect(log).damages:
         where = one.where
         stretches: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == IN_MOMENTS and where.run is not None:
-            stretches = dropout_intervals(log.runs[where.run], start=where.start, end=where.end)
+            stretches = find_dropout_intervals(
+                log.runs[where.run], start=where.start, end=where.end
+            )
         found += [
             DamagedInterval(
                 where.run, *stretch, one.fault, one.confidence, one.evidence, one.advice

@@ -37,7 +37,7 @@ UNITS: dict[str, Unit] = {
 }
 
 
-def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
+def convert_gains(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
     """The same gains when positions are counted in a unit ``factor`` times as large.
 
     Args:
@@ -45,7 +45,7 @@ def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
         factor: ``unit("rotations").si`` turns gains per radian into gains per rotation.
 
     Examples:
-        >>> gains_per({"kS": 0.1, "kV": 0.02}, factor=find_unit("rotations").si)["kV"]  # [V·s/rot]
+        >>> convert_gains({"kV": 0.02}, factor=find_unit("rotations").si)["kV"]  # [V·s/rotation]
         0.12566370614359174
     """
     return {

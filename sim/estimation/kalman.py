@@ -124,7 +124,7 @@ OPEN_LOOP = KalmanFilter(
 """A filter that corrects nothing: its predictions are a simulation."""
 
 
-def steady_state_filter(
+def make_steady_state_filter(
     model: Model, *, noise: SensorNoise, process_noise: float, period: float
 ) -> KalmanFilter:
     """The Kalman filter of position and velocity in its steady state.

@@ -24,10 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, steady_state_filter
+from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, make_steady_state_filter
 from sim.estimation.measurements import SensorNoise, estimate_noise
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.random_friction import friction_prior, friction_sd
+from sim.estimation.random_friction import compute_friction_prior, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
 from sim.physics.engine import EXPECTED, RunBatch, Track, filter_runs
@@ -312,13 +312,13 @@ class PredictionErrorProblem:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
-            kalman_filter = steady_state_filter(
+            kalman_filter = make_steady_state_filter(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
             innovations = self.predict_errors(model, nuisance, kalman_filter)
             cov = self.covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
-            cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            cost = self._cost(cov) + own + compute_friction_prior(values, nuisance)
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
             cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
@@ -419,7 +419,7 @@ class PredictionErrorProblem:
 
     def friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
-        by = np.full(len(self.records), friction_sd(point.values))
+        by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
             [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
@@ -438,7 +438,7 @@ class PredictionErrorProblem:
         """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
         priors = [(self.start_sd, point.nuisance.position_offset)]
         if self.varying_friction:
-            priors.append((friction_sd(point.values), point.nuisance.friction_offset))
+            priors.append((get_friction_sd(point.values), point.nuisance.friction_offset))
         if self.lag_sd:
             priors.append((self.lag_sd, point.nuisance.lag_offset))
         return priors

@@ -187,7 +187,7 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     return min(point, other, key=lambda one: one.cost)
 
 
-def parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
 
     A combination of parameters that the log says nothing about has a huge error, not none.

@@ -55,7 +55,7 @@ class RunInformation:
         return RunInformation(self.information[np.ix_(chosen, chosen)], self.score[chosen])
 
 
-def run_variation_covariance(
+def compute_run_variation_covariance(
     problem: PredictionErrorProblem, point: Estimate, table: Array, rest: Array
 ) -> Array:
     """(searched, searched) covariance of the parameters when gains vary from run to run.

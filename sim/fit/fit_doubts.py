@@ -15,7 +15,7 @@ STRONG = 2.5  # [standard deviations of what is ordinary] from which an effect i
 SOON = 0.004  # [s] a later answer is worth a word
 
 
-def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
+def warn_of_opposed_signs(way: float) -> tuple[Doubt, ...]:
     """A warning if positive voltage drives the mechanism backward."""
     if way > 0.0:
         return ()
@@ -29,7 +29,7 @@ def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
     )
 
 
-def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
+def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
     """Warnings about a filtered velocity and about a delay [s]."""
     said = []
     if window > 0.0:
@@ -54,7 +54,7 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
     return tuple(said)
 
 
-def doubt_misfit(
+def warn_of_misfit(
     followed: OpenLoopReplay, alone: OpenLoopReplay, *, per: Unit, hint: str = ""
 ) -> tuple[Doubt, ...]:
     """A warning if a simulation differs from the log by more than noise.
@@ -90,7 +90,7 @@ def doubt_misfit(
     )
 
 
-def doubt_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
+def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
     """A warning if an effect is larger than on a robot in good order.
 
     Args:

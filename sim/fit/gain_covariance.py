@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows, invert_information
-from sim.estimation.run_variation import run_variation_covariance
-from sim.fit.everyday_effects import without_size
+from sim.estimation.run_variation import compute_run_variation_covariance
+from sim.fit.everyday_effects import add_absent_effects
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.search import OPEN_LOOP
 
@@ -23,7 +23,7 @@ FORM = 0.05  # [of a small effect] by which its formula is wrong on a robot
 TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 
-def gain_covariances(
+def compute_gain_covariances(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> Iterator[tuple[Estimate, Array]]:
     """An estimate and a (searched, searched) covariance of its parameters, one for each cause.
@@ -35,7 +35,7 @@ def gain_covariances(
     """
     extended, wide = problem, point
     if not problem.priors:
-        extended, wide = without_size(problem, point)
+        extended, wide = add_absent_effects(problem, point)
     table, rest = append_prior_rows(extended, wide, fine=True)
     count = len(wide.structure.searched_names)
     known = extended.priors_of(wide.structure)
@@ -43,7 +43,7 @@ def gain_covariances(
     weak[:count] = [name in known for name in wide.structure.searched_names]
     noise = invert_information(table, weak=weak)
     yield wide, noise[:count, :count] + _form_covariance(wide, table, weak)
-    yield wide, run_variation_covariance(extended, wide, table, rest)
+    yield wide, compute_run_variation_covariance(extended, wide, table, rest)
     lacks = point.process_noise > EXACT * problem.noise.velocity**2
     if followed.has_misfit or lacks:
         yield wide, _sandwich(extended, table, rest, noise)[:count, :count]

@@ -65,7 +65,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
         BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    way, model = model_of_fit(fitted)
+    way, model = make_fit_model(fitted)
     runs = [run for run in log.runs if len(run) >= FEWEST]
     friction = None if fitted.type == "simple" else model.gains["kS"]
     seen = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
@@ -92,7 +92,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     )
 
 
-def model_of_fit(found: Fit) -> tuple[float, Model]:
+def make_fit_model(found: Fit) -> tuple[float, Model]:
     """What moves, and the sign of the voltage that moves it forward."""
     way = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
     gains = {

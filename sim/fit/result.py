@@ -6,12 +6,12 @@ from dataclasses import dataclass, field, replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.core.units import Unit, find_unit, gains_per
+from sim.core.units import Unit, convert_gains, find_unit
 from sim.feedback import (
     PRESETS,
     Feedback,
     Preset,
-    allowed_velocity_error,
+    compute_allowed_velocity_error,
     design_position_loop,
     design_velocity_loop,
 )
@@ -79,8 +79,8 @@ class Fit:
         return replace(
             self,
             units=new.name,
-            gains=gains_per(self.gains, factor=factor),
-            errors=gains_per(self.errors, factor=factor),
+            gains=convert_gains(self.gains, factor=factor),
+            errors=convert_gains(self.errors, factor=factor),
             acceleration_rmse=self.acceleration_rmse / factor,
             simulated_velocity_rmse=self.simulated_velocity_rmse / factor,
             velocity_threshold=self.velocity_threshold / factor,
@@ -99,7 +99,7 @@ class Fit:
         kv, ka = self.gains["kV"], self.gains["kA"]
         if not (kv >= 0.0 and ka > 0.0):
             return {}
-        allowed = allowed_velocity_error(ks=self.gains["kS"], kv=kv)
+        allowed = compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
         if not allowed > 0.0:
             return {}
         seen = preset is PRESETS["default"]

@@ -63,7 +63,7 @@ def fit_run_lags(
     lags = tracked.values["delay.lag"] + tracked.nuisance.lag_offset
     if lags.min() < -EARLY * period:
         return problem, point  # no reading is newer than the voltage beside it
-    if not tracked.cost + laplace_correction(extended, tracked) < alike.cost - WORTH:
+    if not tracked.cost + compute_laplace_correction(extended, tracked) < alike.cost - WORTH:
         return problem, point
     extended = drop_outliers(extended, tracked)
     tracked = levenberg_marquardt(extended, _again(extended, tracked), steps=STEPS, enough=ROUGHLY)
@@ -78,7 +78,7 @@ def fit_run_lags(
     return framed, fit_open_loop(framed, _again(framed, regular))
 
 
-def laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
+def compute_laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
     """[of -2 log L] Laplace correction for integrating over the runs' own lags."""
     slopes = np.sum(np.square(problem.lag_jacobian(point)), axis=0)
     return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))

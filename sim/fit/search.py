@@ -14,7 +14,7 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST, RunMeasurements, merge_stale_samples
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import JointJacobian, levenberg_marquardt, tune_process_noise
-from sim.estimation.run_records import separate_records
+from sim.estimation.run_records import make_separate_records
 
 SLACK = 0.02  # [m or rad] of a gear or a chain, which kS, kV and kA do not describe
 TRACKING = 1.0  # [1/s] q over the variance of a velocity: it moves by its noise in a second
@@ -37,7 +37,7 @@ def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErro
         log: the runs.
         measured: of those with enough samples, the measurements.
     """
-    records = separate_records(log, [merge_stale_samples(one) for one in measured])
+    records = make_separate_records(log, [merge_stale_samples(one) for one in measured])
     return PredictionErrorProblem.from_records(
         records, varying_friction=False, backlash_allowance=SLACK
     )
@@ -93,7 +93,7 @@ def refine(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     return levenberg_marquardt(problem, point, steps=STEPS, enough=ENOUGH)
 
 
-def predicted_improvement(
+def predict_improvement(
     problem: PredictionErrorProblem,
     point: Estimate,
     more: Sequence[tuple[str, float]],

@@ -17,7 +17,7 @@ SURELY = 2.0  # [standard errors] further below zero than this is no accident of
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 
 
-def sysid_doubts(
+def list_sysid_doubts(
     log: Log, prepared: PreparedRows, found: Regression, simulated: tuple[SimulationScore, ...]
 ) -> tuple[Doubt, ...]:
     """All doubts about a fit by SysId's recipe.
@@ -32,7 +32,7 @@ def sysid_doubts(
         *_doubt_repeats(log),
         *_doubt_stale_velocities(log),
         *_doubt_signs(found.gains, found.errors),
-        *uncertain_gains(found.gains, found.errors),
+        *warn_of_uncertain_gains(found.gains, found.errors),
         *_doubt_uncertain_gains(found.r2, simulated),
         *_doubt_slow_steps(prepared.velocity_delay, found.gains),
     )
@@ -123,7 +123,7 @@ def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> lis
     ]
 
 
-def uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+def warn_of_uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
     """Gains whose error is about as large as they are."""
     return [
         Doubt(

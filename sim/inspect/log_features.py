@@ -184,7 +184,7 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     return starts, np.diff(np.append(starts, values.size))
 
 
-def majority_sign(values: Array) -> int:
+def find_majority_sign(values: Array) -> int:
     """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
     mean = float(np.sign(values).mean()) if values.size else 0.0
     return 0 if abs(mean) < AGREED else int(np.sign(mean))
@@ -205,7 +205,7 @@ def _recognize_test(run: Run) -> str:
     elif rise > STEP:
         kind = "dynamic"
     moving = last[np.abs(run.velocity[last]) > MOVING * run.top_speed]
-    pushed, moved = majority_sign(run.voltage[last]), majority_sign(run.velocity[moving])
+    pushed, moved = find_majority_sign(run.voltage[last]), find_majority_sign(run.velocity[moving])
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"

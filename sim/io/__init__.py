@@ -27,7 +27,7 @@ from sim.io.entries.entry import Entry
 from sim.io.foreign import FOREIGN
 from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
 from sim.io.hoot import SUFFIX, convert_hoot
-from sim.io.velocity import velocity_from_position
+from sim.io.velocity import differentiate_position
 from sim.support.atomic_file import atomic_path
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
@@ -133,7 +133,7 @@ def read_motors(
     found = {name: _set_type(log, type) for name, log in logs.items()}
     if not ignore_velocity:
         return found
-    return {name: velocity_from_position(log) for name, log in found.items()}
+    return {name: differentiate_position(log) for name, log in found.items()}
 
 
 def _asked(

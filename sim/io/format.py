@@ -67,7 +67,7 @@ class Format(Protocol):
         """Read a file of this format into a log."""
 
 
-def doubt_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
+def warn_of_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
     """A doubt if a motor was asked for in a file that holds the signals of one only."""
     if motor is None:
         return ()

@@ -132,7 +132,7 @@ class Effect:
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
         stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a
             function of ``x`` and the parameters. ``force`` is its slope.
-        fastest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
+        shortest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
         shortest_length: [unit] way along which it stays much the same, from parameters, for what
             depends on places: its steps are long where the motion is slow. None if it has none.
         narrowest_speed: [unit/s] span of speed within which it stays much the same, from
@@ -158,7 +158,7 @@ class Effect:
     hooks: Mapping[str, Callable[..., Any]]
     symmetric: bool = True
     stored_energy: Callable[..., float] | None = None
-    fastest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
+    shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
     shortest_length: Callable[[Mapping[str, float]], float] | None = None
     narrowest_speed: Callable[[Mapping[str, float]], float] | None = None
     order: int = 0

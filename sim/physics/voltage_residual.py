@@ -80,9 +80,9 @@ class VoltageResidual:
         A column that looks like friction, back-EMF, inertia or a constant is not credited with what
         those can explain by themselves: they are in the sum, and forgotten.
         """
-        return np.asarray(self.fit_column_sums(*(column[:, None] for column in columns))[:, 0])
+        return np.asarray(self.fit_each_column(*(column[:, None] for column in columns))[:, 0])
 
-    def fit_column_sums(self, *columns: Array) -> Array:
+    def fit_each_column(self, *columns: Array) -> Array:
         """(k, m) such weights of m sums of k columns (n, m): one sum after another, by itself."""
         kept, rest = self._adjusted
         table = np.stack(columns)
@@ -133,7 +133,7 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
         gains: kS, kV, kA, and kG (with ``offset_rad`` for an arm) where ``type`` has gravity.
         type: ``simple``, ``elevator`` or ``arm``.
     """
-    starts = run_start_times(log)
+    starts = list_run_start_times(log)
     parts = [_rows(run, number, starts[number]) for number, run in enumerate(log.runs)]
     top = max((float(np.max(np.abs(p[5]), initial=0.0)) for p in parts), default=0.0)
     table = np.concatenate([p[:, np.abs(p[5]) > MOVING * top] for p in parts], axis=1)
@@ -151,7 +151,7 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
     )  # fmt: skip
 
 
-def run_start_times(log: Log) -> Array:
+def list_run_start_times(log: Log) -> Array:
     """(runs,) [s] start of each run, from the start of the first.
 
     Where the times of runs do not follow one another, as in a file in which each begins at zero,

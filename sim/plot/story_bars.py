@@ -56,7 +56,7 @@ def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
     most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
     for place, one in enumerate(drawn):
-        kind = candidate_status(one, taken)
+        kind = describe_candidate_status(one, taken)
         color, hatch = LOOKS[kind]
         axes.barh(
             place, max(one.score, 0.0), color=color, hatch=hatch, edgecolor=INK, linewidth=0.6,
@@ -84,7 +84,7 @@ def find_next_effect(story: Story, chapter: int) -> str:
     return story.chapters[chapter + 1].added if chapter + 1 < len(story.chapters) else ""
 
 
-def candidate_status(one: TriedCandidate, taken: str) -> str:
+def describe_candidate_status(one: TriedCandidate, taken: str) -> str:
     """Whether a candidate was added, was admissible, or was rejected."""
     if one.effect == taken:
         return TAKEN
@@ -92,7 +92,7 @@ def candidate_status(one: TriedCandidate, taken: str) -> str:
 
 
 def _why(one: TriedCandidate, taken: str) -> str:
-    kind = candidate_status(one, taken)
+    kind = describe_candidate_status(one, taken)
     return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
 
 

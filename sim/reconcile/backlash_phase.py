@@ -55,7 +55,8 @@ def estimate_backlash_phase(
     found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
     return (
         found
-        if found.cost + backlash_phase_prior(found) < point.cost + backlash_phase_prior(point)
+        if found.cost + compute_backlash_phase_prior(found)
+        < point.cost + compute_backlash_phase_prior(point)
         else point
     )
 
@@ -81,7 +82,7 @@ def _costs_by_run(
     return costs
 
 
-def backlash_phase_prior(point: Estimate) -> float:
+def compute_backlash_phase_prior(point: Estimate) -> float:
     """[of -2 log L] prior cost of the backlash phases."""
     return float(np.sum(_prior_costs(point.nuisance.backlash_phase)))
 

@@ -15,10 +15,10 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.gap import Place
 from sim.reconcile.backlash_phase import estimate_backlash_phase
-from sim.reconcile.cross_validation import open_loop_errors, rms_gap
+from sim.reconcile.cross_validation import compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_map import map_residuals
-from sim.reconcile.selection_round import SelectionRound, reported_estimate
+from sim.reconcile.selection_round import SelectionRound, choose_reported_estimate
 from sim.reconcile.story import Chapter
 from sim.reconcile.thresholds import OTHER_MATTER
 
@@ -123,17 +123,17 @@ class HeldOutLog:
         found = {}
         for before, one in pairwise(done):
             gap = self._gap(one.without.estimate) if one.without else math.inf
-            gap = gap if math.isfinite(gap) else self._gap(reported_estimate(before))
+            gap = gap if math.isfinite(gap) else self._gap(choose_reported_estimate(before))
             found[one.candidate.effect] = gap
         return found
 
     def _gap(self, point: Estimate, nuisance: RunNuisance | None = None) -> float:
         nuisance = self._initial_nuisance(point) if nuisance is None else nuisance
-        errors = open_loop_errors(self.problem, point, nuisance)
-        return rms_gap(errors).velocity / find_unit(self.log.units).si
+        errors = compute_open_loop_errors(self.problem, point, nuisance)
+        return compute_rms_gap(errors).velocity / find_unit(self.log.units).si
 
     def _chapter(self, one: SelectionRound) -> Chapter:
-        point = reported_estimate(one)
+        point = choose_reported_estimate(one)
         model = point.structure.model(point.values)
         nuisance = self._initial_nuisance(point)
         gap = self._gap(point, nuisance)

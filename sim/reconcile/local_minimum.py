@@ -17,7 +17,7 @@ from sim.estimation.optimize import (
     tune_process_noise,
 )
 from sim.reconcile.backlash_phase import (
-    backlash_phase_prior,
+    compute_backlash_phase_prior,
     estimate_backlash_phase,
     halve_backlash,
 )
@@ -63,7 +63,7 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     if found[0].process_noise > AGITATED * calm:
         calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
         found.append(_alternate(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
-    best = min(found, key=total_cost)
+    best = min(found, key=compute_total_cost)
     return _tighten_backlash(problem, best) if point.structure.has_backlash else best
 
 
@@ -72,16 +72,16 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
     best = point
     for _ in range(HALVED):
         less = minimize(problem, halve_backlash(problem, point))
-        if not total_cost(less) < total_cost(best) + CLOSE:
+        if not compute_total_cost(less) < compute_total_cost(best) + CLOSE:
             break
         point = less
-        best = min(best, point, key=total_cost)
+        best = min(best, point, key=compute_total_cost)
     return point
 
 
-def total_cost(point: Estimate) -> float:
+def compute_total_cost(point: Estimate) -> float:
     """[of -2 log L] of an estimate, with the priors of its nuisance parameters."""
-    return point.cost + backlash_phase_prior(point)
+    return point.cost + compute_backlash_phase_prior(point)
 
 
 def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -94,7 +94,7 @@ def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     return point
 
 
-def predicted_improvement(
+def rate_starts(
     problem: PredictionErrorProblem, point: Estimate, structure: ModelStructure,
     more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
@@ -124,7 +124,7 @@ def predicted_improvement(
             return -math.inf, other
         return square - kept.residual_square(
             problem.whiten(point, other.innovations)
-        ) - backlash_phase_prior(other), other
+        ) - compute_backlash_phase_prior(other), other
 
     now = problem.whiten(point, point.innovations)
     square = kept.residual_square(now)

@@ -72,7 +72,7 @@ class JudgedEffect:
     probability: float
 
 
-def probability_of(evidence: Evidence) -> float:
+def compute_probability(evidence: Evidence) -> float:
     """[1] How likely an effect of which this was measured is right."""
     weights = _read_coefficients()
     odds = weights["intercept"] + sum(
@@ -81,14 +81,14 @@ def probability_of(evidence: Evidence) -> float:
     return 1.0 / (1.0 + math.exp(-odds))
 
 
-def log_gap_ratio(with_: float, without: float) -> float:
+def compute_log_gap_ratio(with_: float, without: float) -> float:
     """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
     return math.log(min(max(with_ / without, NARROWEST), 1.0 / NARROWEST))
 
 
-def log_strays(noises: float) -> float:
+def compute_log_gap(noises: float) -> float:
     """Logarithm of a gap in noises, clipped to the range that matters.
 
     Args:
@@ -97,7 +97,7 @@ def log_strays(noises: float) -> float:
     return math.log(min(max(noises, FEWEST_NOISES), MOST_NOISES))
 
 
-def log_size(effect: str, values: Mapping[str, float]) -> float:
+def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
     """Logarithm of an effect's size over the largest ordinary size, clipped to ``SIZES``.
 
     Args:
@@ -125,7 +125,7 @@ def log_size(effect: str, values: Mapping[str, float]) -> float:
     return high
 
 
-def rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
+def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
     """[1] Score of the best other effect over an effect's own, 0 to 1.
 
     Args:

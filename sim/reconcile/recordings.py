@@ -10,7 +10,12 @@ from sim.core.log import Log, Run
 from sim.core.units import Unit, find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.estimation.run_records import RunRecord, join_records, run_records, session_length
+from sim.estimation.run_records import (
+    RunRecord,
+    compute_session_length,
+    join_records,
+    make_run_records,
+)
 from sim.reconcile.damage_policy import DamageDecision
 
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
@@ -83,10 +88,10 @@ class Recordings:
 
     def _records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
         """The runs of one log; its clock goes on where the log before it ended."""
-        return run_records(
+        return make_run_records(
             self.logs_by_name[name],
             session=session,
-            since=session_length(*self._before(name)),
+            since=compute_session_length(*self._before(name)),
             aside=self.damage.excluded_from(name),
         )
 

@@ -11,7 +11,7 @@ from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, gain_unit
-from sim.report.gain_verdicts import gain_verdict
+from sim.report.gain_verdicts import write_gain_verdict
 
 FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
 
@@ -43,7 +43,7 @@ def show_fit(
     for doubt in doubts:
         if doubt.grave:
             console.print(f"wrong: {doubt.message}", style="bold")
-    console.print(f"Verdict: {gain_verdict(found, log)}", style="bold")
+    console.print(f"Verdict: {write_gain_verdict(found, log)}", style="bold")
     console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("gain")

@@ -15,7 +15,7 @@ from sim.core.vocabulary import FOUR_TESTS
 from sim.fit.result import Fit
 from sim.inspect.detect_faults import Inspection
 from sim.inspect.fault import Damage
-from sim.inspect.launch import step_start
+from sim.inspect.launch import find_step_start
 from sim.report.gain_verdicts import list_gain_advice
 
 SETTLES = 3.0  # [timescales] in which a step has almost reached its speed, as the lessons plan it
@@ -94,7 +94,7 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
     """
     if run.kind != "dynamic" or not len(run):
         return None
-    first = step_start(run)
+    first = find_step_start(run)
     size = np.abs(run.voltage[first:])
     free = size > (1.0 - LEAST_STEP) * np.percentile(size, 90)
     count = int(np.argmax(free))
@@ -105,11 +105,11 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
 
 def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
     """Advice for a step that ended at a stop: how soon, and a step that settles before it."""
-    first = step_start(run)
+    first = find_step_start(run)
     after = max(stop.where.start - float(run.time[first]), 0.0)
     most = float(np.abs(run.voltage).max())
     way = abs(float(np.interp(stop.where.start, run.time, run.position) - run.position[first]))
-    volts = 0.5 * most if found is None else settled_step(found.gains, way)
+    volts = 0.5 * most if found is None else find_settled_step(found.gains, way)
     volts = min(volts, 0.5 * most) if not 0.0 < volts < most else volts
     return (
         f"{run.test} reached its end after {after * 1000.0:.0f} ms. Repeat it with "
@@ -117,7 +117,7 @@ def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
     )
 
 
-def settled_step(gains: Mapping[str, float], way: float) -> float:
+def find_settled_step(gains: Mapping[str, float], way: float) -> float:
     """[V] the largest step that has almost reached its speed within some way.
 
     From rest, x(t) = v·(t - τ·(1 - exp(-t/τ))) with τ = kA/kV and v = (V - kS)/kV, solved for V at

@@ -8,7 +8,12 @@ from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
-from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, feedback_delay, try_feedback_gains
+from sim.fit.feedback_trial import (
+    SUGGESTED,
+    FeedbackTrial,
+    choose_feedback_delay,
+    try_feedback_gains,
+)
 from sim.plot.table import to_text
 from sim.report.fit_terminal import format_error
 from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, write_robot_code
@@ -124,7 +129,7 @@ def make_controller_rows(found: Fit) -> list[ControllerRow]:
             if trial.owner == SUGGESTED
         }
         if {"velocity", "position"} <= set(tried):
-            delays = {1000.0 * feedback_delay(found, preset, loop=loop) for loop in tried}
+            delays = {1000.0 * choose_feedback_delay(found, preset, loop=loop) for loop in tried}
             rows.append(
                 ControllerRow(
                     preset.name,

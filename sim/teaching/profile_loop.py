@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.bench.mechanism import Mechanism
-from sim.bench.simulate import power_path_arrays
+from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.physics.engine import State as Body
@@ -226,7 +226,7 @@ def follow_in_closed_loop(
     Raises:
         BadRequest: the controller answers with no finite number.
     """
-    model, wires = mechanism.model, power_path_arrays(mechanism)
+    model, wires = mechanism.model, make_power_path_array(mechanism)
     body = Body.cold_at(profile.start)
     count = math.ceil((profile.duration + STILL) / period)
     position, velocity, asked = [profile.start], [0.0], []
@@ -273,7 +273,7 @@ class CheckedLoop:
     report: str
 
 
-def feedforward_and_feedback(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
+def compute_loop_voltage(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
     """[V] of the loop that lesson 8 asks for."""
     forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
     return forward + pid.calculate(one.position, one.now.position)
@@ -289,19 +289,19 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
         answer = mine(*_controllers(), EXAMPLE)
         if answer is ... or answer is None:
             said = "Your loop: still empty. Put your answer in place of the three dots."
-            return CheckedLoop(feedforward_and_feedback, said + OURS)
+            return CheckedLoop(compute_loop_voltage, said + OURS)
         found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
     except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
         said = f"Your loop: it stops with an error: {error}."
-        return CheckedLoop(feedforward_and_feedback, said + OURS)
-    wanted = feedforward_and_feedback(*_controllers(), EXAMPLE)
+        return CheckedLoop(compute_loop_voltage, said + OURS)
+    wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
     if math.isclose(found, wanted, rel_tol=CLOSE):
         return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
     hint = next(
         (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
     )
-    return CheckedLoop(feedforward_and_feedback, f"Your loop: not yet. {hint}{OURS}")
+    return CheckedLoop(compute_loop_voltage, f"Your loop: not yet. {hint}{OURS}")
 
 
 def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
@@ -352,7 +352,7 @@ def _wrong_loops() -> list[tuple[float, str]]:
     ]
 
 
-def phoenix_volts(
+def compute_phoenix_voltage(
     gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
 ) -> float:
     """[V] of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.

@@ -42,9 +42,9 @@ from grader.robotcode.name_resolution import (
     find_class,
     find_constructed_class,
     find_methods,
+    get_simple_type_name,
     infer_type,
     last_name,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
@@ -154,7 +154,7 @@ def _names_before_2027(
             continue
         new = ""
         if node.name in of_motor:
-            type_ = simple_type_name(infer_type(node.owner, scope, names))
+            type_ = get_simple_type_name(infer_type(node.owner, scope, names))
             if type_ in PWM_MOTORS and names.find_by_name(type_, scope) is None:
                 new = of_motor[node.name]
         elif last_name(node.owner) == "Direction":
@@ -379,8 +379,8 @@ def _closed(scope: Scope, names: SymbolTable) -> bool:
         for place in names.list_base_classes(Scope(scope.module, scope.classes[:count])):
             for base in place.classes[-1].bases:
                 if (
-                    simple_type_name(base) not in PLAIN
-                    and names.find_by_name(simple_type_name(base), place) is None
+                    get_simple_type_name(base) not in PLAIN
+                    and names.find_by_name(get_simple_type_name(base), place) is None
                 ):
                     return False
     return True

@@ -23,8 +23,8 @@ from grader.robotcode.name_resolution import (
     find_called_functions,
     find_constructed_class,
     find_methods,
+    get_simple_type_name,
     last_name,
-    simple_type_name,
 )
 from grader.robotcode.readings import find_device, find_quantity
 from grader.robotcode.scope import Scope, walk_with_scopes
@@ -250,7 +250,7 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParsePr
         fits = [
             one
             for one, _ in found
-            if len(one.parameters) == 1 and simple_type_name(one.parameters[0].type) in allowed
+            if len(one.parameters) == 1 and get_simple_type_name(one.parameters[0].type) in allowed
         ]
         if found and not fits:
             wanted = max(allowed, key=len)
@@ -300,7 +300,7 @@ def infer_expression_type(node: Node, scope: Scope, names: SymbolTable, *, depth
 
 
 def _named(type_: str) -> str:
-    name = simple_type_name(type_).removeprefix("Mut")
+    name = get_simple_type_name(type_).removeprefix("Mut")
     if name in NUMBERS:
         return NUMBER
     return name if name in MEASURES | {SIGNAL} else ""

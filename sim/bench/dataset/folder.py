@@ -52,7 +52,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
             )
         for job in jobs:
             entry = entries.pop(job.fingerprint, None)
-            hashes = {file: file_digest(folder / file) for file in job.files}
+            hashes = {file: compute_file_digest(folder / file) for file in job.files}
             there = {file: found for file, found in hashes.items() if found}
             if entry and hashes == entry["files"]:
                 kept.append(entry)
@@ -71,7 +71,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
     return FolderSurvey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
 
 
-def file_digest(path: Path) -> str:
+def compute_file_digest(path: Path) -> str:
     """SHA-256 of a file; empty if there is none.
 
     Raises:

@@ -26,13 +26,13 @@ SEAL = "seal"
 Entry = Mapping[str, Any]
 
 
-def default_key_path(folder: Path) -> Path:
+def choose_key_path(folder: Path) -> Path:
     """Where the key of a dataset lies if nobody says: beside its folder, not in it."""
     folder = Path(os.path.abspath(folder))  # noqa: PTH100 - as it is called, not where it leads
     return folder.with_name(f"{folder.name or 'dataset'}{ENDING}")
 
 
-def entries_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
+def index_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
     """File -> its entry."""
     return {file: entry for entry in entries for file in entry["files"]}
 

@@ -16,7 +16,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run
-from sim.core.units import find_unit, gains_per
+from sim.core.units import convert_gains, find_unit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.fault import DamagedLog, LogInterval
 from sim.io import write
@@ -70,7 +70,7 @@ def _made(job: LogJob) -> MadeLog | FailedLog:
         log = simulate(
             built,
             asked.routine,
-            rng=job.random_stream(RECORD),
+            rng=job.make_random_stream(RECORD),
             period=asked.period,
             duty_cycle=asked.duty_cycle,
             electrical=asked.electrical,
@@ -94,7 +94,7 @@ def _built(job: LogJob) -> Mechanism:
     """The mechanism, drawn and with its effects hidden."""
     built = MECHANISMS[job.mechanism]
     if job.drawn:
-        built = built.draw(job.random_stream(MECHANISM))
+        built = built.draw(job.make_random_stream(MECHANISM))
     for one in job.effects:
         built = built.hide(one.effect, size=one.size)
     return built
@@ -132,7 +132,7 @@ def _struck(log: Log, strike: PlannedFault, job: LogJob, number: int) -> Damaged
     """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
     attempt = 0
     while True:
-        rng = job.random_stream(DAMAGE, number, attempt)
+        rng = job.make_random_stream(DAMAGE, number, attempt)
         try:
             return contaminate(
                 log,
@@ -170,7 +170,7 @@ def _truth(
         "mechanism": built.name,
         "type": built.type,
         "units": per.name,
-        "gains": gains_per(built.gains, factor=per.si),
+        "gains": convert_gains(built.gains, factor=per.si),
         "built": {name: getattr(built, name) for name in built.spread},
         "hidden": [
             {

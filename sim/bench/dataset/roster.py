@@ -27,14 +27,14 @@ def read_students(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
         return ()
     if isinstance(given, list):
         texts = table.read_texts("students", example="ann")
-        return distinct_names((f"{table.where}, students", text) for text in texts)
+        return make_distinct_names((f"{table.where}, students", text) for text in texts)
     if isinstance(given, dict):
         found = TomlTable(given, where=f"{table.where}, students", known=("file", "column"))
         file = found.read_text("file", example=EXAMPLE)
         column = found.read_text("column", example=COLUMN) if "column" in found else COLUMN
     else:
         file, column = table.read_text("students", example=EXAMPLE), COLUMN
-    return distinct_names(_cells(folder / file, column=column))
+    return make_distinct_names(_cells(folder / file, column=column))
 
 
 def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
@@ -52,7 +52,7 @@ def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
         yield f"{path}, line {number}", row[place] if place < len(row) else ""
 
 
-def distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
     """Names as they are shown, each of another person.
 
     Args:

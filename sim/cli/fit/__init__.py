@@ -147,7 +147,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     For example: sysid fit drive.wpilog --html drive.html
     """
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
-    from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
+    from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
@@ -164,7 +164,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
         notes = (*more, *notes)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
-    found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
+    found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
     _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
     return told.echo(as_json=as_json, paste=paste, season=int(season))

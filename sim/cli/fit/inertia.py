@@ -96,7 +96,7 @@ def find_inertia(
     if turning is None:
         return None
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as below: --help must not wait for it
-    from sim.fit.physics.inertia import moment_of_inertia  # noqa: PLC0415
+    from sim.fit.physics.inertia import compute_moment_of_inertia  # noqa: PLC0415
 
     if any(doubt.code == "rate-as-voltage" for doubt in log.doubts):
         raise BadRequest(
@@ -108,7 +108,9 @@ def find_inertia(
     find = partial(find_gains, type="simple", method=method)
     gone = fit_parts(parts, find, kind=describe_kind(parts, 1)).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
-    return moment_of_inertia(found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels)
+    return compute_moment_of_inertia(
+        found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels
+    )
 
 
 def add_inertia(

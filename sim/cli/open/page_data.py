@@ -107,7 +107,7 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - only for people
+    from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - only for people
     from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
 
     pooled, log = one.fit(reading), one.log(reading)
@@ -127,7 +127,7 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     return {
         "type": found.type,
         "gains": gains,
-        "verdict": gain_verdict(found, log),
+        "verdict": write_gain_verdict(found, log),
         "doubts": _doubts(found.all_doubts(), one),
         "notes": list(pooled.notes),
         "parts": sorted(part.effect for part in found.parts),

@@ -44,7 +44,7 @@ class ReconcileJob:
     def _run(self) -> None:
         """Search; whatever goes wrong is told with the next question."""
         from sim.cli.reconcile import (  # noqa: PLC0415 - once it is needed
-            default_time_limit,
+            choose_time_limit,
             inspect_damage,
         )
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
@@ -55,7 +55,7 @@ class ReconcileJob:
                 log,
                 type=self._type or log.type or "simple",
                 damages={"log": inspect_damage(log)},
-                time_limit=default_time_limit(),
+                time_limit=choose_time_limit(),
                 progress=self._note,
             )
             self._story = describe_story(story)

@@ -46,7 +46,7 @@ class WatchUpdate:
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid watch --json`` prints it."""
-        from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - once it is needed
+        from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - once it is needed
 
         log = self.log
         said: dict[str, Any] = {
@@ -60,7 +60,7 @@ class WatchUpdate:
         }
         if self.pooled is not None:
             said["fit"] = self.pooled.found.to_json()
-            said["verdict"] = gain_verdict(self.pooled.found, log)
+            said["verdict"] = write_gain_verdict(self.pooled.found, log)
         return said
 
 

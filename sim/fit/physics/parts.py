@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.fit.result import Fit
-from sim.physics.motors import Motor, theoretical_kv
+from sim.physics.motors import Motor, compute_theoretical_kv
 
 SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
 BELOW = 0.97  # [of theory] 12 V over the free speed is at most 2.1 % above the exact back-EMF
@@ -45,7 +45,7 @@ class Parts:
     @property
     def kv(self) -> float:
         """[V·s/m or V·s/rad] the theoretical kV, 12 V over the free speed."""
-        return theoretical_kv(self.motor, ratio=self.ratio, radius=self.radius)
+        return compute_theoretical_kv(self.motor, ratio=self.ratio, radius=self.radius)
 
     @property
     def ka(self) -> float | None:

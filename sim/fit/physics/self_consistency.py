@@ -17,7 +17,7 @@ FEW_LOOPS = 1.0  # [sample periods] the same, for a fit that simulates between s
 SURE = 0.03  # [share of kA] an error below it is sure
 
 
-def friction_doubts(found: Fit) -> list[Doubt]:
+def check_friction(found: Fit) -> list[Doubt]:
     """The red flag of kS, and the band to watch."""
     ks, kv = found.gains["kS"], found.gains["kV"]
     surely = ks - SURELY * found.errors["kS"]
@@ -52,7 +52,7 @@ def _format_speed(found: Fit, speed: float) -> str:
     return f"{speed / per.si:.3g} {per.symbol}/s"
 
 
-def gravity_doubts(found: Fit) -> list[Doubt]:
+def check_gravity(found: Fit) -> list[Doubt]:
     """An elevator's weight against its inertia: both are the same mass.
 
     A stage of mass m that moves at half the carriage's speed adds m/2 to the weight that the motor
@@ -94,7 +94,7 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
     return []
 
 
-def timescale_doubts(found: Fit, period: float) -> list[Doubt]:
+def check_timescale(found: Fit, period: float) -> list[Doubt]:
     """A mechanism that is up to speed before the next sample."""
     kv, ka = found.gains["kV"], found.gains["kA"]
     if kv <= 0.0 or ka <= 0.0:

@@ -40,7 +40,7 @@ FACTORS = (
 """kV found over kV of theory, and the mistake that makes it."""
 
 
-def theory_doubts(found: Fit, parts: Parts) -> list[Doubt]:
+def check_theory(found: Fit, parts: Parts) -> list[Doubt]:
     """Doubts where kV and kA contradict motor, gearing and load.
 
     Raises:

@@ -20,7 +20,7 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import Flags, LogFeatures, majority_sign
+from sim.inspect.log_features import Flags, LogFeatures, find_majority_sign
 
 ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which all tests of a direction, or all, are struck
 HARD = 0.5  # [share of the largest voltage] less may lose against gravity and friction
@@ -69,7 +69,7 @@ def _hard(values: Array) -> Flags:
 
 
 def _against(one: Array, other: Array, judged: Flags) -> bool:
-    return bool(judged.sum() >= FEWEST) and majority_sign(one[judged] * other[judged]) < 0
+    return bool(judged.sum() >= FEWEST) and find_majority_sign(one[judged] * other[judged]) < 0
 
 
 def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
@@ -87,7 +87,7 @@ def _falls(run: Run, log: Log) -> bool:
     """Whether the other direction of the same test goes the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
     for other in log.runs_of_test(mate):
-        goes = majority_sign(other.velocity) * majority_sign(run.velocity) > 0
+        goes = find_majority_sign(other.velocity) * find_majority_sign(run.velocity) > 0
         if goes and other.top_speed > FALLS * run.top_speed:
             return True
     return False

@@ -19,7 +19,7 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.launch import step_start
+from sim.inspect.launch import find_step_start
 from sim.inspect.log_features import LogFeatures
 
 EVERY = 0.22  # [s] between two drop-outs
@@ -119,7 +119,7 @@ def _sags(run: Run, first: int, last: int) -> bool:
 
 def _launches(run: Run, drop: _Drop) -> bool:
     """Whether it is in the first moment of a step, when a controller's limits may act."""
-    return bool(0.0 <= run.time[drop.first] - run.time[step_start(run)] < LAUNCH)
+    return bool(0.0 <= run.time[drop.first] - run.time[find_step_start(run)] < LAUNCH)
 
 
 def _returns(voltage: Array, first: int, last: int, ought: Array) -> bool:

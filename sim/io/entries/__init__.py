@@ -17,7 +17,7 @@ from sim.core.units import UNITS
 from sim.io.entries.discovery import find_devices, find_driven_interval
 from sim.io.entries.entry import Entry
 from sim.io.entries.mirrored import turn_mirrored_motors
-from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, no_motor
+from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, make_no_motor_error
 from sim.io.entries.names import (
     find_test_name,
     find_type_in_name,
@@ -146,7 +146,7 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
             raise
         if any(device.is_complete for device in find_devices(entries)):
             raise
-        lacking = no_motor(entries, where=where)
+        lacking = make_no_motor_error(entries, where=where)
         raise MissingSignal(
             f"{missing.what}; {lacking.what}", where=where, advice=f"{missing.advice} {EXPORT}"
         ) from None

@@ -118,7 +118,7 @@ def find_motors(
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
     if not (whole or given or found or split_name(state.entry.name, WORD)):
-        raise no_motor(entries, where=where, mechanism=state.mechanism)
+        raise make_no_motor_error(entries, where=where, mechanism=state.mechanism)
     if not whole:
         best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
         raise _missing(best, search)
@@ -266,7 +266,9 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     )
 
 
-def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> MissingSignal:
+def make_no_motor_error(
+    entries: Sequence[Entry], *, where: str, mechanism: str = ""
+) -> MissingSignal:
     """The refusal of a log in which no device was recorded whole.
 
     Args:

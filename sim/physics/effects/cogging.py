@@ -36,7 +36,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
 
 
-def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+def shortest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
     """[s] in which one period passes at the speed of 6 V, over 2π."""
     return gains["kV"] / (6.0 * max(values["turns"], 1e-9))
 
@@ -62,7 +62,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     waves = np.repeat(turned[:, None], tried.size, axis=1)
     waves[:, 0] = np.exp(1j * tried[0] * few.position)
     waves = np.multiply.accumulate(waves, axis=1)
-    cosine, sine = few.fit_column_sums(waves.real, waves.imag)
+    cosine, sine = few.fit_each_column(waves.real, waves.imag)
     left = np.hypot(cosine, sine)
     for _ in range(SHOWN):
         best = int(np.argmax(left))
@@ -109,7 +109,7 @@ EFFECT = Effect(
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,
-    fastest_time=fastest_time,
+    shortest_time=shortest_time,
     shortest_length=shortest_length,
     is_ordinary=is_ordinary,
 )

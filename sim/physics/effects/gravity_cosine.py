@@ -29,7 +29,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"level": 0.14 * scale.step * size, "upright": 0.04 * scale.step * size}
 
 
-def require_angle(scale: Scale) -> str:
+def explain_missing_angle(scale: Scale) -> str:
     """Why the effect cannot be added: positions in meters have no cosine; else empty."""
     return "" if scale.angular else "its positions are lengths, not angles"
 
@@ -70,7 +70,7 @@ EFFECT = Effect(
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,
-    reason_against=require_angle,
+    reason_against=explain_missing_angle,
     simpler="spring",
     simplify=simplify,
 )

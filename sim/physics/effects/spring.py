@@ -28,7 +28,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"rate": 0.5 * size / scale.reach, "preload": -0.25 * size}
 
 
-def require_travel_limits(scale: Scale) -> str:
+def explain_missing_limits(scale: Scale) -> str:
     """Why the effect cannot be added: without ends of the travel no spring lasts; else empty."""
     return "" if scale.bounded else "it turns without end, and a spring does not"
 
@@ -68,7 +68,7 @@ EFFECT = Effect(
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,
-    reason_against=require_travel_limits,
+    reason_against=explain_missing_limits,
     simpler="constant-load",
     simplify=simplify,
 )

@@ -26,7 +26,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"extra": 0.25 * size, "slow": 0.08 * scale.speed}
 
 
-def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+def shortest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
     """[s] in which it lets go: falling friction pushes the motion on."""
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
@@ -71,7 +71,7 @@ EFFECT = Effect(
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"coulomb_friction": coulomb_friction},
-    fastest_time=fastest_time,
+    shortest_time=shortest_time,
     narrowest_speed=narrowest_speed,
     is_ordinary=is_ordinary,
 )

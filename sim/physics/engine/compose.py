@@ -28,7 +28,7 @@ from sim.physics.engine import (
     two_body_modes,
 )
 from sim.physics.engine.two_body_modes import WAYS
-from sim.support.work.cache import cache_folder
+from sim.support.work.cache import find_cache_folder
 
 if TYPE_CHECKING:
     from sim.physics.engine.kernel import Kernel
@@ -75,7 +75,7 @@ RUNNING = {
 }  # a chain: each effect changes what the last one left
 
 
-def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
+def make_parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
     """Where the parameters of each effect stand in the engine's one array of parameters."""
     found, at = {}, 0
     for name, effect in effects.items():
@@ -107,9 +107,9 @@ def compose_engine(
             )
     text = "\n".join(_engine_lines(effects, compiled=compiled))
     if compiled:
-        from sim.physics.engine.kernel import kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
+        from sim.physics.engine.kernel import find_kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
 
-        return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
+        return load_kernel(text, find_kernel_file(find_cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
     module.__dict__["move"] = np.errstate(all="ignore")(module.move)  # as compiled code is: quiet
@@ -128,10 +128,10 @@ def is_compiled(effects: Mapping[str, Effect]) -> bool:
     Raises:
         ImportError: llvmlite (extra ``fast``) is missing.
     """
-    from sim.physics.engine.kernel import kernel_file  # noqa: PLC0415 - needs llvmlite
+    from sim.physics.engine.kernel import find_kernel_file  # noqa: PLC0415 - needs llvmlite
 
     text = "\n".join(_engine_lines(effects, compiled=True))
-    return kernel_file(cache_folder(), _engine_hash(effects, text)).is_file()
+    return find_kernel_file(find_cache_folder(), _engine_hash(effects, text)).is_file()
 
 
 def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
@@ -162,7 +162,7 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
             yield f"import {act.__module__}"
             makes = "step" if compiled else "use_ieee_math"
             yield f"{_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
-    at = parameter_slices(effects)
+    at = make_parameter_slices(effects)
     for hook in HOOKS:
         yield from _hook_lines(hook, effects, at)
     yield from _memory_lines(effects, at)

@@ -24,7 +24,15 @@ from sim.physics.engine.hooks import (
     update_memory,
 )
 from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bound_travel, step_one_body
-from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_voltage, limit_voltage
+from sim.physics.engine.power_path import (
+    CUT,
+    EMF,
+    OHM,
+    REST,
+    STOP,
+    compute_bus_voltage,
+    limit_voltage,
+)
 from sim.physics.engine.slipping_wheels import step_slipping_wheels
 from sim.physics.engine.two_bodies import step_two_bodies
 
@@ -55,7 +63,7 @@ def advance_step(
     off = clock < state[OFF_UNTIL]
     if w[REST] != 0.0 and not off:
         u = limit_voltage(w, asked, state[V])
-        bus = bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
+        bus = compute_bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
         if bus < w[STOP]:  # noticed now, acted on from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
     if grip_limit(on, p) < math.inf:
@@ -77,7 +85,7 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
     out[k, APPLIED] = u
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
-        out[k, BUS] = bus_voltage(w, u, current)
+        out[k, BUS] = compute_bus_voltage(w, u, current)
         out[k, CURRENT] = current
 
 
@@ -122,7 +130,7 @@ def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -
     return float(max(math.ceil(span / longest - 1e-9), 1))
 
 
-def voltage_slope(time: Array, slides: Array, command: int) -> float:
+def compute_voltage_slope(time: Array, slides: Array, command: int) -> float:
     """[V/s] of a command; 0 where it is held."""
     if command < 0 or command + 1 >= time.size or slides[command] == 0.0:
         return 0.0
@@ -170,7 +178,7 @@ def step_run(
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:
                 volts = asked[command] if command >= 0 else 0.0
-                slope = voltage_slope(time, slides, command)
+                slope = compute_voltage_slope(time, slides, command)
                 if slope != 0.0:
                     volts += slope * (now - time[command] - lag)
                 count = count_steps(after - now, steps, state[V], volts, c)

@@ -81,7 +81,7 @@ def make_table(ways: Array, at: int, dt: float, level: int) -> int:
         doublings += 1
     sum_series(ways, at + POWERS, moment, step + 1)
     for _ in range(doublings):
-        double_table(ways, step + 1, step + 1)
+        make_doubled_table(ways, step + 1, step + 1)
     ways[step] = dt
     return step + 1
 
@@ -91,7 +91,7 @@ def make_table_from_half(ways: Array, at: int, dt: float, level: int) -> int:
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
-    double_table(ways, make_table(ways, at, dt, level + 1), step + 1)
+    make_doubled_table(ways, make_table(ways, at, dt, level + 1), step + 1)
     ways[step] = dt
     return step + 1
 
@@ -107,7 +107,7 @@ def sum_series(ways: Array, powers: int, moment: float, to: int) -> None:
             ways[to + i] = ways[to + i] * moment + ways[here + i]
 
 
-def double_table(ways: Array, at: int, to: int) -> None:
+def make_doubled_table(ways: Array, at: int, to: int) -> None:
     """The table of twice the time, which may take the place of the one it is made of."""
     d0, v0, w0, b0, r0 = ways[at], ways[at + 1], ways[at + 2], ways[at + 3], ways[at + 4]
     d1, v1, w1, b1, r1 = ways[at + 5], ways[at + 6], ways[at + 7], ways[at + 8], ways[at + 9]

@@ -51,8 +51,8 @@ __all__ = [
     "Scene",
     "Score",
     "TestPlan",
-    "allow_script",
     "animate_mechanism",
+    "make_script_source",
     "read_script",
 ]
 
@@ -136,7 +136,7 @@ def read_script() -> str:
     return "\n".join(row for row in rows if not row.startswith("import "))
 
 
-def allow_script(script: str) -> str:
+def make_script_source(script: str) -> str:
     """The source by which a page's Content-Security-Policy allows one script, and no other."""
     digest = hashlib.sha256(script.encode("utf-8")).digest()
     return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"

@@ -12,7 +12,7 @@ from sim.support.atomic_file import write_atomically
 CACHE = "SYSID_CACHE"  # environment variable: another folder
 
 
-def cache_folder() -> Path:
+def find_cache_folder() -> Path:
     """The folder of the user's cache, which may not be there yet."""
     asked = os.environ.get(CACHE)
     return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))

@@ -18,7 +18,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.entry import Entry
-from sim.io.format import HEAD, ReadOptions, doubt_motor_choice, make_run
+from sim.io.format import HEAD, ReadOptions, make_run, warn_of_motor_choice
 from sim.io.formats.csv.entries import is_export, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
 
@@ -76,7 +76,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
     signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
     si = find_unit(asked.units_or_default).si
     runs: list[Run] = []
-    doubts = [*table.doubts, *doubt_motor_choice(asked.motor, where=table.where)]
+    doubts = [*table.doubts, *warn_of_motor_choice(asked.motor, where=table.where)]
     for number, rows in enumerate(_split(table, codes, signals["time"])):
         mine = {
             name: values[rows]

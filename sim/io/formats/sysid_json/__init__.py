@@ -15,7 +15,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
-from sim.io.format import ReadOptions, doubt_motor_choice, make_run
+from sim.io.format import ReadOptions, make_run, warn_of_motor_choice
 from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
 from sim.io.formats.sysid_json.file_header import FileHeader, read_header
 from sim.io.formats.sysid_json.rows import (
@@ -133,5 +133,5 @@ def _sides(
     ]
     if len(found) == 1:
         sides, doubts = read_one_side(found[0], where=where)
-        return sides, [*doubts, *doubt_motor_choice(motor, where=where)]
+        return sides, [*doubts, *warn_of_motor_choice(motor, where=where)]
     return read_drivetrain(found, motor=motor or "combined", angular=said.angular, where=where)

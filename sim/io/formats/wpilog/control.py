@@ -56,7 +56,7 @@ def parse_control_record(payload: bytes) -> Control | None:
     return Metadata(number, *texts) if which == METADATA else Finish(number)
 
 
-def start_payload(entry: Start) -> bytes:
+def make_start_payload(entry: Start) -> bytes:
     """The payload of the control record that starts an entry."""
     texts = (text.encode("utf-8", "replace") for text in (entry.name, entry.type, entry.metadata))
     said = b"".join(_LENGTH.pack(len(text)) + text for text in texts)

@@ -201,7 +201,7 @@ def load_records(path: Path) -> Records:
         content[:size] = found
     del content[size + PAD :]  # of a file that became shorter while it was read
     whole = File(content)
-    start, end = follow_records(whole, first=first_record(whole, size=size, where=str(path)))
+    start, end = follow_records(whole, first=find_first_record(whole, size=size, where=str(path)))
     return Records(path, size, whole, start, end, read_headers(whole.buffer, start))
 
 
@@ -256,7 +256,7 @@ def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
 
 
-def first_record(file: File, *, size: int, where: str) -> int:
+def find_first_record(file: File, *, size: int, where: str) -> int:
     """The offset of the first record, behind a preface that is found in order.
 
     Args:
