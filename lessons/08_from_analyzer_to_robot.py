@@ -679,7 +679,7 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 
     def volts(one: LoopInput) -> float:
         held = tube["rate"] * one.now.position + tube["preload"]
-        return mine.volts(ff, pid, one) + with_tube * held
+        return mine.loop(ff, pid, one) + with_tube * held
 
     return follow_in_closed_loop(robot, RISE, volts)
 

@@ -229,7 +229,7 @@ def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
     found = check_loop(mine)
 
     assert says in found.report
-    assert found.volts is (mine if says == RIGHT else compute_loop_voltage)
+    assert found.loop is (mine if says == RIGHT else compute_loop_voltage)
 
 
 @pytest.mark.parametrize("volts", [lambda _: math.nan, lambda _: ..., lambda _: "12"])

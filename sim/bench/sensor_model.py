@@ -9,7 +9,7 @@ from sim.core.log import Array
 
 
 class SensorReading(NamedTuple):
-    """What the robot program reads.
+    """Position and velocity as the robot program reads them.
 
     Args:
         position: (n,) [m or rad] in steps of the resolution.
@@ -29,7 +29,7 @@ def read_sensor(
     time: Array | None = None,
     read_at: Array | None = None,
 ) -> SensorReading:
-    """What a sensor reports of a motion.
+    """Position and velocity that a sensor reports for a motion.
 
     Args:
         sensor: the sensor.
@@ -70,7 +70,7 @@ def read_sensor(
 
 
 def has_sensor_lag(sensor: Sensor) -> bool:
-    """Whether a reading is of another moment than that at which it is read."""
+    """Whether a sensor reports an earlier moment than that at which it is read."""
     return bool(sensor.latency or sensor.filter or sensor.frame)
 
 

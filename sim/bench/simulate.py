@@ -180,7 +180,7 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
 
 
 def make_power_path_array(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
-    """(9,) the wires of a mechanism, in the order of ``sim.physics.engine.power_path``."""
+    """(9,) battery, wiring and limits, in the order of ``sim.physics.engine.power_path``."""
     return np.array(
         [
             mechanism.battery.rest,
@@ -199,7 +199,7 @@ def make_power_path_array(mechanism: Mechanism, *, duty_cycle: bool = False) -> 
 def move_gains_only(
     gains: Mapping[str, float], *, time: Array, voltage: Array
 ) -> tuple[Array, Array]:
-    """Move from rest at zero, with friction, back-EMF and inertia alone.
+    """Position and velocity under a voltage from rest at zero, with kS, kV and kA alone.
 
     Args:
         gains: kS [V], kV [V·s/unit], kA [V·s²/unit].

@@ -127,7 +127,7 @@ def read_logs_together(
 
 @dataclass(frozen=True)
 class PartReader:
-    """Reads the files of one robot as logs of alike parts, by name.
+    """Reads the files of a robot, one log for each mechanism, side or motor.
 
     Args:
         units: of the positions in them; None believes the files.
@@ -146,7 +146,7 @@ class PartReader:
     pick: int | None = None
 
     def read(self, files: Sequence[Path]) -> "Mapping[str, Log]":
-        """The parts of all files together.
+        """The logs in all files, by the name of the mechanism, side or motor.
 
         Raises:
             Refusal: a file cannot be read, or one measures a length and another an angle.
@@ -156,7 +156,7 @@ class PartReader:
         return list_parts([(file, self.read_file(file)) for file in files])
 
     def read_file(self, file: Path) -> "dict[str, Log]":
-        """The parts of one file.
+        """The logs in one file, by the name of the mechanism, side or motor.
 
         Raises:
             Refusal: the file cannot be read.

@@ -25,7 +25,7 @@ UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
 def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options that say what is held against the model, and what is written."""
+    """Decorator: the options for further logs, travel, time limit and report."""
     options = (
         click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
         click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
@@ -151,14 +151,14 @@ def _solved(
 
 
 def choose_time_limit() -> float:
-    """[s] of processor time that a person waits for; no limit where the simulation is slow."""
+    """[s] default limit of processor time; infinite where the simulation is not compiled."""
     from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
 
     return TIME_LIMIT if engine_can_compile() else math.inf
 
 
 def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
-    """What an inspection finds, in words that the solver understands.
+    """The damaged intervals that an inspection finds, as ``reconcile`` takes them.
 
     Args:
         log: any.

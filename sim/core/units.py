@@ -38,7 +38,7 @@ UNITS: dict[str, Unit] = {
 
 
 def convert_gains(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
-    """The same gains when positions are counted in a unit ``factor`` times as large.
+    """Gains converted to a unit of position that is ``factor`` times as large.
 
     Args:
         gains: gain -> value; only kV and kA depend on the unit of position.

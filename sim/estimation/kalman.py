@@ -30,7 +30,7 @@ _Four: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class GainSchedule:
-    """What a filter does at each sample of some runs.
+    """Kalman gain and innovation scale at each sample of some runs.
 
     Args:
         gains: (n, 4) the gain at each sample, row by row.
@@ -45,7 +45,7 @@ class GainSchedule:
 
 @dataclass(frozen=True, eq=False)
 class KalmanFilter:
-    """A filter in its steady state, and what it needs where a voltage is known less well.
+    """A steady-state Kalman filter, and what it needs where a voltage is uncertain.
 
     Args:
         steady: (2, 2) gain, from innovations to corrections of position and velocity.

@@ -84,9 +84,8 @@ class PredictionErrorProblem:
         noise: of their samples, estimated without a model.
         max_process_noise: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
-        lag_sd: [s] standard deviation of a run's own lag about that of all; 0 where all are alike.
-        backlash_allowance: [unit] by which free play that no model here describes may shift a
-            start.
+        lag_sd: [s] standard deviation of the runs' lags about their mean; 0 if they are equal.
+        backlash_allowance: [unit] how far unmodeled free play may shift a run's start.
         priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
@@ -106,7 +105,7 @@ class PredictionErrorProblem:
         varying_friction: bool = True,
         backlash_allowance: float = 0.0,
     ) -> "PredictionErrorProblem":
-        """The problem of these runs, with the noise that they show."""
+        """The problem of these runs, their noise estimated from their samples."""
         noise = estimate_noise(tuple(record.measurements for record in records))
         return cls(
             tuple(records),
@@ -117,14 +116,14 @@ class PredictionErrorProblem:
 
     @cached_property
     def run_edges(self) -> NDArray[np.intp]:
-        """(runs + 1,) where each run begins among all samples."""
+        """(runs + 1,) index of each run's first sample among all, and their number."""
         return np.concatenate(
             ([0], np.cumsum([record.measurements.time.size for record in self.records]))
         )
 
     @cached_property
     def batch(self) -> RunBatch:
-        """The runs as the engine follows them."""
+        """The runs as contiguous arrays for the engine."""
         seen = [record.measurements for record in self.records]
         return RunBatch(
             self.run_edges.astype(np.float64),
@@ -174,7 +173,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def moving(self) -> NDArray[np.bool_]:
-        """(n,) samples at which it moved."""
+        """(n,) whether the mechanism moves at each sample."""
         return np.concatenate([record.measurements.moving for record in self.records])
 
     @cached_property
@@ -205,7 +204,7 @@ class PredictionErrorProblem:
 
     @property
     def initial_nuisance(self) -> RunNuisance:
-        """The runs as their first samples show them."""
+        """Nuisance parameters to start from: no offsets."""
         return RunNuisance.at_first_samples(len(self.records))
 
     def priors_of(self, structure: ModelStructure) -> dict[str, float]:
@@ -217,7 +216,7 @@ class PredictionErrorProblem:
     def simulate(
         self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter = OPEN_LOOP
     ) -> Track:
-        """All runs, one after another.
+        """Simulate all runs, one after another.
 
         Args:
             model: what moves.
@@ -332,7 +331,7 @@ class PredictionErrorProblem:
     # -- compare ---------------------------------------------------------------------------------
 
     def covariance(self, innovations: Array) -> Array:
-        """(2, 2) covariance of innovations, never quite zero."""
+        """(2, 2) covariance of innovations, kept positive definite."""
         x, v = innovations.T.copy()
         positions, velocities, both = self.compared_counts
         xx, vv = float(x @ x) / positions, float(v @ v) / velocities

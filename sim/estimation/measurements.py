@@ -76,7 +76,7 @@ class SensorNoise:
     Args:
         position: [m or rad].
         velocity: [m/s or rad/s].
-        resolution: of both, what no number of a log is better than.
+        resolution: smallest step of a logged number, of position and of velocity.
     """
 
     position: float
@@ -111,7 +111,7 @@ def measure_runs(
 
 
 def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
-    """The same run without the samples at which no reading is fresh.
+    """A copy without the samples at which no reading is fresh.
 
     A logger that is faster than its sensor repeats readings, and simulating them tells nothing.
     Over samples that are left out the voltage is averaged; where it jumps, a sample stays.
@@ -171,7 +171,7 @@ def _smallest_step(values: Sequence[Array]) -> float:
 
 
 def compute_third_differences(time: Array, values: Array) -> Array:
-    """(n - 3,) what is left of values when a parabola through each four is taken away.
+    """(n - 3,) third differences of values, scaled so that noise adds as on even times.
 
     With even times these are 1, -3, 3, -1; with others the weights of a divided difference, scaled
     so that independent noise makes as much of them.

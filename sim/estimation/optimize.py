@@ -24,7 +24,7 @@ UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what
 
 @dataclass(frozen=True, eq=False)
 class JointJacobian:
-    """What of any innovations an estimate's parameters and nuisance parameters can take up.
+    """Projection of innovations onto the Jacobian of parameters and nuisance parameters.
 
     Args:
         basis: (2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out.
@@ -35,23 +35,23 @@ class JointJacobian:
     prior: Array
 
     def project(self, white: Array) -> Array:
-        """(k,) what of whitened innovations (2 n,) the parameters take up."""
+        """(k,) coordinates of whitened innovations (2 n,) in the Jacobian's column space."""
         return np.asarray(self.basis.T @ white + self.prior)
 
     def residual_square(self, white: Array) -> float:
-        """Sum of squares that is left once they have, up to a constant."""
+        """Sum of squares with the Jacobian's columns projected out, up to a constant."""
         taken = self.project(white)
         return float(white @ white - taken @ taken)
 
     def improvement(self, white: Array, columns: Array, sd: float) -> float:
-        """[of -2 log L] gain of further columns (2 n, m), whose priors have this deviation."""
+        """Decrease of -2 log L by further columns (2 n, m) with priors of deviation ``sd``."""
         taken = self.basis.T @ columns
         square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
         slope = columns.T @ white - taken.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
     def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
-        """What is left of a change's product with innovations, and with itself."""
+        """Products of a change with innovations and itself, the Jacobian projected out."""
         taken = self.basis.T @ change
         product = float(change @ white - taken @ self.project(white))
         return product, float(change @ change - taken @ taken)
@@ -91,7 +91,7 @@ def append_prior_rows(
 def levenberg_marquardt(
     problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
 ) -> Estimate:
-    """Levenberg–Marquardt steps until the gain per step is small; the process noise stays.
+    """The estimate after Levenberg–Marquardt steps, with unchanged process noise.
 
     Args:
         problem: the measurements.
@@ -159,7 +159,7 @@ def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> E
 
 
 def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest process noise: factors of four, then a parabola."""
+    """The estimate with the likeliest process noise: factors of four, then a parabola."""
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(part: float) -> Estimate:

@@ -26,12 +26,12 @@ def get_friction_sd(values: Mapping[str, float]) -> float:
 
 
 def compute_friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -> float:
-    """[of -2 log L] prior cost of the runs' own frictions."""
+    """Prior cost of the runs' own frictions, as -2 log L."""
     return float(np.sum(np.square(nuisance.friction_offset / get_friction_sd(values))))
 
 
 def compute_laplace_correction(values: Mapping[str, float], slopes: Array) -> float:
-    """[of -2 log L] Laplace correction for integrating over the runs' own frictions.
+    """Correction of -2 log L for integrating over the runs' frictions (Laplace).
 
     Args:
         values: of a point.

@@ -59,7 +59,7 @@ class RunRecord:
     memory_group: int
 
     def exclude_interval(self, aside: ExcludedInterval) -> "RunRecord":
-        """The same, and that stretch says nothing."""
+        """A copy in which the samples of an interval are not used."""
         time = self.measurements.time
         begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
         end = np.inf if aside.to_the_end and not begins else aside.end + AROUND
@@ -103,7 +103,7 @@ def make_run_records(
 
 
 def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tuple[RunRecord, ...]:
-    """Runs that know nothing of one another, and lie on no stop.
+    """The runs as independent records: no common clock, and no stops.
 
     Args:
         log: the runs.

@@ -40,7 +40,7 @@ SWEEPS = 2  # over all gains
 
 @dataclass(frozen=True, eq=False)
 class RunInformation:
-    """What one run says about the parameters, its nuisance marginalized, in units of their sizes.
+    """Fisher information and score of one run, its nuisance parameters marginalized.
 
     Args:
         information: (k, k) Fisher information G.

@@ -119,7 +119,7 @@ def follow_profile(
     place: str = "way",
     stops: tuple[float, float] = INFINITE,
 ) -> FollowedProfile:
-    """Let a mechanism follow a profile by a feedforward, and by nothing else.
+    """Simulate a mechanism that follows a profile by feedforward alone.
 
     Args:
         plant: the mechanism as it is.

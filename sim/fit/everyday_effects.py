@@ -37,7 +37,7 @@ _ABSENT: WeakKeyDictionary[
 def make_everyday_priors(
     problem: PredictionErrorProblem, values: Mapping[str, float]
 ) -> dict[str, float]:
-    """Parameter of a small effect -> standard deviation of its prior, in SI.
+    """``effect.parameter`` of a small effect -> standard deviation of its prior, in SI.
 
     Args:
         problem: the measurements.
@@ -56,7 +56,7 @@ def make_everyday_priors(
 def add_absent_effects(
     problem: PredictionErrorProblem, point: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """The same estimate in a model whose small effects are absent; one object for one estimate.
+    """The estimate in a model with the small effects at size zero; cached per estimate.
 
     Whether they explain anything and what they add to the errors are then told from one Jacobian.
     """
@@ -69,7 +69,7 @@ def add_absent_effects(
 def add_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate, *, first: float = 0.0
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """The same estimate in a model that has the small effects, absent or small.
+    """The estimate in a model with the small effects, at size zero or small.
 
     Args:
         problem: the measurements.
@@ -90,7 +90,7 @@ def add_everyday_effects(
 def fit_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """Fit gains and small effects together, where the data ask for it.
+    """Fit gains and small effects together, if the data ask for the effects.
 
     Args:
         problem: the measurements.
@@ -111,7 +111,7 @@ def fit_everyday_effects(
 
 
 def predict_step_improvement(problem: PredictionErrorProblem, point: Estimate) -> float:
-    """[of -2 log L] what a step of all parameters would gain, to second order.
+    """Decrease of -2 log L by a Newton step of all parameters, to second order.
 
     Args:
         problem: the measurements.
@@ -123,7 +123,7 @@ def predict_step_improvement(problem: PredictionErrorProblem, point: Estimate) -
 
 
 def remove_everyday_effects(point: Estimate) -> Estimate:
-    """The values of the gains and lags alone; innovations and cost are no longer theirs."""
+    """The estimate without small effects; its innovations and cost no longer hold."""
     effects = tuple(name for name in point.structure.effects if name not in NAMES)
     return replace(point, structure=replace(point.structure, effects=effects))
 

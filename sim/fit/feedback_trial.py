@@ -66,7 +66,7 @@ class FeedbackTrial:
 
     @property
     def is_good(self) -> bool:
-        """Whether these gains are fit to begin with: of one sign, and they settle."""
+        """Whether these gains are a good start: of one sign, with a response that settles."""
         return self.verdict.is_good and min(self.gains.kp, self.gains.kd) >= 0.0
 
 
@@ -105,14 +105,14 @@ def _try_loop(
 
 
 def choose_feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
-    """[s] the delay that gains are computed for: the log's with the default, else the preset's."""
+    """[s] delay that gains are computed for: the log's with the default preset, else its own."""
     if preset is not PRESETS["default"]:
         return preset.delay
     return max(0.0, found.velocity_delay if loop == "velocity" else found.position_delay)
 
 
 def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, ...]:
-    """Suggestions that are no place to start from, each with gains that are, if there are any.
+    """Warnings about suggested gains that are no good start, with better ones if any.
 
     Args:
         found: the fit, in the unit that the gains count in.
@@ -163,5 +163,5 @@ def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]
 
 
 def format_gain_pair(gains: Feedback) -> str:
-    """Both gains with four digits."""
+    """KP and kD with four digits."""
     return f"kP {gains.kp:.4g}, kD {gains.kd:.4g}"

@@ -57,11 +57,11 @@ def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
 def warn_of_misfit(
     followed: OpenLoopReplay, alone: OpenLoopReplay, *, per: Unit, hint: str = ""
 ) -> tuple[Doubt, ...]:
-    """A warning if a simulation differs from the log by more than noise.
+    """A warning if a simulation differs from the log by more than its noise.
 
     Args:
-        followed: how the fitted model follows, its small effects included.
-        alone: how the gains alone follow, which is what a feedforward has.
+        followed: replay of the fitted model, with its small effects.
+        alone: replay of the gains alone, which are all that a feedforward has.
         per: the unit of position of the log's owner.
         hint: which type would do better, if one does.
     """
@@ -91,11 +91,11 @@ def warn_of_misfit(
 
 
 def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
-    """A warning if an effect is larger than on a robot in good order.
+    """A warning if a small effect is larger than on a healthy robot.
 
     Args:
         parts: the small effects of a fit.
-        priors: ``effect.parameter`` -> standard deviation of what is ordinary.
+        priors: ``effect.parameter`` -> its standard deviation on ordinary robots.
     """
     strong = [
         EFFECTS[part.effect].summary

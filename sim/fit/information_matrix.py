@@ -37,7 +37,7 @@ class InformationMatrix:
 
     @property
     def errors(self) -> dict[str, float]:
-        """One standard error of each gain; infinite where the rows say nothing of it."""
+        """Standard error of each gain; infinite where the rows do not determine it."""
         size = np.sqrt(np.diag(self.information))
         scale = np.where(size > 0.0, size, 1.0)
         values, vectors = np.linalg.eigh(self.information / np.outer(scale, scale))

@@ -45,12 +45,12 @@ class RunReplay:
 
     @property
     def position_error(self) -> Array:
-        """(n,) [m or rad] measured less simulated."""
+        """(n,) [m or rad] measured minus simulated position."""
         return self.run.position - self.position
 
     @property
     def velocity_error(self) -> Array:
-        """(n,) [m/s or rad/s] measured less simulated."""
+        """(n,) [m/s or rad/s] measured minus simulated velocity."""
         return self.run.velocity - self.velocity
 
 
@@ -93,7 +93,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
 
 
 def make_fit_model(found: Fit) -> tuple[float, Model]:
-    """What moves, and the sign of the voltage that moves it forward."""
+    """Sign of the voltage that drives forward, and the model of a fit."""
     way = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
     gains = {
         name: value if name == "offset_rad" else way * value for name, value in found.gains.items()

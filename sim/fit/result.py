@@ -20,7 +20,7 @@ from sim.physics.model import Part
 
 @dataclass(frozen=True)
 class Fit:
-    """What a fit found.
+    """The result of a fit.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
@@ -62,7 +62,7 @@ class Fit:
     doubts: tuple[Doubt, ...] = field(default=())
 
     def in_units(self, name: str) -> "Fit":
-        """The same fit with every number per ``name``: V·s/rotation instead of V·s/radian, say.
+        """The fit converted to another unit of position: V·s/rotation from V·s/radian, say.
 
         Raises:
             BadRequest: an unknown unit, or an angle for a length.
@@ -87,7 +87,7 @@ class Fit:
         )
 
     def in_log_units(self) -> "Fit":
-        """The same fit in the unit the log's owner thinks in."""
+        """The fit converted to the unit of position that the log's owner uses."""
         return self.in_units(self.log_units)
 
     def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:

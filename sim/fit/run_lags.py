@@ -39,7 +39,7 @@ def fit_run_lags(
     every: PredictionErrorProblem,
     period: float,
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """Fit a lag for each run, where the data ask for it.
+    """Fit a lag for each run, if the data ask for it.
 
     Args:
         problem: the measurements.
@@ -79,7 +79,7 @@ def fit_run_lags(
 
 
 def compute_laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
-    """[of -2 log L] Laplace correction for integrating over the runs' own lags."""
+    """Correction of -2 log L for integrating over the runs' lags (Laplace)."""
     slopes = np.sum(np.square(problem.lag_jacobian(point)), axis=0)
     return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))
 

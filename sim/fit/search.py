@@ -31,7 +31,7 @@ AROUND = 2  # samples on both sides of an outlier
 
 
 def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
-    """The problem of a log's runs, each on its own, for a model of gains and lags.
+    """The estimation problem of a log's runs, each by itself, for gains and lags.
 
     Args:
         log: the runs.
@@ -100,7 +100,7 @@ def predict_improvement(
     *,
     kept: JointJacobian,
 ) -> Array:
-    """(more,) [of -2 log L] gain of one further parameter each, to second order, others adjusted.
+    """(more,) decrease of -2 log L by one further parameter each, to second order.
 
     Args:
         problem: the measurements.
@@ -119,7 +119,7 @@ def predict_improvement(
 
 
 def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
-    """The same without the samples that no noise explains, and those around them.
+    """The problem without its outliers and the samples around them.
 
     A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment may
     weigh more than all the rest. These measurements still keep the simulation on course.

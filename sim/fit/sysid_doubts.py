@@ -124,7 +124,7 @@ def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> lis
 
 
 def warn_of_uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
-    """Gains whose error is about as large as they are."""
+    """A warning about gains whose error is about as large as their value."""
     return [
         Doubt(
             "unsure-gain",

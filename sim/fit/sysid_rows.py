@@ -22,7 +22,7 @@ MEDIAN_WINDOWS = range(1, 16)  # [samples] what SysId's own slider offers
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """The samples of one test that are left.
+    """The samples of one test that the regression uses.
 
     Args:
         time: (n,) [s].
@@ -57,7 +57,7 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class PreparedRows:
-    """What the regression and the metrics work on.
+    """The rows that the regression and the metrics use.
 
     Args:
         rows: test name -> filtered and trimmed rows, for the regression.
@@ -122,7 +122,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
 
 
 def estimate_noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> float:
-    """How far a velocity strays from its own moving mean [m/s or rad/s].
+    """[m/s or rad/s] RMS deviation of a velocity from its moving mean.
 
         sqrt( Σ (v[i - step] - mean(v[i - window + 1 … i]))² / (n - step) ),  step = window // 2
 
@@ -158,7 +158,7 @@ def median_filter(values: Array, *, window: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class TrimmedStep:
-    """A dynamic test cut to the part that tells the acceleration gain.
+    """A dynamic test cut to the part that determines kA.
 
     Args:
         rows: from the peak acceleration on, ``duration`` long.

@@ -69,7 +69,7 @@ class BinnedResiduals:
         return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
 
     def describe_bin(self, row: int, part: slice) -> str:
-        """A range of bins in words.
+        """Where a range of bins is, in words.
 
         Args:
             row: which.

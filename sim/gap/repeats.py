@@ -48,7 +48,7 @@ class Repeat:
 
 
 def compare_repeats(runs: Sequence[Residuals], *, noise: float) -> tuple[Repeat, ...]:
-    """Every pair of runs that repeat each other.
+    """Compare the residuals of every pair of runs of the same test.
 
     Args:
         runs: any.

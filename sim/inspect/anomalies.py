@@ -84,7 +84,7 @@ class Anomaly:
         ]
 
     def share_explained_by(self, shape: Array) -> float:
-        """[1] share of the squared residual that a shape (end - begin,) explains; below 0: adds."""
+        """[1] share of the squared residual explained by a shape (end - begin,); may be below 0."""
         total = float(self.residual @ self.residual)
         rest = self.residual - shape
         return 1.0 - float(rest @ rest) / total if total > 0.0 else 0.0

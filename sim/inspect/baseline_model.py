@@ -82,7 +82,7 @@ class BaselineModel:
 
     @property
     def timescale(self) -> float:
-        """[s] kA/kV."""
+        """[s] time constant kA/kV."""
         return self.ka / self.kv
 
     def gravity(self, position: Array) -> Array:

@@ -24,7 +24,7 @@ SPEC = re.compile(
 
 @dataclass(frozen=True)
 class FaultRequest:
-    """A fault as a person asks for it.
+    """A requested fault: its name, severity, test and time.
 
     Args:
         name: of the fault.

@@ -173,7 +173,7 @@ def replace_run(log: Log, index: int, run: Run) -> Log:
 
 
 def load_fault(module: ModuleType, *, name: str) -> Fault:
-    """The fault that a file of ``sim/inspect/faults`` offers, once it is sure that it is one.
+    """The fault that a module of ``sim/inspect/faults`` defines, checked against the contract.
 
     Args:
         module: the file, imported.

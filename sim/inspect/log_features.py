@@ -85,12 +85,12 @@ class LogFeatures:
 
     @cached_property
     def rest_lengths(self) -> tuple[int, ...]:
-        """Per run, how many samples its position stands from the start; 0 if it never leaves."""
+        """Per run, number of samples before its position first changes; 0 if it never does."""
         return tuple(_rest_length(run, step=self.position_step) for run in self.log.runs)
 
     @cached_property
     def distance_ratios(self) -> tuple[float, ...]:
-        """Per run, the distance its velocities sum up to over what its position changes.
+        """Per run, the integral of its velocity over the change of its position.
 
         1 where a run moves too little to tell.
         """
@@ -99,7 +99,7 @@ class LogFeatures:
 
     @cached_property
     def velocity_lag(self) -> VelocityLag | None:
-        """How late its velocity is against its position; None if nothing moves."""
+        """Delay and scale of velocity against position; None if nothing moves."""
         return estimate_velocity_lag(self.log.runs)
 
     @cached_property
@@ -162,7 +162,7 @@ class LogFeatures:
 
     @cached_property
     def timescale(self) -> float:
-        """[s] in which a step brings a dynamic test to 63 % of its top speed; 0 if none tells.
+        """[s] until a step reaches 63 % of its top speed, in a dynamic test; 0 if unknown.
 
         The median over the dynamic tests, from the last sample at rest; delays are part of it.
         """

@@ -29,7 +29,7 @@ LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the on
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What a person states about a file; None where the file itself decides.
+    """Options for reading a file; None leaves the choice to the file.
 
     Args:
         units: the unit of the positions in the file.
@@ -38,8 +38,8 @@ class ReadOptions:
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
         ignore_velocity: the velocity need not be there; the position stands in for it.
-        pick: which of several mechanisms, counted from 1, in the order of the refusal that
-            lists them.
+        pick: which of several mechanisms, counted from 1 as in the error message that lists
+            them.
     """
 
     units: str | None = None
@@ -51,7 +51,7 @@ class ReadOptions:
 
     @property
     def units_or_default(self) -> str:
-        """The units asked for, else radians for an arm and meters for the rest."""
+        """The chosen units, else radians for an arm and meters for the rest."""
         return self.units or ("radians" if self.type == "arm" else "meters")
 
 
@@ -68,7 +68,7 @@ class Format(Protocol):
 
 
 def warn_of_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
-    """A doubt if a motor was asked for in a file that holds the signals of one only."""
+    """A warning if a motor is chosen in a file that holds only one."""
     if motor is None:
         return ()
     return (

@@ -59,7 +59,7 @@ def compute_position_slope(run: Run) -> Array:
 
 
 def check_velocity(log: Log) -> Log:
-    """The log with its velocity put right where it is the position, and doubted where it is scaled.
+    """The log, a velocity that copies the position replaced, a scaled one doubted.
 
     Returns:
         The same log, or with the slope of the position for a velocity that is the position itself,

@@ -80,7 +80,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Scale:
-    """Ordinary speeds, voltages and times of a mechanism, by which effects are sized.
+    """Ordinary speeds, voltages and times of a mechanism, which set the sizes of effects.
 
     Args:
         ks: [V].
@@ -176,17 +176,17 @@ class Effect:
 
     @property
     def has_onset(self) -> bool:
-        """Whether it begins at a moment and may be over at another: inertia that joins does."""
+        """Whether the effect can start and end during a run, like an added load."""
         return {ONSET, UNTIL} <= set(self.names)
 
     @property
     def is_joint(self) -> bool:
-        """Whether it joins a motor to its load by free play or by something soft."""
+        """Whether it couples motor and load by backlash or compliance."""
         return not {"backlash_gap", "joint_compliance"}.isdisjoint(self.hooks)
 
     @property
     def slips(self) -> bool:
-        """Whether what moves can slip on the floor."""
+        """Whether it lets wheels slip on the floor."""
         return "grip_limit" in self.hooks
 
     @property

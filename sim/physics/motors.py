@@ -37,12 +37,12 @@ class Motor:
 
     @property
     def resistance(self) -> float:
-        """[Ω] of the winding."""
+        """[Ω] resistance of the winding."""
         return NOMINAL / self.stall_current
 
     @property
     def torque_constant(self) -> float:
-        """[N·m/A]."""
+        """[N·m/A] torque per current."""
         return self.stall_torque / self.stall_current
 
     @property

@@ -29,7 +29,7 @@ DIGITS = 3  # of a curve: a picture is looked at, not measured
 
 @dataclass(frozen=True)
 class Trace:
-    """One panel: a motion that was wanted, and what came instead.
+    """One panel: the wanted motion, and the motion that results.
 
     Args:
         title: what it is of.

@@ -17,7 +17,7 @@ LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC",
 
 
 def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
-    """Bars of the candidates tried on a chapter's model: how much each would explain.
+    """Bars of the candidates of a round: how much each would explain.
 
     Args:
         story: what was found.
@@ -68,7 +68,7 @@ def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
 
 
 def make_candidate_table(story: Story, chapter: int) -> Table:
-    """A table of all candidates tried on a chapter's model."""
+    """A table of all candidates of a round."""
     taken = find_next_effect(story, chapter)
     rows = tuple(
         (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
@@ -79,7 +79,7 @@ def make_candidate_table(story: Story, chapter: int) -> Table:
 
 
 def find_next_effect(story: Story, chapter: int) -> str:
-    """The effect that was taken on top of a chapter's model; empty if none was."""
+    """The effect that was added after a round of the story; empty if none was."""
     chapter %= len(story.chapters)
     return story.chapters[chapter + 1].added if chapter + 1 < len(story.chapters) else ""
 
@@ -102,7 +102,7 @@ def _points(score: float) -> str:
 
 
 def plot_gap_by_round(story: Story) -> Picture:
-    """The gap on the shown log, chapter by chapter, in noise floors."""
+    """The gap on the shown log after each round, in multiples of the noise."""
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
     gaps = [one.gap / floor for one in story.chapters]

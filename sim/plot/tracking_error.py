@@ -55,7 +55,7 @@ def plot_tracking_error(
     title: str = "",
     quantity: str = "velocity",
 ) -> Picture:
-    """A target and what followed it, and below it the error of each.
+    """A target and the curves that followed it, with the error of each below.
 
     Args:
         time: (n,) [s].

@@ -23,7 +23,7 @@ BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only fri
 def estimate_backlash_phase(
     problem: PredictionErrorProblem, point: Estimate, *, aside: bool = False
 ) -> Estimate:
-    """The same values with the likeliest backlash phase of each run; unchanged without backlash.
+    """The estimate with the likeliest backlash phase of each run.
 
     Args:
         problem: the measurements.
@@ -62,7 +62,7 @@ def estimate_backlash_phase(
 
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """Half the backlash, with each run's phase estimated anew."""
+    """The estimate with half the backlash, and the phase of each run estimated anew."""
     slacks = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
     values = {**point.values, **slacks}
     return estimate_backlash_phase(
@@ -83,7 +83,7 @@ def _costs_by_run(
 
 
 def compute_backlash_phase_prior(point: Estimate) -> float:
-    """[of -2 log L] prior cost of the backlash phases."""
+    """Prior cost of the backlash phases, as -2 log L."""
     return float(np.sum(_prior_costs(point.nuisance.backlash_phase)))
 
 

@@ -24,7 +24,7 @@ from sim.reconcile.thresholds import CLOSE, LOOKED_ALIKE, ONCE, SIMPLER, SURER
 
 
 def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Replace an earlier effect by another where that is likelier now."""
+    """The rounds, with an earlier effect replaced where another one is likelier now."""
     problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
@@ -64,7 +64,7 @@ def _required_advantage(effect: str, other: str) -> float:
 
 
 def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Replace effects by their simpler forms where these explain as much.
+    """The rounds, with effects replaced by simpler forms that explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
     """
@@ -113,7 +113,7 @@ def _replace_one(
 
 
 def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Each round with the estimate that lacks its effect."""
+    """The rounds, each with the estimate that lacks its effect."""
     last = done[-1].candidate
     if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
         return done

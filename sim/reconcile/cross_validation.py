@@ -185,7 +185,7 @@ def compute_rms_gap(errors: Array) -> Gap:
 
 
 def compute_missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
-    """[1] share of the motion that a gap of so many noise floors amounts to."""
+    """[1] a gap, given in noise floors, as a share of the motion."""
     speeds = problem.measured[problem.moving, 1]
     size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
     return strays * problem.noise.velocity / max(size, 1e-300)

@@ -26,7 +26,7 @@ WHOLE = ("sign-flip",)
 
 @dataclass(frozen=True)
 class DamageDecision:
-    """Which damage is cut out, and which is reported.
+    """Which damage is excluded from the fit, and which is only reported.
 
     Args:
         excluded: which log -> stretches that are left out.

@@ -110,9 +110,9 @@ def judge_effects(
 
     Args:
         problem: the measurements.
-        done: the base and the rounds.
-        left: what the last model leaves.
-        damaged: whether anything was set aside as damage.
+        done: the base model and the selection rounds.
+        left: residuals of the last model.
+        damaged: whether damaged intervals were excluded.
     """
     last = done[-1].candidate.estimate
     noises = done[-1].gap.velocity / problem.noise.velocity

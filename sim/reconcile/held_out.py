@@ -63,7 +63,7 @@ class HeldOutLog:
 
     @classmethod
     def choose(cls, recordings: Recordings) -> "HeldOutLog":
-        """The one that was used least: held out, else validation, else the log itself."""
+        """The log that was used least: held out, else validation, else the log itself."""
         name = next(one for one in HOW if one in recordings.logs_by_name)
         # numbers of one story have one unit
         log = replace(recordings.logs_by_name[name], units=recordings.log.units)
@@ -102,7 +102,7 @@ class HeldOutLog:
 
     @property
     def compared_samples(self) -> tuple[NDArray[np.bool_], ...]:
-        """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
+        """Per run, (n,) which samples are compared: it moves, and nothing is excluded."""
         return tuple(one.measurements.informative for one in self.problem.records)
 
     def gap_places(self, base: Chapter) -> tuple[Place, ...]:

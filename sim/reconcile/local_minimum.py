@@ -32,7 +32,7 @@ ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
 AGAIN = 6  # times that a point is settled at most
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 HALVED = 6  # times at most that play is halved
-Begun = tuple[float, Estimate]  # what a start promises, and where it begins
+Begun = tuple[float, Estimate]  # predicted improvement of a start, and the start
 
 
 def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -80,7 +80,7 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
 
 
 def compute_total_cost(point: Estimate) -> float:
-    """[of -2 log L] of an estimate, with the priors of its nuisance parameters."""
+    """-2 log L of an estimate, with the priors of its nuisance parameters."""
     return point.cost + compute_backlash_phase_prior(point)
 
 
@@ -98,7 +98,7 @@ def rate_starts(
     problem: PredictionErrorProblem, point: Estimate, structure: ModelStructure,
     more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
-    """What each start of a candidate may gain once the gains have adjusted, to second order.
+    """Estimates at a candidate's starts, each with its predicted decrease of -2 log L.
 
     A start that goes too far, or the wrong way, as it may beside another effect that no start knows
     of, is tried again at the size that would gain most, if what it does were proportional to it;
@@ -190,7 +190,7 @@ def _scale_start(
 
 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest process noise of its whole range."""
+    """The estimate with the likeliest process noise of its whole range."""
     tried = [
         problem.evaluate(
             point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power

@@ -55,7 +55,7 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
 
 
 def find_required_improvement(effect: str) -> float:
-    """[of -2 log L] by which a candidate has to improve the model."""
+    """Least decrease of -2 log L for which a candidate is added."""
     return ONCE if EFFECTS[effect].has_onset else SURE
 
 
@@ -133,7 +133,7 @@ def contains_effect(effect: str, other: str) -> bool:
 
 
 def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
-    """Candidates that improve the likelihood much and yet widen the gap of other runs.
+    """Candidates that are much likelier, but simulate other runs worse.
 
     It is not what is missing, or not alone: something is. What happens once is left out, of which
     other runs know nothing, and so is what any robot has a little of.
@@ -155,6 +155,6 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
 
 
 def compare_scores(now: Candidate, other: Candidate) -> float:
-    """[of -2 log L] by which one model is likelier than another."""
+    """Decrease of -2 log L from one model to another, fewer parameters counted in."""
     fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

@@ -20,7 +20,7 @@ FILE = Path(__file__).with_name("probability.json")
 
 @dataclass(frozen=True)
 class Evidence:
-    """What the search measured of one effect.
+    """The measurements of one effect from which its probability is computed.
 
     Args:
         likelihood: ln of the -2 log L that the last model loses without it, at least 0.
@@ -57,12 +57,12 @@ FEATURES = tuple(one.name for one in fields(Evidence))
 
 @dataclass(frozen=True)
 class JudgedEffect:
-    """An effect of the last model, and how likely it is right.
+    """An effect of the last model, and the probability that it is real.
 
     Args:
         effect: its name.
         ambiguous_with: other effects that would explain as much.
-        evidence: what was measured of it.
+        evidence: its measurements.
         probability: that it, or one of the others, is in the mechanism and not in the base model.
     """
 
@@ -73,7 +73,7 @@ class JudgedEffect:
 
 
 def compute_probability(evidence: Evidence) -> float:
-    """[1] How likely an effect of which this was measured is right."""
+    """[1] probability that an effect is real, given its evidence."""
     weights = _read_coefficients()
     odds = weights["intercept"] + sum(
         weights[name] * value for name, value in zip(FEATURES, evidence.features, strict=True)
@@ -89,10 +89,10 @@ def compute_log_gap_ratio(with_: float, without: float) -> float:
 
 
 def compute_log_gap(noises: float) -> float:
-    """Logarithm of a gap in noises, clipped to the range that matters.
+    """Logarithm of a gap in noise floors, clipped to the range that matters.
 
     Args:
-        noises: of it [noises of a velocity].
+        noises: [noise floors of the velocity] the gap.
     """
     return math.log(min(max(noises, FEWEST_NOISES), MOST_NOISES))
 
@@ -130,8 +130,8 @@ def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -
 
     Args:
         effect: that was added.
-        score: [of -2 log L] by which it was likelier when it was.
-        tried: candidate of its round -> the same.
+        score: its decrease of -2 log L when it was added.
+        tried: candidate of its round -> the same decrease.
     """
     own = tried.get(effect, score)
     others = [

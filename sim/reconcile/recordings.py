@@ -23,7 +23,7 @@ ORDER = ("log", "validation", "held_out")  # in which they were recorded
 
 @dataclass(frozen=True, eq=False)
 class Recordings:
-    """The logs of one mechanism.
+    """The logs of one mechanism that are reconciled with a model.
 
     Args:
         log: runs to fit.
@@ -41,13 +41,13 @@ class Recordings:
 
     @property
     def logs_by_name(self) -> Mapping[str, Log]:
-        """Name -> log, of those that were given, in the order in which they were recorded."""
+        """Name -> log, in the order in which the logs were recorded."""
         logs = zip(ORDER, (self.log, self.validation, self.held_out), strict=True)
         return {name: log for name, log in logs if log is not None}
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit in which results are told: that of the first log."""
+        """The unit of all results: that of the first log."""
         return find_unit(self.log.units)
 
     @cached_property

@@ -16,7 +16,7 @@ FEWEST = 4  # samples of a run that is simulated, as ``make_run_records`` takes 
 def map_residuals(
     log: Log, tracks: Sequence[Array], *, compared: Sequence[NDArray[np.bool_]] = (), floor: float
 ) -> GapMap | None:
-    """What a simulation leaves of a log; None where there is nothing to compare, or it ran away.
+    """The binned residuals of a simulation; None if it diverged or nothing is compared.
 
     Args:
         log: that is shown.

@@ -44,7 +44,7 @@ class Conversion:
 
 @dataclass(frozen=True)
 class Target:
-    """Something that takes gains.
+    """A motor controller or a library that takes gains.
 
     Args:
         name: as people say it, with the release it was checked against.

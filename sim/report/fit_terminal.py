@@ -101,7 +101,7 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) ->
 
 
 def format_error(value: float, error: float) -> str:
-    """The error, or that it is below what matters on a robot, or that nobody recognizes it."""
+    """A standard error as text: a number, ``not known``, or that it is negligible."""
     if not math.isfinite(error):
         return "not known"
     return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"

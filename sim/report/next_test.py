@@ -118,7 +118,7 @@ def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
 
 
 def find_settled_step(gains: Mapping[str, float], way: float) -> float:
-    """[V] the largest step that has almost reached its speed within some way.
+    """[V] largest step that almost reaches its speed within a distance.
 
     From rest, x(t) = v·(t - τ·(1 - exp(-t/τ))) with τ = kA/kV and v = (V - kS)/kV, solved for V at
     t = ``SETTLES``·τ.

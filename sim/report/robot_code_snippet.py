@@ -25,7 +25,7 @@ PERIOD = 1e3 * PRESETS["default"].period  # [ms] between the two velocities, WPI
 
 @dataclass(frozen=True)
 class Language:
-    """How a language writes things down; the words in braces are filled in."""
+    """Templates of one language; the words in braces are filled in."""
 
     comment: str
     indent: str
@@ -40,7 +40,7 @@ class Language:
 
 @dataclass(frozen=True)
 class Spelling:
-    """What a season's WPILib calls things.
+    """The names in one season's WPILib.
 
     Args:
         module: where the feedforward classes are.

@@ -75,7 +75,7 @@ class TrapezoidProfile:
 
     @property
     def duration(self) -> float:
-        """[s]."""
+        """[s] duration of the move."""
         return abs(self.goal - self.start) / self.top_speed + self.top_speed / self.max_acceleration
 
     def calculate(self, time: float) -> Setpoint:
@@ -113,7 +113,7 @@ class ElevatorFeedforward:
     period: float = LOOP
 
     def calculateWithVelocities(self, current: float, following: float) -> float:  # noqa: N802 - WPILib's name
-        """[V] that bring the mechanism from one velocity to the next in a period.
+        """[V] voltage that takes the mechanism from one velocity to the next in a period.
 
         kS gets the sign of the current velocity: from rest there is none in the first loop.
 
@@ -149,7 +149,7 @@ class PIDController:
         self._total, self._last = 0.0, 0.0
 
     def calculate(self, measurement: float, setpoint: float) -> float:
-        """[V] for the error of one loop.
+        """[V] output of the controller in one loop.
 
         Args:
             measurement: [m or rad] measured position.
@@ -262,19 +262,19 @@ OURS = " The next cells use our loop until then."
 
 @dataclass(frozen=True)
 class CheckedLoop:
-    """A learner's loop, and what was found.
+    """A learner's loop, and the feedback to it.
 
     Args:
-        volts: the learner's loop where it is right, ours where it is not.
-        report: one line.
+        loop: the learner's feedback function if it is right, else ours.
+        report: the feedback to it, one line.
     """
 
-    volts: Loop
+    loop: Loop
     report: str
 
 
 def compute_loop_voltage(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
-    """[V] of the loop that lesson 8 asks for."""
+    """[V] output of the loop that lesson 8 asks for: feedforward plus feedback."""
     forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
     return forward + pid.calculate(one.position, one.now.position)
 
@@ -355,7 +355,7 @@ def _wrong_loops() -> list[tuple[float, str]]:
 def compute_phoenix_voltage(
     gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
 ) -> float:
-    """[V] of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
+    """[V] output of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
 
     Args:
         gains: kS and kG [V], kV [V per rot/s], kA [V per rot/s²], kP [V per rot], all per rotation

@@ -97,13 +97,13 @@ def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
 
 
 def name_files(files: Sequence[str]) -> str:
-    """The first of some files, and how many more there are."""
+    """Text that names the first few files and says how many more there are."""
     more = f" and {len(files) - LISTED} more" if len(files) > LISTED else ""
     return ", ".join(files[:LISTED]) + more
 
 
 class DatasetFolder:
-    """Puts files into the folder, each whole or not at all.
+    """The folder that a dataset is written to; each file is written atomically.
 
     Args:
         folder: of the dataset; made when the first file comes.
@@ -150,7 +150,7 @@ class DatasetFolder:
                     part.unlink()
 
     def remove_empty_folders(self) -> None:
-        """Remove folders that were made and stayed empty."""
+        """Remove the folders that were made here and stayed empty."""
         for folder in reversed(self._made):
             with suppress(OSError):  # there is a file in it
                 folder.rmdir()

@@ -35,7 +35,7 @@ DIGITS = {  # after the point, of what is in SI; finer than any encoder or conve
 
 @dataclass(frozen=True)
 class MadeLog:
-    """A log that is made.
+    """A log that was made: its files and its ground truth.
 
     Args:
         job: what was asked for.
@@ -50,7 +50,7 @@ class MadeLog:
 
 @dataclass(frozen=True)
 class FailedLog:
-    """A log that cannot be made: a refusal as plain data, which every process can hand on."""
+    """A log that cannot be made: its error as plain data, which any process can pass on."""
 
     job: LogJob
     what: str
@@ -58,7 +58,7 @@ class FailedLog:
 
 
 def make_log(job: LogJob) -> MadeLog | FailedLog:
-    """Make a log. Threads of one process take turns: they would share its one processor anyway."""
+    """Make a log; the threads of a process take turns, as they share its one processor."""
     with ALONE:
         return _made(job)
 

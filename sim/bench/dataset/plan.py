@@ -24,7 +24,7 @@ EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart 
 
 @dataclass(frozen=True)
 class HiddenEffect:
-    """An effect that is hidden in a log's mechanism, and how much of it."""
+    """An effect that is hidden in a log's mechanism, and its size."""
 
     effect: str
     size: float
@@ -77,7 +77,7 @@ class LogJob:
 
     @property
     def files(self) -> tuple[str, ...]:
-        """Its files, as paths in the dataset's folder."""
+        """The files of the log, as paths in the dataset's folder."""
         return tuple(f"{self.name}.{ending}" for ending in self.formats)
 
     @property

@@ -53,7 +53,7 @@ def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
 
 
 def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-    """Names as they are shown, each of another person.
+    """The names as they are shown, checked to be different people.
 
     Args:
         found: place and text of each name.

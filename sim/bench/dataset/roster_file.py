@@ -26,7 +26,7 @@ class Roster:
     rows: tuple[tuple[int, tuple[str, ...]], ...]
 
     def find_column(self, columns: Sequence[str]) -> int | None:
-        """Where the first of some columns is that there is, in capitals or not."""
+        """Index of the first of these columns that the table has, in any case; else None."""
         plain = [name.strip().casefold() for name in self.header]
         found = (name.casefold() for name in columns if name.casefold() in plain)
         name = next(found, None)

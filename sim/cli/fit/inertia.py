@@ -87,7 +87,7 @@ def _read_turning(
 def find_inertia(
     found: "Fit", log: "Log", turning: Turning | None, *, method: str
 ) -> "MomentOfInertia | None":
-    """The moment of inertia, from a fit of turning and the log of going straight; None without.
+    """The moment of inertia, from a turning fit and a straight log; None without such a log.
 
     Raises:
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
@@ -116,7 +116,7 @@ def find_inertia(
 def add_inertia(
     found: "Fit", notes: tuple[str, ...], log: "Log", turning: Turning | None, *, method: str
 ) -> "tuple[Fit, tuple[str, ...], MomentOfInertia | None]":
-    """A fit, its notes and the moment of inertia, with what speaks against that; None without.
+    """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
 
     Raises:
         Refusal: as ``find_inertia``.

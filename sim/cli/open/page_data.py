@@ -66,7 +66,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
 
 
 def describe_live(session: "Session") -> dict[str, Any]:
-    """What is followed while it is recorded, and the logs that grow, each with its revision."""
+    """The status of the source that is followed, and its growing logs with their revisions."""
     live = session.live
     if live is None:
         return {"follows": False}
@@ -94,7 +94,7 @@ def pack_samples(log: "Log") -> bytes:
 
 
 def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
-    """Faults with their places, and what else is odd."""
+    """The faults of a log with their times, and its other warnings."""
     data = found.to_json()
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
@@ -102,7 +102,7 @@ def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
 
 
 def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
-    """Gains, what they rest on, and where each run begins in simulation.
+    """The gains with verdict and doubts, and the simulated initial state of each run.
 
     Raises:
         Refusal: the log cannot be read or fitted.
@@ -250,7 +250,7 @@ def _thin(values: "Array") -> list[float]:
 
 
 def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
-    """What went wrong, where, and what to do; the folder of dropped files is left out."""
+    """An error as plain data: what went wrong, where, and what to do; without our folder."""
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
     kind = type(refusal).__name__

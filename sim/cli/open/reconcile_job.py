@@ -32,7 +32,7 @@ class ReconcileJob:
         threading.Thread(target=self._run, daemon=True).start()
 
     def to_json(self) -> dict[str, Any]:
-        """How far it is, and what was found once it is done.
+        """Progress of the search, and its result once it has ended, as plain data.
 
         Raises:
             Refusal: the log cannot be reconciled.

@@ -45,7 +45,7 @@ PATIENCE = 30.0  # [s] for the rest of a request that has begun
 
 
 class PageServer(ThreadingHTTPServer):
-    """Serves the page and what it asks about the logs of a session.
+    """HTTP server of the page and of the data about a session's logs.
 
     Args:
         session: the logs that are open.
@@ -80,11 +80,11 @@ class PageServer(ThreadingHTTPServer):
         return f"http://{self.hosts[0]}/{self.word}/"
 
     def handle_error(self, request: object, client_address: object) -> None:
-        """Say nothing about a browser that hung up."""
+        """Print nothing when a browser closes its connection."""
 
 
 class PageRequest(BaseHTTPRequestHandler):
-    """One request."""
+    """The handler of one HTTP request."""
 
     server: PageServer
     protocol_version = "HTTP/1.1"
@@ -93,11 +93,11 @@ class PageRequest(BaseHTTPRequestHandler):
     timeout = PATIENCE
 
     def do_GET(self) -> None:
-        """A file of the page, or what is known of a log."""
+        """Send a file of the page, or data about a log."""
         self._answer(self._get)
 
     def do_POST(self) -> None:
-        """A dropped file, or the example."""
+        """Open a dropped file, or the example log."""
         self._answer(self._post)
 
     def do_DELETE(self) -> None:

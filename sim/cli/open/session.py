@@ -27,7 +27,7 @@ LONGEST_NAME = 120  # [characters] of a file's name
 
 @dataclass(frozen=True)
 class Reading:
-    """How a log is to be read.
+    """Options with which a log is read.
 
     Args:
         units: of its positions; None believes the file.
@@ -126,7 +126,7 @@ class OpenLog:
         return self._once("entries", lambda: list_entries(self.path))
 
     def inspection(self, reading: Reading) -> "Inspection":
-        """What is wrong with the record.
+        """The faults and warnings found in the log.
 
         Raises:
             Refusal: as ``parts``.
@@ -154,7 +154,7 @@ class OpenLog:
         return self._once(("fit", reading), find)
 
     def reconcile(self, reading: Reading) -> "ReconcileJob":
-        """The search for missing effects, begun when it is first asked for."""
+        """The search for missing effects; the first call starts it."""
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
         def read_file() -> "Log":
@@ -214,12 +214,12 @@ class Session:
 
     @property
     def logs(self) -> tuple[OpenLog, ...]:
-        """Those that are open, in the order in which they came."""
+        """The open logs, in the order in which they were opened."""
         with self._lock:
             return tuple(self._logs.values())
 
     def add(self, name: str, path: Path) -> OpenLog:
-        """Open a file.
+        """Open a file in this session.
 
         Args:
             name: to show.
@@ -300,7 +300,7 @@ class Session:
         return self.add(name, path)
 
     def import_reading(self) -> None:
-        """Import what it takes to show the data of a log, once and in one thread.
+        """Import the modules that read logs, once and in one thread.
 
         Requests run in threads, and two threads that import modules which import one another can
         find one of them half made.
@@ -315,7 +315,7 @@ class Session:
             import sim.physics.engine  # noqa: F401, PLC0415 - the same
 
     def import_everything(self) -> None:
-        """Import all that requests need, once and in one thread."""
+        """Import the modules that requests need, once and in one thread."""
         self.import_reading()
         with self._imports:
             import sim.bench.mechanisms  # noqa: PLC0415 - as above
@@ -331,7 +331,7 @@ class Session:
             import sim.report  # noqa: F401, PLC0415 - the same
 
     def warm_up(self) -> None:
-        """Load what the first log needs, so that it need not wait for it."""
+        """Import modules and load the engine in advance, so that the first log opens fast."""
         self.import_reading()
         if self.view.raw:
             return

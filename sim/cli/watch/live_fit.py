@@ -65,7 +65,7 @@ class WatchUpdate:
 
 
 class LiveFit:
-    """Follows a source, and fits what it has whenever a test ends.
+    """Follows a source of recordings, and fits them whenever a test ends.
 
     Args:
         source: where the recordings come from.
@@ -80,7 +80,7 @@ class LiveFit:
         self._renewed: dict[Recording, None] = {}
 
     def take_changed(self) -> tuple[Recording, ...]:
-        """The recordings whose logs were read anew since this was last asked."""
+        """The recordings whose logs were read again since the last call."""
         renewed = tuple(self._renewed)
         self._renewed.clear()
         return renewed

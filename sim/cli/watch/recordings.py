@@ -103,7 +103,7 @@ class FileSource:
         return self._recordings
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing: no file is kept open."""
 
     def _counts(self, path: Path) -> bool:
         """Whether a file that is new to us goes on where the one before it ended."""

@@ -22,7 +22,7 @@ __all__ = ["Parts", "check_plausibility", "compare_directions", "compare_parts",
 def check_plausibility(
     found: Fit, *, parts: Parts | None = None, period: float = 0.02
 ) -> tuple[Doubt, ...]:
-    """What physics has against a fit; nothing about gains whose sign is wrong already.
+    """Doubts about gains that contradict physics; none if a gain has the wrong sign.
 
     Args:
         found: the fit, in any unit.

@@ -24,7 +24,7 @@ SUSPECTS = {
 
 
 def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
-    """Where two sides of a drivetrain, or two of the same mechanism, differ.
+    """Doubts if two sides of a drivetrain, or two of the same mechanism, differ.
 
     Raises:
         BadRequest: one measures a length, the other an angle.
@@ -34,7 +34,7 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
 
 
 def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
-    """Where alike parts of a robot differ: for each gain the lowest and the highest of them.
+    """Doubts if alike parts of a robot differ: for each gain the lowest and the highest.
 
     Args:
         fits: the name of each part -> its fit.
@@ -57,7 +57,7 @@ def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
 
 
 def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 - SysId's word
-    """Where forward and reverse runs, each fitted alone, differ; nothing if they cannot be.
+    """Doubts if forward and reverse runs, each fitted alone, differ.
 
     An elevator's cannot: in one direction friction and weight are the same.
 

@@ -18,7 +18,7 @@ SURE = 0.03  # [share of kA] an error below it is sure
 
 
 def check_friction(found: Fit) -> list[Doubt]:
-    """The red flag of kS, and the band to watch."""
+    """Doubts about a kS that is too large, or that should be watched."""
     ks, kv = found.gains["kS"], found.gains["kV"]
     surely = ks - SURELY * found.errors["kS"]
     share = f"kS = {ks:.2f} V, {ks / NOMINAL:.0%} of 12 V,"
@@ -53,7 +53,7 @@ def _format_speed(found: Fit, speed: float) -> str:
 
 
 def check_gravity(found: Fit) -> list[Doubt]:
-    """An elevator's weight against its inertia: both are the same mass.
+    """Doubts if an elevator's kG and kA do not belong to the same mass.
 
     A stage of mass m that moves at half the carriage's speed adds m/2 to the weight that the motor
     feels and m/4 to the inertia, so the quotient is between g and 2 g.
@@ -95,7 +95,7 @@ def check_gravity(found: Fit) -> list[Doubt]:
 
 
 def check_timescale(found: Fit, period: float) -> list[Doubt]:
-    """A mechanism that is up to speed before the next sample."""
+    """Doubts about a mechanism that is up to speed before the next sample."""
     kv, ka = found.gains["kV"], found.gains["kA"]
     if kv <= 0.0 or ka <= 0.0:
         return []

@@ -55,7 +55,7 @@ TRUE = 1.25  # [times] the baseline model's own speed is still the one it was fo
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
-    """Clip the current while each dynamic test starts, and log the step as it was asked for."""
+    """Limit the current at the start of each dynamic test, but log the commanded voltage."""
     features, where = LogFeatures(log), []
     for index, run in enumerate(features.log.runs):
         if run.kind == log.runs[strike.run].kind:
@@ -67,7 +67,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find perfect steps that the mechanism starts as if it did not get all of them.
+    """Find exact voltage steps under which the mechanism starts too slowly.
 
     A limit knows no direction: where only one of several steps starts like that, it had an accident
     of its own.

@@ -65,7 +65,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find anomalies that a share of the speed explains, which goes and comes back at once."""
+    """Find intervals in which the velocity is abruptly off by a fixed share, then right again."""
     for anomaly in features.anomalies:
         if anomaly.recurs:
             continue

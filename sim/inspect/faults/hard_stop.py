@@ -49,7 +49,7 @@ GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is 
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Put a stop in the way, and let the voltage push on for a while."""
+    """Add a stop to the travel, with the voltage still on for a while after it."""
     pressed = PRESSED * strike.severity * rng.uniform(0.9, 1.1)
     run = log.runs[strike.run]
     longer = _pushed_on(run, until=float(run.time[0]) + strike.start + pressed)

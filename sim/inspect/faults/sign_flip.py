@@ -29,7 +29,7 @@ FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decide
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Turn a signal round: in one run, in one direction's runs, or in all."""
+    """Reverse the sign of a signal: in one run, in the runs of one direction, or in all."""
     signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
     struck = log.runs[strike.run]
     runs, where = list(log.runs), []

@@ -51,7 +51,7 @@ class _Drop:
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the voltage drop out at a rhythm, from the strike to the end of the run."""
+    """Drop the voltage periodically, from the given time to the end of the run."""
     run = log.runs[strike.run]
     voltage = run.voltage.copy()
     period = float(np.median(np.diff(run.time)))
@@ -71,7 +71,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find short falls of the voltage that the velocity does not answer."""
+    """Find short drops of the voltage that the velocity does not follow."""
     for index, run in enumerate(features.log.runs):
         if run.kind not in FAULT.kinds or len(run) < NARROWEST:
             continue

@@ -58,7 +58,7 @@ CAUTION = 0.8  # [share of the voltage that still held] for the next step
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the wheels of a dynamic test break loose when its step begins."""
+    """Let the wheels slip at the start of a dynamic test."""
     features = LogFeatures(log)
     run, baseline = log.runs[strike.run], features.baseline
     held = HELD ** (strike.severity * rng.uniform(0.9, 1.1))

@@ -79,7 +79,7 @@ def find_motors(
     asked: ReadOptions,
     where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
-    """The motors of a mechanism whose signals are to be used, all of them whole.
+    """The motors of a mechanism whose signals are used, each of them complete.
 
     Args:
         state: where its tests are named.
@@ -135,7 +135,7 @@ def _of_other_loggers(
     """
     devices = find_devices(search.entries)
     if search.asked.ignore_velocity:
-        devices = [one.without_velocity() for one in devices]
+        devices = [one.use_position_as_velocity() for one in devices]
     driven = select_driven_devices(devices, tests)
     words = set(split_words(search.state.mechanism))
     some = [one for one in driven if words & set(split_words(one.name))] or driven
@@ -269,7 +269,7 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
 def make_no_motor_error(
     entries: Sequence[Entry], *, where: str, mechanism: str = ""
 ) -> MissingSignal:
-    """The refusal of a log in which no device was recorded whole.
+    """The error for a log in which no device was recorded completely.
 
     Args:
         entries: all of the log.

@@ -70,7 +70,7 @@ class StatedUnit:
 
 @dataclass(frozen=True)
 class EntryScale:
-    """How the numbers of a motor's entries become the unit of its log.
+    """Factors from the numbers of a motor's entries to the unit of its log.
 
     Args:
         units: that unit, a name in ``sim.core.units.UNITS``.

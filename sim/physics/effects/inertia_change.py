@@ -45,7 +45,7 @@ def next_change(clock: float, onset: float, until: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: half of kA more, from about the first dynamic test on."""
+    """Parameters of a given size; size 1 is half of kA more, from about the first step test on."""
     ramps = 2.0 * min(10.0, math.sqrt(2.0 * scale.reach * scale.kv / RAMP)) + 2.0
     onset = ramps + 0.3 * scale.reach / scale.speed
     return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}

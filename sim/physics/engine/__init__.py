@@ -139,11 +139,11 @@ class Track:
         return np.column_stack((self.position, self.seen))
 
     def take_every(self, step: int) -> "Track":
-        """Every ``step``-th sample, from the first."""
+        """A copy with every ``step``-th sample, from the first."""
         return Track(*(getattr(self, one.name)[::step] for one in fields(self)))
 
     def truncate(self, end: int) -> "Track":
-        """The first ``end`` samples."""
+        """A copy with the first ``end`` samples."""
         return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
 
 

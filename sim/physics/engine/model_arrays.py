@@ -81,7 +81,7 @@ def make_effect_arrays(model: Model) -> tuple[Array, Array]:
 
 
 def sum_backlash(model: Model) -> float:
-    """[unit] of free play between motor and load."""
+    """[unit] sum of the free play between motor and load."""
     total = 0.0
     for part in model.parts:
         if part.effect in SLACKS:
@@ -91,19 +91,19 @@ def sum_backlash(model: Model) -> float:
 
 
 def find_finest_step(model: Model) -> float:
-    """[s] the step that the fastest of a model's effects asks for."""
+    """[s] longest step that resolves the fastest of a model's effects."""
     return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
 
 
 def compute_step_limits(model: Model) -> Array:
-    """(4,) the longest step: [s], [unit] of way, [s] that even a fast one lasts, and [unit/s]."""
+    """(4,) step limits: longest [s], longest way [unit], shortest [s], largest change [unit/s]."""
     longest = min(COARSEST, SHARE_OF_PACE * _fastest(model, places=False))
     way = SHARE_OF_PACE * _shortest(model)
     return np.array([max(longest, LEAST_STEP), way, LEAST_STEP, math.inf])
 
 
 def compute_search_step_limits(model: Model) -> Array:
-    """(4,) the same while a search looks for an effect.
+    """(4,) step limits, as in ``compute_step_limits``, while a search looks for an effect.
 
     Its steps are longer, but for where the speed changes fast beside what depends on speed: there
     even a small error is more than the noise of a good encoder, and an effect with a faster pace

@@ -41,7 +41,7 @@ def bound_travel(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
 
 
 def compute_sliding_friction(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
-    """[V] of dry friction toward ``way``, never below none."""
+    """[V] dry friction against motion toward ``way``, never negative."""
     return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
 
 
@@ -87,7 +87,7 @@ def predict_midpoint(
     c: Numbers, on: Numbers, p: Numbers, x: float, v: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Position and velocity a moment ahead, along a straight line: where a step has its middle."""
+    """Position at the middle of a step and velocity at its end, by linear prediction."""
     way = math.copysign(1.0, v if v != 0.0 else drive)
     slide = part * compute_sliding_friction(c, on, p, v, way)
     if v == 0.0 and abs(drive) <= slide:
@@ -115,7 +115,7 @@ def compute_motor_voltage(
     v: float,
     off: bool,
 ) -> float:
-    """[V] voltage at the motor, after wiring and path effects."""
+    """[V] voltage at the motor, after limits, wiring and the effects on the voltage."""
     u = limit_voltage(w, 0.0 if off else asked, v)
     return transform_voltage(on, p, memory, u, v, c[KV])
 

@@ -27,13 +27,13 @@ CUT = 0.02  # [s] the motors stay off: with none of them running the battery rec
 
 
 def compute_bus_voltage(w: Numbers, u: float, current: float) -> float:
-    """[V] of the battery while every motor takes ``current`` [A] at ``u`` [V]."""
+    """[V] battery voltage while every motor draws ``current`` [A] at ``u`` [V]."""
     square = 0.25 * w[REST] * w[REST] - w[RB] * w[MOTORS] * u * current
     return float(0.5 * w[REST] + math.sqrt(max(square, 0.0)))
 
 
 def limit_voltage(w: Numbers, asked: float, v: float) -> float:
-    """[V] that reach the motors of the voltage asked for, at a speed."""
+    """[V] voltage at the motors for a command at a speed, after all limits."""
     if w[REST] == 0.0:
         return asked
     emf = w[EMF] * v

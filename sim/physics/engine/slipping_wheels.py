@@ -52,7 +52,7 @@ def compute_excess_traction(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool,
 ) -> float:  # fmt: skip
-    """[V] that moving as one body asks of the floor beyond its grip, with its sign; 0 if none."""
+    """[V] traction beyond the grip that motion without slip would need, signed; or 0."""
     x, v = state[Y], state[V]
     pull = compute_gravity_voltage(c, x) + force(on, p, x, v)
     drive = compute_motor_voltage(c, w, on, p, memory, asked, v, off) - pull

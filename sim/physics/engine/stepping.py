@@ -107,7 +107,7 @@ def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> No
 
 
 def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
-    """[s] at which steps must end: ``after``, or before it where something happens."""
+    """[s] time at which steps must end: ``after``, or the next change of an effect."""
     when = now + next_change(on, p, clock) - clock
     return when if now + NONE < when < after else after
 
@@ -131,7 +131,7 @@ def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -
 
 
 def compute_voltage_slope(time: Array, slides: Array, command: int) -> float:
-    """[V/s] of a command; 0 where it is held."""
+    """[V/s] slope of a command's voltage; 0 where it is held."""
     if command < 0 or command + 1 >= time.size or slides[command] == 0.0:
         return 0.0
     return float(slides[command] / (time[command + 1] - time[command]))
@@ -142,7 +142,7 @@ def step_run(
     p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
     measured: Array, trust: Array, out: Array,
 ) -> None:  # fmt: skip
-    """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
+    """Simulate one run into ``out``; ``state`` and ``memory`` hold its end.
 
     A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
     by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
@@ -198,12 +198,13 @@ def step_runs(
     high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
 measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
-    """Move through runs that lie one behind the other, ``run`` by ``run``.
+    """Simulate runs that are stored one after another.
 
-    A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
-    when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
-    ``rubs`` [V] beyond kS, and it is late by ``run_lags`` [s] beyond the effects' delay. What
-    effects remember goes on through runs of the same number in ``sessions``.
+    Run k has the samples from ``edges[k]`` to ``edges[k + 1]``. It begins in the state
+    ``bodies[k]``, at ``began[k]`` [s] of the clock, and its travel ends at ``low[k]`` and
+    ``high[k]``. Its dry friction is ``rubs[k]`` [V] larger than kS, and its commands are
+    ``run_lags[k]`` [s] later than the effects delay them. The memory of effects is kept between
+    runs with the same number in ``sessions``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])

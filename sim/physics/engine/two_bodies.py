@@ -170,7 +170,7 @@ def deflection_jumps(before: float, after: float) -> bool:
 
 
 def is_held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
-    """Whether friction holds a body at rest that has such a part of it."""
+    """Whether friction holds a body at rest; ``part`` is its share of the friction."""
     return abs(drive) <= part * compute_sliding_friction(c, on, p, 0.0, math.copysign(1.0, drive))
 
 
@@ -263,7 +263,7 @@ def step_by_midpoint(
 
 
 def compute_joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
-    """[V/unit] stiffness and [V·s/unit] damping of what joins motor and load."""
+    """[V/unit] stiffness and [V·s/unit] damping between motor and load."""
     stiff, damping = reduced * (2.0 * math.pi * CONTACT) ** 2, DAMPING
     if soft > 0.0:
         stiff, damping = 1.0 / soft, LOOSE_DAMPING
@@ -271,7 +271,7 @@ def compute_joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
 
 
 def compute_joint_voltage(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
-    """[V] with which the motor pushes the load, from how far and how fast it is ahead."""
+    """[V] coupling force of the motor on the load, from the deflection and its rate."""
     into = abs(gap) - 0.5 * play
     if into <= 0.0:
         return 0.0

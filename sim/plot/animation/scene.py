@@ -53,7 +53,7 @@ class TestPlan:
     def voltage(
         self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
     ) -> Array:
-        """(n,) [V] of the test.
+        """(n,) [V] voltage of the test.
 
         Args:
             time: (n,) [s].
@@ -103,7 +103,7 @@ class Motion:
     turns: bool = False
 
     def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) one of its signals, simulated where it has gains; None where it has no such one.
+        """(n,) one signal of the motion, simulated if it has gains; None if it lacks the signal.
 
         Args:
             signal: ``position``, ``velocity``, ``voltage`` or ``error``.
@@ -227,14 +227,14 @@ class Choice:
 
 @dataclass(frozen=True)
 class Panel:
-    """A plot over time; its axes stay as they are whatever a knob does.
+    """A plot over time whose axes do not change when a slider moves.
 
     Args:
         signal: ``position``, ``velocity``, ``voltage``, or ``error``: how far a position is ahead
             of the one that was asked for.
         label: of its axis, with the unit.
-        low: lowest value in the label's unit; None holds what the scenes hold at first.
-        high: highest value; None the same.
+        low: lowest value in the label's unit; None fits the axis to the scenes as first shown.
+        high: highest value; None as for ``low``.
         scale: factor from SI to the unit of the label: 100 for centimeters.
         terms: whether the voltage of the first motion is shared out among kS, kV and kA, as areas.
     """

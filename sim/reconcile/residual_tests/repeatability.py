@@ -92,7 +92,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
 
 
 def estimate_disturbance(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(n,) disturbance per sample, estimated from whitened innovations."""
+    """(n,) disturbance at each sample, estimated from whitened innovations."""
     period = problem.period
     push = problem.whiten(point, np.array([[0.5 * period**2, period]]))
     white = problem.whiten(point, point.innovations).reshape(-1, 2)

@@ -28,7 +28,7 @@ class WorkerLost(BadRequest):
 
 
 def count_available_cores() -> int:
-    """How many this process may use."""
+    """Number of processor cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

@@ -62,7 +62,7 @@ class Side:
 
     @property
     def columns(self) -> tuple[Array, Array, Array]:
-        """The three together."""
+        """Voltage, position and velocity together."""
         return self.voltage, self.position, self.velocity
 
     @property
@@ -82,7 +82,7 @@ class Side:
         return replace(side, position=-side.position, velocity=-side.velocity) if motion else side
 
     def signals(self, *, time: Array, scale: float) -> dict[str, Array]:
-        """What a Run is made of; positions and velocities times ``scale``."""
+        """The columns for ``make_run``; positions and velocities times ``scale``."""
         return {
             "time": time,
             "voltage": self.voltage,

@@ -17,7 +17,7 @@ _TEXTS = {START: 3, FINISH: 0, METADATA: 1}
 
 @dataclass(frozen=True)
 class Start:
-    """Records with this id belong to this entry from here on."""
+    """Control record: from here on, this id stands for this entry."""
 
     id: int
     name: str
@@ -27,14 +27,14 @@ class Start:
 
 @dataclass(frozen=True)
 class Finish:
-    """No more records of this entry; its id is free."""
+    """Control record: the entry has ended, and its id is free."""
 
     id: int
 
 
 @dataclass(frozen=True)
 class Metadata:
-    """The metadata of an entry change."""
+    """Control record: the entry has new metadata."""
 
     id: int
     metadata: str

@@ -85,7 +85,7 @@ class File:
 
 @dataclass(frozen=True, eq=False)
 class RecordHeaders:
-    """What the headers of some records say.
+    """The fields of some records' headers.
 
     Args:
         id: (n,) entry id; 0 for control records.
@@ -257,7 +257,7 @@ def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
 
 
 def find_first_record(file: File, *, size: int, where: str) -> int:
-    """The offset of the first record, behind a preface that is found in order.
+    """Offset of the first record, after the file header has been checked.
 
     Args:
         file: the beginning of the file.

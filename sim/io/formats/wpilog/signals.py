@@ -124,7 +124,7 @@ class SignalRecorder:
     def record(
         self, name: str, kind: str, time: int, value: float | str, *, metadata: str = ""
     ) -> None:
-        """Add a value.
+        """Add one value of a signal.
 
         Args:
             name: of the entry; the first value of a name and a type starts one.
@@ -144,11 +144,11 @@ class SignalRecorder:
         self._stream.write(_pack_long(time, self._numbers[name, kind], payload))
 
     def flush(self) -> None:
-        """Let others read what was recorded so far."""
+        """Write the values so far to the file, so that others can read them."""
         self._stream.flush()
 
     def close(self) -> None:
-        """End the file."""
+        """Write what is left and close the file."""
         self._stream.close()
 
 

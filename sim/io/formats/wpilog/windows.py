@@ -36,7 +36,7 @@ IDS = 1 << 16  # records with an id above are all kept
 
 
 def load_wanted_records(path: Path, wanted: Wanted) -> Records:
-    """The records of the wanted entries of a file, and of all that is damaged in it.
+    """The records of the wanted entries of a file, and those that are malformed.
 
     Args:
         path: the file.
