@@ -71,10 +71,8 @@ def simulate(
     """
     _check_period(period)
     model, slips = mechanism.model, make_slip_effect(mechanism)
-    wires, parts = (
-        make_power_path_array(mechanism, duty_cycle=duty_cycle),
-        _steps_per_loop(mechanism),
-    )
+    wires = make_power_path_array(mechanism, duty_cycle=duty_cycle)
+    parts = _steps_per_loop(mechanism)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:

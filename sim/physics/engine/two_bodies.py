@@ -79,9 +79,7 @@ def step_two_bodies(
         if size == 1 or not take > ways[SMALL]:  # nor where it flies off, and nothing is a number
             u = step_through_contacts(state, c, w, on, p, memory, asked, off, ka, take)
         else:
-            push = compute_joint_voltage(
-                play, stiff, damp, state[X] - state[Y], state[V] - state[W]
-            )
+            push = compute_joint_force(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
             if play == 0.0 or push != 0.0:
                 one = step_in_contact(
                     state, c, w, on, p, memory, ways, asked, off, ka, dt, level, play, stiff, damp
@@ -152,12 +150,10 @@ def step_in_contact(
     if not slowest > 0.0:
         return math.nan
     if play > 0.0:
-        least = compute_joint_voltage(play, stiff, damp, d_half + side, v_half - z_half) * side
-        least = min(
-            least, compute_joint_voltage(play, stiff, damp, d_end + side, v_end - z_end) * side
-        )
+        halfway = compute_joint_force(play, stiff, damp, d_half + side, v_half - z_half)
+        after = compute_joint_force(play, stiff, damp, d_end + side, v_end - z_end)
         long = dt * math.sqrt(stiff / (part * other)) > 1.0  # enough to part and meet within it
-        if not least > 0.0 or (long and deflection_jumps(d, d_end)):
+        if not min(halfway * side, after * side) > 0.0 or (long and deflection_jumps(d, d_end)):
             return math.nan
     state[X], state[V] = y_end + d_end + side, v_end
     state[Y], state[W] = clamp_to_travel(c, y_end, z_end)
@@ -196,7 +192,7 @@ def step_in_backlash(
     x, v = move_exactly(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
     drive = -compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
     y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
-    if compute_joint_voltage(play, stiff, damp, x - y, v - z) != 0.0:
+    if compute_joint_force(play, stiff, damp, x - y, v - z) != 0.0:
         return math.nan
     state[X], state[V] = x, v
     state[Y], state[W] = clamp_to_travel(c, y, z)
@@ -247,13 +243,13 @@ def step_by_midpoint(
     x, v, y, z = state[X], state[V], state[Y], state[W]
 
     u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
-    push = compute_joint_voltage(play, stiff, damp, x - y, v - z)
+    push = compute_joint_force(play, stiff, damp, x - y, v - z)
     x_half, v_half = predict_midpoint(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
     drive = push - compute_gravity_voltage(c, y) - force(on, p, y, z)
     y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
 
     u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
-    push = compute_joint_voltage(play, stiff, damp, x_half - y_half, v_half - z_half)
+    push = compute_joint_force(play, stiff, damp, x_half - y_half, v_half - z_half)
     x, v = move_exactly(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
     drive = push - compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
     y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
@@ -270,7 +266,7 @@ def compute_joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
     return stiff, 2.0 * damping * math.sqrt(stiff * reduced)
 
 
-def compute_joint_voltage(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
+def compute_joint_force(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
     """[V] coupling force of the motor on the load, from the deflection and its rate."""
     into = abs(gap) - 0.5 * play
     if into <= 0.0:
