@@ -226,7 +226,7 @@ def make_number_check(
     """Make a check of one number.
 
     Args:
-        name: of the number; in lower case it is the check's.
+        name: the number's name; in lower case it names the check.
         description: the line that the learner reads.
         points: for full marks.
         after: the check, or checks, that have to pass first.

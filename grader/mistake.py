@@ -75,7 +75,7 @@ def exchange_numbers(one: str, other: str) -> Callable[[str], str]:
 
 
 def make_wrong_answer(name: str, value: str) -> Callable[[str], str]:
-    """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
+    """Make a wrong answer by changing the value of one line of answers.toml."""
 
     def edit_text(text: str) -> str:
         line = re.compile(rf"^{re.escape(name)} = .*$", re.MULTILINE)

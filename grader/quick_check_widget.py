@@ -20,7 +20,7 @@ RIGHT, NOT_YET = "Right.", "Not yet."
 
 
 class QuickCheck(Prediction):
-    """A question with a few answers, each of which is told something.
+    """A question with a few answers, and a feedback to each.
 
     Without buttons, plain code does the same: ``check.answer("kA")``.
 
@@ -65,7 +65,7 @@ class QuickCheck(Prediction):
 
 
 class QuickNumberCheck:
-    """A question for a number; a wrong one is told which slip it looks like.
+    """A question for a number; a wrong one is explained.
 
     Without a box to type in, plain code does the same: ``check.answer("0.019 V·s/rad")``.
 

@@ -1,4 +1,4 @@
-"""Slips: mistakes that leave a fingerprint in a wrong number, such as a factor of 2π.
+"""Mistakes that can be recognized by a wrong number, such as a factor of 2π.
 
 A slip is a suspect when undoing it brings the number into the band for full marks. One suspect is
 named, two or three are named side by side, and more say nothing.
@@ -75,7 +75,7 @@ def explain_wrong_number(
     scene: Scene,
     unit: str,
 ) -> tuple[WrongNumber, ...]:
-    """The slips that would explain a wrong number.
+    """The mistakes that would explain a wrong number.
 
     Args:
         name: the gain: ``kV``.

@@ -127,7 +127,7 @@ def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert checks["routine"].hint.startswith("Read, not compiled, not run")
-    assert bench.run(tmp_path / "mine.py", "ExampleSubsystem") == RunFacts(
+    assert bench.run_sysid_routine(tmp_path / "mine.py", "ExampleSubsystem") == RunFacts(
         RunOutcome.CANNOT, "RobotPy is not installed here"
     )
 

@@ -42,7 +42,7 @@ def find_abi_version() -> int:
 def restrict_file_access(
     *, readable: Iterable[Path], folder: Path, hidden: Path, newest: int | None = None
 ) -> int:
-    """From here on this process reads only Python and ``readable``, and writes only ``folder``.
+    """Let this process only read Python's files and ``readable``, and write only ``folder``.
 
     Args:
         readable: files and folders besides Python's own library and the system's.

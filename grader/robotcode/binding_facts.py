@@ -33,7 +33,7 @@ class Guard(Enum):
 
 
 class HindranceKind(Enum):
-    """Why a test that is bound may not start, or not last."""
+    """Why a test that is bound may not start, or may end early."""
 
     NEVER = "never"  # a condition that never holds, or a wait before it
     CLOSED = "closed"  # the trigger never becomes true

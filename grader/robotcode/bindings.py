@@ -36,11 +36,11 @@ from grader.robotcode.factories import find_factories, is_private
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Member, Node, SourceSpan
-from grader.robotcode.name_resolution import last_name
+from grader.robotcode.name_resolution import get_last_name
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.triggers import TriggerKind, TriggerPart, Triggers
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 DEEPEST = 120  # pieces of code one inside the other
 LEAVES = re.compile(r"if\s*\(?\s*true\s*\)?\s*[:{]?\s*return", re.IGNORECASE)
@@ -206,15 +206,15 @@ class _Reader:
             return node.items
         if not isinstance(node, Call):
             return ()
-        if last_name(node.target) == "zip":
+        if get_last_name(node.target) == "zip":
             columns = [
                 self._items(resolve_bound(several.with_node(arg), self._names)) for arg in node.args
             ]
             return tuple(Items(row[0].place, row) for row in zip(*columns, strict=False))
-        return node.args if last_name(node.target) in {"of", "asList"} else ()
+        return node.args if get_last_name(node.target) in {"of", "asList"} else ()
 
     def _call(self, seen: BoundNode, call: Call, way: _Way) -> None:
-        name = java_spelling(last_name(call.target))
+        name = spell_as_java(get_last_name(call.target))
         args = [*call.args, *(node for _, node in call.named)]
         functions = resolve_call(seen, self._names)
         if name == "clear" and isinstance(call.target, Member) and not functions:
@@ -247,7 +247,7 @@ class _Reader:
     def _switched(self, seen: BoundNode, call: Call, owner: Node) -> None:
         """No command runs where the scheduler is turned off and not on again."""
         if self._call_at_start(seen, owner) in SCHEDULER:
-            off = java_spelling(last_name(call.target)) == "disable"
+            off = spell_as_java(get_last_name(call.target)) == "disable"
             self._disabled = Hindrance(HindranceKind.DISABLED, call.place.text) if off else None
 
     def _cancelled(self, seen: BoundNode, call: Call, owner: Node, way: _Way) -> None:
@@ -261,7 +261,9 @@ class _Reader:
         found = resolve_bound(seen.with_node(owner), self._names).node
         later = any(not one.name for one in seen.scope.functions)
         return (
-            "" if later or not isinstance(found, Call) else java_spelling(last_name(found.target))
+            ""
+            if later or not isinstance(found, Call)
+            else spell_as_java(get_last_name(found.target))
         )
 
     def _hinder_all(self, lost: Hindrance) -> None:
@@ -281,7 +283,7 @@ class _Reader:
     def _bound(self, seen: BoundNode, call: Call, command: BoundNode, way: _Way) -> None:
         runs = self._commands.find_tests(command)
         line = call.target.place.line
-        said = f"{last_name(call.target)}({command.node.place.text})"
+        said = f"{get_last_name(call.target)}({command.node.place.text})"
         if runs.either or (runs.unclear is not None and not runs.tests):
             self._unread.append(ParseProblem(f"the grader cannot see which test {said} runs", line))
         if runs.either or not runs.tests or not isinstance(call.target, Member):
@@ -290,7 +292,7 @@ class _Reader:
         silent = {TriggerKind.NOTHING, TriggerKind.DELAYED}
         keys = sorted({part.key for part in parts if part.asks not in silent})
         unknown = any(part.asks is TriggerKind.UNKNOWN for part in parts)
-        hold = HOLDS[java_spelling(last_name(call.target))]
+        hold = HOLDS[spell_as_java(get_last_name(call.target))]
         kinds = {part.asks for part in parts}
         if TriggerKind.RELEASED in kinds and TriggerKind.BUTTON not in kinds:
             hold = Hold.RELEASED

@@ -13,26 +13,26 @@ from types import MappingProxyType
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import Call, Function, Member, Node, Reference, Self
-from grader.robotcode.motors import motor_label
+from grader.robotcode.motors import make_motor_label
 from grader.robotcode.name_resolution import (
     Method,
     find_called_functions,
     find_class,
     find_implementing_methods,
+    get_last_name,
     infer_type,
-    last_name,
     resolve,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.statement_interpreter import Frame, StatementInterpreter
-from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, java_spelling
+from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, spell_as_java
 
 MOST_CALLS = 4  # methods followed, one inside the other
 MOST_SPREAD = 8  # arguments that a list may be spread into
 
 
 class CallbackInterpreter(StatementInterpreter):
-    """Follows one callback.
+    """Interprets one callback.
 
     Args:
         names: the names of the program.
@@ -43,7 +43,7 @@ class CallbackInterpreter(StatementInterpreter):
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
-        """Note a call of library code, if this trace looks for it.
+        """Record a call of library code if this trace looks for it; its value, None if unknown.
 
         Returns:
             What the call gives; None if it is nothing to this trace.
@@ -54,7 +54,7 @@ class CallbackInterpreter(StatementInterpreter):
         """How many calls have been noted so far."""
 
     def run(self, callback: Node, scope: Scope, parameter: Value) -> bool:
-        """Follow a callback.
+        """Interpret a callback.
 
         Args:
             callback: a lambda, a method reference, or a variable that holds one.
@@ -77,7 +77,7 @@ class CallbackInterpreter(StatementInterpreter):
         return True
 
     def interpret_method(self, method: Method) -> None:
-        """Follow another method of the class after the callback."""
+        """Interpret another method of the class, once the callback is interpreted."""
         self.follow_call(method, [], {}, Frame(method[1].home), me="")
 
     def note_unreadable(self, node: Node) -> None:
@@ -104,12 +104,12 @@ class CallbackInterpreter(StatementInterpreter):
         frame: Frame,
     ) -> Value:
         """A call, when what it is called on and with is known."""
-        name = last_name(call.target)
+        name = get_last_name(call.target)
         if receiver is None and name in frame.locals and frame.scope.module.language == "python":
             return self._invoked(frame.locals[name], args, frame)
-        if receiver is not None and java_spelling(name) in RUNS and self._holds_lambda(receiver):
+        if receiver is not None and spell_as_java(name) in RUNS and self._holds_lambda(receiver):
             return self._invoked(receiver, args, frame)
-        if receiver is not None and java_spelling(name) in LOOPS and args:
+        if receiver is not None and spell_as_java(name) in LOOPS and args:
             several = self.loop_elements(receiver, frame)
             return [self._invoked(args[0], [element], frame) for element in several][-1]
         owner = None if receiver is None else (receiver.origin, receiver.scope)
@@ -153,19 +153,19 @@ class CallbackInterpreter(StatementInterpreter):
             return self.follow_call(found[0], args, named, frame, me=me)
         ways = [partial(self.follow_call, one, args, named, frame, me=me) for one in found]
         return (
-            self.evaluate_ambiguous_call(call, receiver, ways, frame.unknown_value(call))
+            self.note_ambiguous_call(call, receiver, ways, frame.unknown_value(call))
             if ways
             else None
         )
 
-    def evaluate_ambiguous_call(
+    def note_ambiguous_call(
         self,
         call: Call,  # noqa: ARG002 - for a subclass that can compare
         receiver: Value | None,  # noqa: ARG002 - the same
         ways: Sequence[Callable[[], Value]],  # noqa: ARG002 - the same
         at: Value,  # noqa: ARG002 - the same
     ) -> Value | None:
-        """What a call comes to, whichever of several classes it runs in; None if that differs."""
+        """Record a call that several classes may run, if all do the same; its value, else None."""
         return None
 
     def _invoked(self, callee: Value, args: list[Value], frame: Frame) -> Value:
@@ -191,7 +191,7 @@ class CallbackInterpreter(StatementInterpreter):
         me: str,
         captured: Mapping[str, Value] = MappingProxyType({}),
     ) -> Value:
-        """Follow a function of these files."""
+        """Interpret a call of a function of these files; its value."""
         function, scope = method
         if len(frame.around) > MOST_CALLS:
             return self.stop_too_deep(function, frame)
@@ -216,11 +216,11 @@ class CallbackInterpreter(StatementInterpreter):
         """The object whose code a method is, to be put before the names of its fields."""
         if receiver is None:
             return frame.me
-        if isinstance(receiver.origin, Self) or last_name(receiver.origin) == "super":
+        if isinstance(receiver.origin, Self) or get_last_name(receiver.origin) == "super":
             return receiver.me
         if self.names.find_home(receiver.origin, receiver.scope) is not None:
             return ""
-        return f"{receiver.me}{motor_label(receiver.origin)}."
+        return f"{receiver.me}{make_motor_label(receiver.origin)}."
 
     def _holds_lambda(self, value: Value) -> bool:
         node, _ = resolve(value.origin, value.scope, self.names)
@@ -234,7 +234,7 @@ class CallbackInterpreter(StatementInterpreter):
         foreign = bool(type_) and not is_motor(type_)
         if foreign and find_class(receiver.origin, receiver.scope, self.names) is not None:
             foreign = False
-        if foreign or java_spelling(call.target.name).startswith(("mut", "with")):
+        if foreign or spell_as_java(call.target.name).startswith(("mut", "with")):
             self.store_value(
                 call.target.owner, join_values(args, at=frame.unknown_value(call)), frame
             )

@@ -41,7 +41,7 @@ class BoundNode:
 
 
 def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
-    """Follow variables, parameters and fields to what they stand for, as far as can be told."""
+    """Resolve variables, parameters and fields to their values, as far as possible."""
     for _ in range(MOST_STEPS):
         node = seen.node
         if isinstance(node, Cast):

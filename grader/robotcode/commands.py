@@ -33,13 +33,13 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     find_called_functions,
+    get_last_name,
     get_simple_type_name,
     infer_type,
     infer_type_from,
-    last_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, java_spelling
+from grader.robotcode.vocabulary import DIRECTIONS, normalize_enum_constant, spell_as_java
 
 DEEPEST = 12  # methods and compositions one inside the other
 KIND = re.compile(r"(quasi)|(dynamic)", re.IGNORECASE)
@@ -128,7 +128,7 @@ class CommandReader:
         return bool(find_called_functions(call, seen.scope, self._names))
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> TestsRun:
-        name = java_spelling(last_name(call.target))
+        name = spell_as_java(get_last_name(call.target))
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             inner = enter_call(seen, functions[0])
@@ -195,7 +195,7 @@ class CommandReader:
         """Where the field of a routine is set to null after its declaration."""
         for one in find_definitions(routine, self._names):
             if isinstance(one.value, Null) and one.scope.functions:
-                text = f"{last_name(routine.node)} = {one.value.place.text}"
+                text = f"{get_last_name(routine.node)} = {one.value.place.text}"
                 yield Hindrance(HindranceKind.EMPTIED, text)
 
     def _type(self, seen: BoundNode) -> str:
@@ -226,7 +226,7 @@ class CommandReader:
         if self._is_open(seen):
             return "any"
         if isinstance(node, Name | Member):
-            word = enum_constant(node.name)
+            word = normalize_enum_constant(node.name)
             return word if word in DIRECTIONS else ""
         return ""
 

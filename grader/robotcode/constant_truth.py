@@ -26,9 +26,9 @@ from grader.robotcode.ir import (
     Operation,
     Return,
 )
-from grader.robotcode.name_resolution import last_name
+from grader.robotcode.name_resolution import get_last_name
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 DEEPEST = 12  # conditions made of conditions
 JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
@@ -98,7 +98,7 @@ class TruthFolder:
         if functions:
             inside = enter_call(seen, functions[0])
             return self._returned(inside, functions[0][0], depth) if len(functions) == 1 else None
-        name = java_spelling(last_name(call.target))
+        name = spell_as_java(get_last_name(call.target))
         args = [*call.args, *(node for _, node in call.named)]
         if name in WRAPPERS:
             return self.fold(seen.with_node(args[-1]), depth=depth) if args else None

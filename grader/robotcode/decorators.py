@@ -23,9 +23,9 @@ from grader.robotcode.closure import BoundNode, resolve_bound, resolve_call
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.ir import Call, Function, Member, Node
-from grader.robotcode.name_resolution import last_name
+from grader.robotcode.name_resolution import get_last_name
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 WHOLE = 10.0  # [s] a test's own timeout, in WPILib's defaults and in the exercises
 LONGEST_WAIT = 5.0  # [s] longer, and whoever holds the button waits in vain
@@ -107,7 +107,7 @@ class Decorators:
             return 0.0
         if not isinstance(node, Call) or resolve_call(seen, self._names):
             return None
-        name, args = java_spelling(last_name(node.target)), [*node.args]
+        name, args = spell_as_java(get_last_name(node.target)), [*node.args]
         args += [part for _, part in node.named]
         if name in INSTANT | ENDLESS:
             return 0.0 if name in INSTANT else math.inf

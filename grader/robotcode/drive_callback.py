@@ -8,7 +8,12 @@ from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import DriveCall, Output
 from grader.robotcode.ir import Call, Element, Member, Name, Node, Self
 from grader.robotcode.motors import list_motor_names
-from grader.robotcode.name_resolution import find_class, get_simple_type_name, infer_type, last_name
+from grader.robotcode.name_resolution import (
+    find_class,
+    get_last_name,
+    get_simple_type_name,
+    infer_type,
+)
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
@@ -21,15 +26,15 @@ from grader.robotcode.vocabulary import (
     SILENT,
     STOPS,
     WITHOUT_MODE,
-    enum_constant,
+    find_request_output,
     is_motor,
-    java_spelling,
-    request_output,
+    normalize_enum_constant,
+    spell_as_java,
 )
 
 
 class DriveTrace(CallbackInterpreter):
-    """Follows the drive callback and notes every command to a motor.
+    """Interprets the drive callback and records every command to a motor.
 
     Args:
         names: the names of the program.
@@ -45,13 +50,13 @@ class DriveTrace(CallbackInterpreter):
         self.calls: list[DriveCall] = []
 
     def entry_count(self) -> int:
-        """How many commands have been noted."""
+        """How many commands have been recorded."""
         return len(self.calls)
 
-    def evaluate_ambiguous_call(
+    def note_ambiguous_call(
         self, call: Call, receiver: Value | None, ways: Sequence[Callable[[], Value]], at: Value
     ) -> Value | None:
-        """Note one command where all classes that a call may run in command their motors alike."""
+        """Record one command if all classes that a call may run in command their motors alike."""
         before = [*self.calls], dict(self.stored), dict(self.unread)
         outcomes = []
         for way in ways:
@@ -65,7 +70,7 @@ class DriveTrace(CallbackInterpreter):
         self.calls += [
             DriveCall(
                 motor=motor,
-                method=last_name(call.target),
+                method=get_last_name(call.target),
                 output=output,
                 uses_parameter=carries,
                 scaled=scaled,
@@ -81,8 +86,8 @@ class DriveTrace(CallbackInterpreter):
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
-        """Note a command to a motor, or a call that may be one."""
-        method = java_spelling(last_name(call.target))
+        """Record a command to a motor, or a call that may be one."""
+        method = spell_as_java(get_last_name(call.target))
         if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
             self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
             return None
@@ -113,7 +118,7 @@ class DriveTrace(CallbackInterpreter):
             return WITHOUT_MODE[method] if mode is None else mode
         if method in BY_REQUEST and args:
             type_ = get_simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
-            return request_output(type_)
+            return find_request_output(type_)
         return COMMANDS.get(method, Output.UNKNOWN)
 
     def _note(self, call: Call, receiver: Value | None, output: Output, sent: Value) -> None:
@@ -123,7 +128,7 @@ class DriveTrace(CallbackInterpreter):
             self.calls.append(
                 DriveCall(
                     motor=motor,
-                    method=last_name(call.target),
+                    method=get_last_name(call.target),
                     output=output,
                     uses_parameter=sent.carries,
                     scaled=sent.is_scaled,
@@ -182,7 +187,7 @@ class DriveTrace(CallbackInterpreter):
                 return bool(self.names.find_local(root.name, scope))
         if isinstance(node, Name) and node.name in brought:
             return bool(self.names.find_local(node.name, scope))
-        named = last_name(node).lstrip("_")  # in any script: most have no capitals
+        named = get_last_name(node).lstrip("_")  # in any script: most have no capitals
         return isinstance(node, Call) or (bool(named) and not named[:1].isupper())
 
 
@@ -194,7 +199,7 @@ def _kind(call: DriveCall) -> tuple[Output, bool | None, bool | None, bool, str]
 def _mode(value: Value) -> Output | None:
     """The control mode that an argument names, if it is one."""
     return (
-        MODES.get(enum_constant(last_name(value.origin)))
+        MODES.get(normalize_enum_constant(get_last_name(value.origin)))
         if isinstance(value.origin, Member)
         else None
     )

@@ -10,7 +10,7 @@ from enum import Enum
 
 
 class Certainty(Enum):
-    """How a fact was come by."""
+    """How certain a fact is."""
 
     STATED = "stated"  # written in the code, through constants and arithmetic where need be
     DEFAULT = "default"  # left out, or null: the library's own value holds
@@ -38,7 +38,7 @@ class ConfigQuantity:
 
 
 class Output(Enum):
-    """What a motor is told in the drive callback."""
+    """The kind of command that a motor gets in the drive callback."""
 
     VOLTAGE = "voltage"  # setVoltage, setControl(VoltageOut), set_voltage
     DUTY = "duty"  # set(...), DutyCycleOut: a share of whatever the battery gives
@@ -123,7 +123,7 @@ class LoggedSignal:
 
 @dataclass(frozen=True)
 class ParseProblem:
-    """A place the parser stumbled over.
+    """A place in the code that cannot be parsed or compiled.
 
     Args:
         message: one sentence a student understands: ``a ')' is missing``.

@@ -13,10 +13,10 @@ from grader.robotcode.controller_gains import RATIO, GainSetting, find_gain_sett
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
-from grader.robotcode.name_resolution import MOST_STEPS, find_constructed_class, last_name
+from grader.robotcode.name_resolution import MOST_STEPS, find_constructed_class, get_last_name
 from grader.robotcode.scope import Definition, Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
 # kS, K_S, ks, kSVolts, kvVoltSecondsPerMeter; not kStatic, kAngle.
@@ -118,7 +118,7 @@ class DeployFacts:
         return next((one for one in self.constants if one.gain == gain), None)
 
 
-def gain_from_name(name: str) -> str:
+def find_gain_of_name(name: str) -> str:
     """The gain that a name stands for; empty if for none."""
     found = GAIN.fullmatch(name.lstrip("_").removeprefix("m_"))
     return f"k{found[1].upper()}" if found else ""
@@ -181,14 +181,14 @@ class _Reader:
             mine = isinstance(target, Member) and isinstance(target.owner, Self)
             if not (mine or (isinstance(target, Name) and not scope.functions)):
                 continue
-            gain = gain_from_name(last_name(target))
+            gain = find_gain_of_name(get_last_name(target))
             if gain:
                 last = node.place.line + node.place.source.count(
                     b"\n", node.place.start, node.place.end
                 )
                 yield GainConstant(
                     gain,
-                    last_name(target),
+                    get_last_name(target),
                     scope.classes[-1].name if scope.classes else "",
                     self._value(node.value, scope),
                     node.value.place.text,
@@ -208,7 +208,7 @@ class _Reader:
             kind = made.partition("Feedforward")[0] + "Feedforward"
             words = ARGUMENTS[kind]
             given = dict(zip(words, call.args, strict=False))
-            given |= {gain_from_name(java_spelling(word)): node for word, node in call.named}
+            given |= {find_gain_of_name(spell_as_java(word)): node for word, node in call.named}
             arguments = {
                 word: self._argument(node, scope) for word, node in given.items() if word in words
             }
@@ -273,7 +273,7 @@ class _Reader:
                 continue
             if not isinstance(node, Name | Member):
                 break
-            gain = gain_from_name(node.name)
+            gain = find_gain_of_name(node.name)
             if gain:
                 return gain
             one = self._one(node, scope)
@@ -300,7 +300,7 @@ class _Reader:
         for call, scope in calls:
             for node in (*call.args, *(value for _, value in call.named)):
                 for part in iter_nodes(node, but=(Member,)):
-                    if isinstance(part, Name | Member) and gain_from_name(part.name):
+                    if isinstance(part, Name | Member) and find_gain_of_name(part.name):
                         one = self._one(part, scope)
                         if one is not None:
                             yield one.scope.module

@@ -212,7 +212,7 @@ class Loop(Node):
 
 @dataclass(frozen=True, eq=False)
 class FunctionParameter(Node):
-    """One parameter of a function; ``type`` as written, empty if not; ``default`` if it has one."""
+    """One parameter of a function; ``type`` as written, or empty; ``default`` or None."""
 
     name: str
     type: str

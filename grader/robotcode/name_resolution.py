@@ -1,4 +1,4 @@
-"""Names followed to what they stand for: a value, a type, a method."""
+"""Resolve names to what they stand for: a value, a type, a method."""
 
 import re
 
@@ -33,17 +33,17 @@ Method = tuple[Function, Scope]  # a function, and the scope inside it
 
 
 def get_simple_type_name(type_: str) -> str:
-    """A type's own name: ``Config`` of ``SysIdRoutine.Config``, ``List`` of ``List<TalonFX>``."""
+    """A type's name without owner and arguments: ``Config``, ``List`` of ``List<TalonFX>``."""
     return re.sub(r"[<\[|].*", "", type_, flags=re.DOTALL).strip(" \"'").rpartition(".")[2]
 
 
-def last_name(node: Node) -> str:
+def get_last_name(node: Node) -> str:
     """The last part of a dotted name, ``Config`` of ``SysIdRoutine.Config``; else empty."""
     return node.name if isinstance(node, Name | Member) else ""
 
 
 def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
-    """Follow constants, variables and plain getters to what they stand for.
+    """Resolve constants, variables and plain getters to what they stand for.
 
     Returns:
         The node where the way ends, and its scope: a value, or the last name that has none or
@@ -129,7 +129,7 @@ def find_constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
         if brought:
             return brought
     target, _ = resolve(target, scope, names)  # Config = SysIdRoutine.Config
-    made = last_name(target)
+    made = get_last_name(target)
     return made if made[:1].isupper() else ""
 
 
@@ -144,7 +144,7 @@ def _made(node: Node, scope: Scope) -> str | None:
     node = _without_settings(node)
     if not isinstance(node, Call):
         return None
-    made = last_name(node.target)
+    made = get_last_name(node.target)
     if isinstance(node.target, Name):
         made = find_imported_name(made, scope) or made
     return made if made[:1].isupper() else ""
@@ -240,10 +240,12 @@ def find_given_setting(node: Node, scope: Scope, names: SymbolTable) -> str:
         return ""
     setter = f"with{node.name}"
     found = {
-        last_name(resolve(inner.args[0], where, names)[0])
+        get_last_name(resolve(inner.args[0], where, names)[0])
         for module in names.list_modules_with(setter)
         for inner, where in walk_with_scopes(module.body, Scope(module))
-        if isinstance(inner, Call) and last_name(inner.target) == setter and len(inner.args) == 1
+        if isinstance(inner, Call)
+        and get_last_name(inner.target) == setter
+        and len(inner.args) == 1
     }
     return found.pop() if len(found) == 1 else ""
 

@@ -28,8 +28,8 @@ from grader.robotcode.ir import (
     Return,
     Self,
 )
-from grader.robotcode.motors import list_group_members, motor_label
-from grader.robotcode.name_resolution import Method, find_given_setting, last_name
+from grader.robotcode.motors import list_group_members, make_motor_label
+from grader.robotcode.name_resolution import Method, find_given_setting, get_last_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.transfer_functions import TransferFunctions
@@ -103,7 +103,7 @@ class StatementInterpreter(ABC):
         """The value of a call of a function in these files."""
 
     def evaluate_unassigned_variable(self, node: Name | Member, frame: Frame) -> Value:
-        """The value of a variable that no statement so far has assigned."""
+        """The value of a variable that no statement has assigned so far."""
         return frame.unknown_value(node)
 
     def line_of(self, node: Node) -> int:
@@ -129,7 +129,7 @@ class StatementInterpreter(ABC):
             if not isinstance(node, Element | Member):
                 break
             node = node.owner
-        return frame.me + motor_label(node)
+        return frame.me + make_motor_label(node)
 
     def stop_too_deep(self, node: Node, frame: Frame) -> Value:
         """Give up on code that nests too deeply, and note it."""
@@ -239,7 +239,7 @@ class StatementInterpreter(ABC):
         decides, *blocks = node.parts
         cases = [case.parts for block in blocks for case in block.parts if case.parts]
         given = find_given_setting(decides, frame.scope, self.names)
-        meant = [case for case in cases if given in map(last_name, case[:-1])]
+        meant = [case for case in cases if given in map(get_last_name, case[:-1])]
         several = meant if given and len(meant) == 1 else cases
         return [(decides, False), *((part, part is case[-1]) for case in several for part in case)]
 
@@ -260,7 +260,7 @@ class StatementInterpreter(ABC):
         return join_values(several, at=frame.unknown_value(node)).times(None)
 
     def loop_elements(self, collection: Value, frame: Frame) -> list[Value]:
-        """What a loop runs over, one by one; the whole if they have no names."""
+        """The elements that a loop runs over; the whole collection if they have no names."""
         found = list_group_members(collection.origin, collection.scope, self.names)
         inner = Frame(collection.scope, collection.me, around=frame.around)
         values = [

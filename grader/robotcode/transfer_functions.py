@@ -7,7 +7,7 @@ from grader.robotcode.abstract_value import CHANGED, Mark, Value, join_values
 from grader.robotcode.constant_folding import ConstantFolder, FoldedConstant
 from grader.robotcode.conversions import FACTORS
 from grader.robotcode.ir import Call, Member, Node, Operation
-from grader.robotcode.name_resolution import get_simple_type_name, infer_type, last_name
+from grader.robotcode.name_resolution import get_last_name, get_simple_type_name, infer_type
 from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, find_device, find_quantity
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -31,7 +31,7 @@ from grader.robotcode.vocabulary import (
     UNITS,
     UNSIGNED,
     is_motor,
-    java_spelling,
+    spell_as_java,
 )
 
 
@@ -85,7 +85,7 @@ class TransferFunctions:
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value:
         """The value of a call whose function is not in these files."""
-        name = java_spelling(last_name(call.target))
+        name = spell_as_java(get_last_name(call.target))
         several = [*args] if receiver is None else [receiver, *args]
         made = join_values(several, at=at)
         made = replace(made, marks=made.marks | self._marks(name, receiver))
@@ -132,7 +132,7 @@ class TransferFunctions:
         if name in FACTORS:
             return made.times(FACTORS[name]).scale
         if name == "in" and first is not None:
-            return made.times(_turns(made.unit) / _turns(last_name(first))).scale
+            return made.times(_turns(made.unit) / _turns(get_last_name(first))).scale
         kept = name in SAME | ARGUMENT | LIMITS | AMOUNTS | REPLACES or name.startswith("with")
         return made.scale if kept or name[:1].isupper() else None
 
@@ -182,7 +182,7 @@ class TransferFunctions:
         measure = self._measures.fold(node, scope)
         if measure is None or not measure.unit:
             return ""
-        return last_name(node) if last_name(node) in UNITS else node.place.text
+        return get_last_name(node) if get_last_name(node) in UNITS else node.place.text
 
     def _marks(self, name: str, receiver: Value | None) -> set[Mark]:
         found = set()

@@ -16,7 +16,7 @@ from grader.robotcode.button_vocabulary import (
     TEST_MODE,
     UNCHANGED,
     WRAPPERS,
-    button_name,
+    find_button_name,
 )
 from grader.robotcode.closure import (
     BoundNode,
@@ -41,13 +41,13 @@ from grader.robotcode.ir import (
     Return,
 )
 from grader.robotcode.name_resolution import (
+    get_last_name,
     get_simple_type_name,
     infer_type,
     infer_type_from,
-    last_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 DEEPEST = 12  # triggers made of triggers
 LONGEST_DEBOUNCE = 0.5  # [s] longer, and whoever holds the button waits in vain
@@ -112,7 +112,7 @@ class Triggers:
         if isinstance(node, Call):
             found = self._call(seen, node, depth + 1)
             kept = node is not before.node and isinstance(before.node, Name | Member)
-            asked = last_name(node.target).lower().startswith("is")
+            asked = get_last_name(node.target).lower().startswith("is")
             return tuple(map(_kept, found)) if kept and asked else found
         if isinstance(node, Function):
             return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
@@ -134,7 +134,7 @@ class Triggers:
         node = seen.node
         if isinstance(node, Name) and node.name in seen.given:
             return self.find_controller(seen.given[node.name])
-        if isinstance(node, Call) and java_spelling(last_name(node.target)) == "getHID":
+        if isinstance(node, Call) and spell_as_java(get_last_name(node.target)) == "getHID":
             owner = node.target.owner if isinstance(node.target, Member) else node
             return self.find_controller(seen.with_node(owner))
         if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(self._type(seen)):
@@ -166,7 +166,7 @@ class Triggers:
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[TriggerPart, ...]:
         self.asked.add(call)
-        name, args = java_spelling(last_name(call.target)), list(call.args)
+        name, args = spell_as_java(get_last_name(call.target)), list(call.args)
         args += [node for _, node in call.named]
         owner = call.target.owner if isinstance(call.target, Member) else None
         functions = resolve_call(seen, self._names)
@@ -231,7 +231,7 @@ class Triggers:
 
     def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[TriggerPart, ...]:
         controller = self.find_controller(owner)
-        word = button_name(method)
+        word = find_button_name(method)
         if word in {"button", "raw"} and args:
             word = self._numbered(args[0], owner)
             args = []
@@ -264,7 +264,7 @@ class Triggers:
         if isinstance(node, Call) and isinstance(node.target, Name | Member):
             node = node.target
         if isinstance(node, Member):
-            return button_name(node.name)
+            return find_button_name(node.name)
         return ""
 
     def _operation(
@@ -352,8 +352,8 @@ class Triggers:
             functions = resolve_call(seen.with_node(call), self._names)
             if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
                 return self._call(seen.with_node(call), call, depth)
-        word = java_spelling(last_name(node))
-        owner = last_name(node.owner) if isinstance(node, Member) else ""
+        word = spell_as_java(get_last_name(node))
+        owner = get_last_name(node.owner) if isinstance(node, Member) else ""
         mode = owner in MODES_OF or word.lower().startswith("is")
         if mode and TEST_MODE.fullmatch(word):
             by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""

@@ -46,8 +46,8 @@ from sim.fit.search import (
     TRACKING,
     drop_outliers,
     fit_open_loop,
-    fit_problem,
     fit_tracking,
+    make_fit_problem,
     predict_improvement,
     refine,
 )
@@ -136,7 +136,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )  # fitted as if the leads were swapped, and told
     begin = clamp_to_physical(guess, period=_sample_period(log.runs))
     seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
-    problem = fit_problem(log, seen)
+    problem = make_fit_problem(log, seen)
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)

@@ -30,7 +30,7 @@ START = 0.15  # [s] of a motion in which nothing is left out: about two time con
 AROUND = 2  # samples on both sides of an outlier
 
 
-def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
+def make_fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
     """The estimation problem of a log's runs, each by itself, for gains and lags.
 
     Args:

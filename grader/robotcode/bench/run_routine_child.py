@@ -47,7 +47,7 @@ def get_by_season_name(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy'
 
 
 class Wheel:
-    """What a motor turns: V = kS·sgn(v) + kV·v + kA·a."""
+    """The simulated load of a motor: V = kS·sgn(v) + kV·v + kA·a."""
 
     def __init__(self, number: int) -> None:
         self.ks, self.kv, self.ka = (GAINS[name] + number * STEP[name] for name in GAINS)

@@ -42,9 +42,9 @@ from grader.robotcode.name_resolution import (
     find_class,
     find_constructed_class,
     find_methods,
+    get_last_name,
     get_simple_type_name,
     infer_type,
-    last_name,
 )
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
@@ -107,7 +107,7 @@ def find_java_errors(names: SymbolTable) -> Iterator[ParseProblem]:
     defined = frozenset(node.name for node, _ in every if isinstance(node, Function))
     targets = {node.target for node, _ in every if isinstance(node, Call)}
     made = [one for one, _ in every if isinstance(one, Assign) and one.declares]
-    brought = {last_name(one.target) for one in made}
+    brought = {get_last_name(one.target) for one in made}
     brought |= {one.name for one, _ in every if isinstance(one, FunctionParameter)}
     for node, scope in every:
         line = node.place.line
@@ -129,7 +129,7 @@ def _names_of_2027(every: list[tuple[Node, Scope]], names: SymbolTable) -> Itera
     for node, scope in every:
         if not isinstance(node, Member):
             continue
-        of_mode = node.name in MODES_OF_2027 and last_name(node.owner) in MODES_OF
+        of_mode = node.name in MODES_OF_2027 and get_last_name(node.owner) in MODES_OF
         of_motor = node.name in MOTORS_OF_2027 and is_motor(infer_type(node.owner, scope, names))
         if of_mode or of_motor:
             old = (MODES_OF_2027 | MOTORS_OF_2027)[node.name]
@@ -157,7 +157,7 @@ def _names_before_2027(
             type_ = get_simple_type_name(infer_type(node.owner, scope, names))
             if type_ in PWM_MOTORS and names.find_by_name(type_, scope) is None:
                 new = of_motor[node.name]
-        elif last_name(node.owner) == "Direction":
+        elif get_last_name(node.owner) == "Direction":
             new = of_direction.get(node.name, "")
         if new:
             said = f"WPILib 2027 has no {node.name} here. Did you mean {new}?"
@@ -179,7 +179,7 @@ def _runs_of_v3(every: list[tuple[Node, Scope]], names: SymbolTable) -> Iterator
     if not any(one.path.startswith(COMMANDS_V3) for one in names.main.imports):
         return
     for node, scope in every:
-        if not isinstance(node, Call) or last_name(node.target) != "run" or len(node.args) != 1:
+        if not isinstance(node, Call) or get_last_name(node.target) != "run" or len(node.args) != 1:
             continue
         owner = node.target.owner if isinstance(node.target, Member) else Self(node.place)
         given = node.args[0]

@@ -17,7 +17,7 @@ from grader.robotcode.compiling.season import (
 )
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annotations__"}
 OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
@@ -128,7 +128,7 @@ def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             meant = suggest_name(node.func.attr, METHODS)
             line = node.func.end_lineno or node.lineno
-            if meant and node.func.attr not in own and java_spelling(node.func.attr) not in METHODS:
+            if meant and node.func.attr not in own and spell_as_java(node.func.attr) not in METHODS:
                 yield make_spelling_problem("method", node.func.attr, meant=meant, line=line)
 
 
@@ -138,7 +138,7 @@ def _is_set(node: ast.Attribute) -> bool:
 
 def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | None:
     """All attributes of a class; None where it inherits from a class out of sight."""
-    known = set(INHERITED) | {java_spelling(name) for name in INHERITED}
+    known = set(INHERITED) | {spell_as_java(name) for name in INHERITED}
     known |= {"".join(f"_{a.lower()}" if a.isupper() else a for a in name) for name in INHERITED}
     waiting, seen = [one], set()
     while waiting:

@@ -12,7 +12,7 @@ import click
 
 from sim.cli.fit.inertia import add_inertia, turning_options
 from sim.cli.fit.parts import describe_kind, fit_parts, join_parts
-from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
+from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, make_paste_text
 from sim.cli.fit.plausibility import (
     check_against_physics,
     compare_directions_alone,
@@ -186,7 +186,7 @@ class _FitOutput:
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
         """Print what was asked for, robot code, JSON, or text for people; the exit code."""
         if paste:
-            click.echo(paste_code(self.found, paste, season=season), nl=False)
+            click.echo(make_paste_text(self.found, paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:
