@@ -37,7 +37,7 @@ def simulate_duty_cycle(
 
     Args:
         mechanism: what is tested.
-        routine: which voltages are asked for.
+        routine: the commanded voltages.
         rng: the source of noise and jitter.
         battery: what feeds it.
         period: [s] of the robot program's loop.

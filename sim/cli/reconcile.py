@@ -133,7 +133,7 @@ def _solved(
     logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, time_limit: float | None,
     progress: Callable[[str, float], None],
 ) -> "Story":  # fmt: skip
-    """The story of these logs, what an inspection found of each told to the solver."""
+    """The story of these logs, without the damage that an inspection finds."""
     from sim.reconcile import reconcile as solve  # noqa: PLC0415 - --help must not wait for it
 
     progress("looking for damage", 0.0)

@@ -4,7 +4,7 @@
     ├── UnreadableFile    missing, empty, damaged, truncated, or of a format nobody here reads
     ├── MissingSignal     the file is sound, but an entry that a fit needs is not in it
     ├── BadSample         a number that cannot be a measurement: nan, infinite, out of order
-    ├── NotIdentifiable   the record is sound, but cannot tell what was asked
+    ├── NotIdentifiable   the log is sound, but does not determine the gains
     └── BadRequest        what was asked for cannot be done: unknown name, value out of range,
                           a folder that cannot be written
 

@@ -83,7 +83,7 @@ def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
 
 
 def _fit_run(run: Run, lags: Array) -> tuple[Array, Array, int] | None:
-    """For each delay, the unexplained share and the scale; and the samples they rest on."""
+    """For each delay, the unexplained share and the scale; and the number of samples used."""
     if len(run) < FEWEST or not run.top_speed > 0.0 or not np.ptp(run.position) > 0.0:
         return None
     steps = 0.5 * np.diff(run.time) * (run.velocity[1:] + run.velocity[:-1])

@@ -27,7 +27,7 @@ class FollowedProfile:
     Args:
         name: of the mechanism: ``elevator``.
         symbol: of its unit of position.
-        target: what was asked for.
+        target: the profile.
         position: (n,) [unit].
         velocity: (n,) [unit/s].
         place: what its position is called, ``height``; empty where only its speed matters.
@@ -124,7 +124,7 @@ def follow_profile(
     Args:
         plant: the mechanism as it is.
         believed: as the feedforward's class and gains have it.
-        wanted: what is asked for, in the unit of both.
+        wanted: the desired motion, in the unit of both.
         name: of the mechanism, for people.
         symbol: of the unit of position.
         place: what its position is called; empty where only its speed matters.

@@ -58,7 +58,7 @@ def add_absent_effects(
 ) -> tuple[PredictionErrorProblem, Estimate]:
     """The estimate in a model with the small effects at size zero; cached per estimate.
 
-    Whether they explain anything and what they add to the errors are then told from one Jacobian.
+    One Jacobian then tells whether they explain anything, and what they add to the errors.
     """
     found = _ABSENT.get(point)
     if found is None or found[0] is not problem:

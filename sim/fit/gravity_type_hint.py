@@ -50,7 +50,7 @@ def hint_gravity_type(
 
 
 def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
-    """[unit/s] by which a quick fit as of another type strays."""
+    """[unit/s] typical velocity error of a quick fit as another type."""
     try:
         log, guess, _ = orient_forward(log, type=type)  # weight may hide which way is forward
     except NotIdentifiable:

@@ -1,7 +1,7 @@
 """Output-error fit of kS, kV, kA (and kG), with static friction.
 
-Any runs will do, as many as there are. Where the velocity is averaged before it is logged, or the
-whole mechanism answers late, that is fitted along and told.
+Any number of runs of any kind will do. If the velocity is averaged before it is logged, or the
+whole mechanism reacts late, these delays are fitted as well and reported.
 """
 
 import math

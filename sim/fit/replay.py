@@ -121,9 +121,10 @@ def _sensor_lags(found: Fit) -> list[Part]:
 
 
 def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
-    """[m or rad] from third differences of what is left, which hardly know a wrong model.
+    """[m or rad] position noise, from third differences of the residual.
 
-    Of what is left, and not of the position: there a late sample looks like noise.
+    They hardly depend on errors of the model. Those of the position itself would take a late sample
+    for noise.
     """
     thirds = [
         np.diff((run.measured[:, 0] - track.position)[run.moving], 3)

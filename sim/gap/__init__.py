@@ -3,9 +3,9 @@
     found = gap_map(residuals, noise=noise)
     found.places(5)                     # in words, the surest first
 
-What a model leaves of each sample is sorted by run and time, by direction and speed, by direction
-and position, by the time since the voltage jumped, and by voltage at rest. Everything is told in
-noises, so a shooter and an arm read alike.
+The residual of each sample is binned by run and time, by direction and speed, by direction and
+position, by the time since a voltage step, and by voltage at rest. All numbers are multiples of the
+noise, so that a shooter and an arm can be compared.
 """
 
 from collections.abc import Sequence
@@ -68,7 +68,7 @@ def map_gap(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
 
     Args:
         runs: what it leaves of each.
-        noise: standard deviations of a position and a velocity of which that is told in.
+        noise: standard deviations of a position and a velocity, in whose multiples gaps are given.
 
     Raises:
         BadRequest: there is nothing to compare.

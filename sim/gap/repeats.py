@@ -30,10 +30,10 @@ class Repeat:
     Args:
         test: its name.
         runs: which two, from 0.
-        correlation: [1] of what is left of the velocities.
-        sure: [standard errors] by which that is above nothing.
-        excess: [1] mean square of what is left over what noise alone would leave.
-        share: [1] of what is left, beyond noise, that is the same in both; may be below 0.
+        correlation: [1] of the velocity residuals of both.
+        sure: [standard errors] by which the correlation is above 0.
+        excess: [1] mean square of the residuals over that of noise alone.
+        share: [1] share of the residuals, beyond noise, that is equal in both; may be below 0.
         verdict: ``comes again``, ``comes again in part``, ``changes from run to run`` or ``is no
             more than noise``.
     """
@@ -94,7 +94,7 @@ def _compared(
 
 
 def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
-    """Mean velocity missed in each stretch [noises], and of how many samples."""
+    """[noise] mean velocity residual in each stretch, and its number of samples."""
     missed = run.error[:, 1] / noise
     there = ~np.isnan(missed) & (run.run_time < ends[-1])
     place = np.searchsorted(ends, run.run_time[there], side="right") - 1

@@ -38,8 +38,8 @@ class Anomaly:
         last: its last sample.
         begin: the first sample of the stretch with what is around it.
         end: behind the last sample of that.
-        residual: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken
-            off.
+        residual: (end - begin,) [m/s or rad/s] measured minus expected, less the run's usual
+            residual.
         expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
             before and after.
         at_start: it begins with the motion, where delays and limits of current look like accidents.
@@ -189,7 +189,7 @@ def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
 
 
 def _ordinary_residual(stray: Array, within: Array) -> Array:
-    """What the run strays by anyway: the median where it is not odd."""
+    """(n,) the usual residual of a run: the median of samples without an anomaly."""
     usual = np.abs(stray) <= 2.0 * within
     return np.full(stray.size, np.median(stray[usual]) if usual.any() else 0.0)
 

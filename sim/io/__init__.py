@@ -145,7 +145,7 @@ def _asked(
     ignore_velocity: bool = False,
     pick: int | None = None,
 ) -> ReadOptions:
-    """What a person asked for, checked."""
+    """The user's options, checked."""
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     return ReadOptions(

@@ -35,7 +35,7 @@ class Trace:
         title: what it is of.
         ylabel: with unit.
         time: (n,) [s].
-        wanted: (n,) what was asked for; a limit that should be kept, where ``limit`` says so.
+        wanted: (n,) the target; with ``limit``, a limit that should be kept.
         actual: name -> (n,) what happens.
         limit: whether ``wanted`` is a limit.
     """

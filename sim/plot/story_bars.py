@@ -133,7 +133,7 @@ def plot_gap_by_round(story: Story) -> Picture:
 
 
 def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
-    """A bar for each gap; the base model's is hatched, and one that ran away the longest."""
+    """A bar for each gap; the base model's is hatched, and a diverged one is the longest."""
     longest = max([gap for gap in gaps if np.isfinite(gap)] or [1.0])
     for place, gap in enumerate(gaps):
         length = gap if np.isfinite(gap) else 1.3 * longest

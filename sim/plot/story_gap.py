@@ -43,7 +43,7 @@ def plot_residual_maps(story: Story) -> Picture:
     """Maps of the residuals on the shown log, of the base model and of the last model.
 
     Raises:
-        BadRequest: there is nothing to compare, or each simulation ran away.
+        BadRequest: there is nothing to compare, or each simulation diverged.
     """
     base, *more = story.chapters
     wanted = {"base model": base}

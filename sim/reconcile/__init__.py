@@ -74,7 +74,7 @@ def reconcile(
         damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
         time_limit: [s] of processor time after which the best model so far is taken, and the
             verdict says so. The search ends at ``SEARCH`` of it; the rest is for the findings.
-        progress: told what is done, and the share of it [1].
+        progress: called with a step's description and the share done [1].
 
     Raises:
         BadRequest: a log of another mechanism, or positions beyond the travel.

@@ -1,7 +1,7 @@
 """Estimates where in its backlash each run started.
 
-Teeth that rest on one another push at once, others first cross the slack and then meet; which it
-is, is left from whatever was before the run.
+Teeth in contact push at once; others first cross the backlash. Where a run starts depends on the
+motion before it, which is not recorded.
 """
 
 import math
@@ -76,7 +76,7 @@ def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 def _costs_by_run(
     problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array
 ) -> Array:
-    """(runs,) what the innovations of each cost, by the spread at a point, and what was told."""
+    """(runs,) -2 log L of each run's innovations, with the prior of its backlash phase."""
     squares = np.square(problem.whiten(point, ahead)).reshape(-1, 2).sum(axis=1)
     costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + _prior_costs(meshed)
     return costs

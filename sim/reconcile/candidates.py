@@ -123,8 +123,8 @@ def descend_candidate(
 ) -> Estimate:
     """A candidate after a few optimizer steps, for comparison with others.
 
-    Where in free play a run began is told before the gains have adjusted to it: if that leads to
-    less than the point without the candidate, the start may do better untold.
+    The backlash phase of a run is estimated before the gains have adjusted to it. If the result is
+    worse than without the candidate, the start is tried again without backlash phases.
 
     Args:
         problem: the measurements.

@@ -105,8 +105,8 @@ def compute_open_loop_errors(
         problem: the runs.
         point: values that are simulated.
         nuisance: how each run begins.
-        eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
-            accident does to the gap says nothing about an effect.
+        eased: each run may have a friction of its own, as in ``random_friction.py``, so that an
+            accident in one run does not count for or against an effect.
     """
     track = problem.simulate(point.structure.model(point.values), nuisance)
     errors = problem.measured - track.sensor_readings
@@ -168,7 +168,7 @@ def _costs_by_share(
 
 
 def _open_loop_errors(problem: PredictionErrorProblem, track: Track) -> Array:
-    """(n, 2) measured less simulated, without end where a simulation ran away."""
+    """(n, 2) measured minus simulated; infinite where a simulation diverged."""
     seen = track.sensor_readings
     away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
     return np.where(away, np.inf, problem.measured - seen)

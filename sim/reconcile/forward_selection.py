@@ -150,7 +150,7 @@ def list_alternative_paths(
 
 
 def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """The same, and a round for each effect that narrows the gap."""
+    """The rounds, with one more for each effect that narrows the gap."""
     done = list(done)
     while len(done) <= MOST and not _is_dead_end(data.problem, done):
         data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
@@ -221,9 +221,9 @@ def select_admissible(
 
 
 def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
-    """Whether the model is lost, and has nothing to add to, or its last effect took little away.
+    """Whether a model misses most of the motion, and its last effect hardly improved that.
 
-    Of such a model nothing is told in the end, and it may take minutes to see four effects of it.
+    Nothing would be reported of such a model, and further effects would take minutes to try.
     """
     now = done[-1]
     share = compute_missed_motion(now.gap.velocity / problem.noise.velocity, problem)

@@ -118,7 +118,7 @@ class HeldOutLog:
     def gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
         """[owner's unit/s] effect -> the gap of the last model without it.
 
-        Where the rest of the model runs away without an effect, that of the model before it.
+        If the model diverges without an effect, the gap of the model before it.
         """
         found = {}
         for before, one in pairwise(done):

@@ -100,10 +100,10 @@ def rate_starts(
 ) -> list[Begun]:  # fmt: skip
     """Estimates at a candidate's starts, each with its predicted decrease of -2 log L.
 
-    A start that goes too far, or the wrong way, as it may beside another effect that no start knows
-    of, is tried again at the size that would gain most, if what it does were proportional to it;
-    the best of all is halved while that promises more, for what does not act in proportion (free
-    play, a limit) and is smaller than every start.
+    The prediction lets the gains adjust, to second order. A start that is too large, or has the
+    wrong sign because of an effect that is missing, is tried again at the size that would improve
+    most if the effect were proportional to it. The best of all is halved while that improves the
+    prediction: effects that are not proportional (backlash, a limit) may be smaller than any start.
 
     Args:
         problem: the measurements.

@@ -27,7 +27,7 @@ class Evidence:
         gap: ln of the validation's velocity gap with it over that without it.
         size: ln of its size over the largest that is everyday.
         rival: score of the best other effect that lasts, over its own, in its round, 0 to 1.
-        strays: ln of the last model's gap in noises of a velocity.
+        strays: ln of the last model's gap in noise floors of the velocity.
         structure: 1 if the last model leaves more than noise, else 0.
         once: 1 if it begins at a moment, else 0.
         behind: ``likelihood`` less the largest of the other effects, 0 at most.

@@ -30,7 +30,7 @@ class Recordings:
         validation: runs by which effects are chosen, if given.
         held_out: runs on which the gap is shown, if given.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
-        damage: what is left out of each, by the names above.
+        damage: the excluded intervals of each log, by the names above.
     """
 
     log: Log

@@ -19,7 +19,7 @@ class SelectionData:
         log: all runs that may be fitted.
         problem: the measurements of these.
         folds: which runs predict which.
-        progress: told what is done, and the share of it [1].
+        progress: called with a step's description and the share done [1].
         deadline: [s] of ``time.process_time`` after which the best model so far is taken.
     """
 

@@ -44,7 +44,7 @@ def show_progress() -> Iterator[ShowStep]:
 
 
 def show_story(story: Story, *, title: str, console: Console | None = None) -> None:
-    """Print the verdict, then what it rests on.
+    """Print the verdict, then the findings and gaps behind it.
 
     Args:
         story: what was found.

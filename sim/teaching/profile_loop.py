@@ -187,9 +187,9 @@ class FollowedMove:
 
     Args:
         time: (n,) [s].
-        target: (n,) [m or rad] asked for.
+        target: (n,) [m or rad] target position.
         position: (n,) [m or rad] reached.
-        voltage: (n,) [V] asked for from each time on.
+        voltage: (n,) [V] command from each time on.
     """
 
     time: Array
@@ -219,7 +219,7 @@ def follow_in_closed_loop(
 
     Args:
         mechanism: the bench's, with its hidden effects, between its stops.
-        profile: what is asked for.
+        profile: the desired motion.
         volts: the controller, called once each loop; its answer is held until the next.
         period: [s] of the loop: ``LOOP`` in a robot program, ``ONBOARD`` in a motor controller.
 

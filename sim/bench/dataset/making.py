@@ -38,7 +38,7 @@ class MadeLog:
     """A log that was made: its files and its ground truth.
 
     Args:
-        job: what was asked for.
+        job: the job that it was made for.
         contents: path of a file in the dataset's folder -> its bytes.
         truth: about them, as it stands in the key.
     """

@@ -101,7 +101,7 @@ def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
     """The jobs of a spec, in the order of their names.
 
     Args:
-        spec: what is asked for.
+        spec: the specification.
         secret: what it is drawn from.
     """
     return tuple(

@@ -42,7 +42,7 @@ class ReconcileJob:
         return {"words": self._words, "share": self._share, "story": self._story}
 
     def _run(self) -> None:
-        """Search; whatever goes wrong is told with the next question."""
+        """Run the search; an error is reported when the page asks for its progress."""
         from sim.cli.reconcile import (  # noqa: PLC0415 - once it is needed
             choose_time_limit,
             inspect_damage,

@@ -30,7 +30,7 @@ class PageView:
     """What the page shows of every log.
 
     Args:
-        raw: the data alone: nothing is detected, fitted or told.
+        raw: the data alone: nothing is detected or fitted.
         span_text: how marked spans are written.
     """
 

@@ -1,4 +1,4 @@
-"""Command logged: the log holds the voltage that was asked for, not the one that arrived.
+"""Command logged: the log holds the commanded voltage, not the applied one.
 
 On a robot: the program logs its own request. A current limit clips what the motor gets while the
 mechanism starts, or the battery sags under it, and the log knows nothing of either.

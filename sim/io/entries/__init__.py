@@ -48,7 +48,7 @@ def assemble_log(
 
     Raises:
         MissingSignal: an entry is missing; the message names it and what there is instead.
-        BadRequest: what was asked for is not in it, or it holds several mechanisms.
+        BadRequest: it lacks the chosen motor or mechanism, or holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
     found = _found(entries, asked=asked, where=where)

@@ -1,4 +1,4 @@
-"""Battery sag: the voltage asked for is a share of a battery that gives way under current.
+"""Battery sag: a duty cycle gives less voltage while current lowers the battery's voltage.
 
     u - kV·v becomes (u - kV·v)/(1 + share·d²)        d = |u|/12 V, share = n·Rb/R
 

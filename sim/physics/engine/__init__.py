@@ -170,10 +170,10 @@ def simulate_run(
         wires: (9,) battery and limits, see ``power_path.py``; none is an ideal source.
         step: [s] the longest; None chooses.
         plain: in uncompiled Python, for comparison.
-        measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
-            is none; none goes its way.
-        trust: (2, 2) by how much: from both deviations to the corrections of both.
-        slide: (n,) [V] by which the voltage slides evenly to the next; None holds it.
+        measured: (n, 2) position and velocity that correct the motion, nan where there is none;
+            None simulates in open loop.
+        trust: (2, 2) Kalman gain: from both innovations to the corrections of both.
+        slide: (n,) [V] linear change of the voltage until the next sample; None holds it.
 
     Examples:
         >>> time = np.linspace(0.0, 5.0, 251)

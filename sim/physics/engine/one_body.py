@@ -30,10 +30,7 @@ until which a brownout keeps the motors off. With one body, motor and load are t
 
 
 def bound_travel(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
-    """The base model of one run, kept between two stops as well as between the ends of its travel.
-
-    ``rubs`` [V] is its dry friction beyond kS.
-    """
+    """Constants of one run: friction is kS + ``rubs``, travel is between ``low`` and ``high``."""
     return (
         max(c[KS] + rubs, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
         max(c[LOW], low), min(c[HIGH], high),

@@ -144,13 +144,13 @@ def step_run(
 ) -> None:  # fmt: skip
     """Simulate one run into ``out``; ``state`` and ``memory`` hold its end.
 
-    A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
-    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
-    where it rests, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that
-    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4); without
-    rows it goes its way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that
-    even that does not shorten, and [unit/s] by which the speed changes. ``ways`` is room for the
-    tables of ``two_body_modes.py``: of one model only, and empty at first.
+    A command holds from its sample until the next, or changes linearly by ``slides`` [V]. It comes
+    ``late`` [s] later than the effects delay it; until the first has come, a mechanism at rest is
+    held there, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that correct
+    the motion by the Kalman gains ``trust`` (n, 4), nan where there is none; without rows the
+    simulation is open loop. ``steps`` limits a step: longest [s], longest way [unit], shortest [s]
+    and largest change of speed [unit/s]. ``ways`` is room for the tables of ``two_body_modes.py``:
+    of one model only, and empty at first.
     """
     lag = command_delay(on, p) + late
     n = time.size

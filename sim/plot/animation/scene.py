@@ -79,7 +79,7 @@ class Motion:
         voltage: (n,) [V], each held until the next time; a gain is one voltage, set by its knob.
         heading: (n,) [rad] of a swerve drive.
         ghost: drawn as an outline over the others: a model beside the robot.
-        asked: what was asked for: an outline and a line in the color of the text.
+        asked: whether it is the target: an outline and a line in the color of the text.
         gains: kS [V], kV, kA and, where the type has it, kG [V]: the motion is simulated with them.
         program: the gains of a feedforward that follows the scene's target; None takes ``voltage``.
         plan: the test that is driven, in place of a voltage.
@@ -122,7 +122,7 @@ class Motion:
         return moved.position if signal == "position" else moved.velocity
 
     def _error(self, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) position minus that of the motion that was asked for."""
+        """(n,) position minus the target position."""
         asked = next((one for one in scene.motions if one.asked), None)
         if asked is None or asked is self:
             return None
@@ -231,7 +231,7 @@ class Panel:
 
     Args:
         signal: ``position``, ``velocity``, ``voltage``, or ``error``: how far a position is ahead
-            of the one that was asked for.
+            of the target.
         label: of its axis, with the unit.
         low: lowest value in the label's unit; None fits the axis to the scenes as first shown.
         high: highest value; None as for ``low``.

@@ -65,7 +65,7 @@ def read(path: Path, asked: ReadOptions) -> Log:
     Raises:
         UnreadableFile: it is foreign, empty, or damaged before the end of the first run.
         MissingSignal: an entry is missing; the message names it and what there is instead.
-        BadRequest: what was asked for is not in it, or it holds several mechanisms.
+        BadRequest: it lacks the chosen motor or mechanism, or holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
     log, doubts = _read(path, asked, assemble_log)
