@@ -81,7 +81,7 @@ print(f"The mechanism: {shooter.summary}. Its gains are per rotation:")
 Table(
     ("gain", "value", "one standard error", "unit"),
     tuple(
-        (name, found.gains[name], found.errors[name], found.gain_unit(name))
+        (name, found.gains[name], found.errors[name], found.format_gain_unit(name))
         for name in ORDER["simple"]
     ),
 )

@@ -69,9 +69,12 @@ def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
     kp, kd = map(float, re.findall(r"loop with kP (\S+), kD (\S+): ", doubt.message)[0])
     plant = Plant("simple", LIGHT)
     took = simulate_step_response(
-        plant, loop="position", feedback=Feedback(kp, kd), target=plant.target_step("position"),
+        plant,
+        loop="position",
+        feedback=Feedback(kp, kd),
+        target=plant.choose_target_step("position"),
         preset=PRESETS["rev-brushless"],
-    )  # fmt: skip
+    )
     assert kp > 0.0
     assert judge_step_response(took).is_good
 

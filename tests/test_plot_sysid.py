@@ -142,7 +142,7 @@ def test_what_the_fit_uses_is_counted_and_drawn_where_it_is():
         strict=True,
     ):
         used = next(line for line in axes.lines if line.get_label() == "used by the fit")
-        start = log.runs_of_test(test)[0].time[0]
+        start = log.list_runs_of_test(test)[0].time[0]
         assert used.get_xdata() == pytest.approx(rows[test].time - start)
         assert axes.get_title() == f"{test}: {len(rows[test])} of 150 used"
         assert f"The fit uses {len(rows[test])} of the 150 samples of {test}" in picture.alt

@@ -270,7 +270,7 @@ def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     nuisance, count = RunNuisance.at_first_samples(len(problem.records)), len(problem.records)
     point = problem.evaluate(base, values, nuisance, problem.noise.velocity**2)
 
-    starts = problem.jacobian(point)[:, -2 * count : -count]
+    starts = problem.compute_jacobian(point)[:, -2 * count : -count]
 
     for number in range(count):
         by = np.zeros(count)

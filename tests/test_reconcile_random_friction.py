@@ -103,7 +103,7 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
     ]  # fmt: skip
 
     prices = [
-        compute_laplace_correction(one.values, problem.friction_jacobian(one))
+        compute_laplace_correction(one.values, problem.compute_friction_jacobian(one))
         for one in (found, *nudged)
     ]
 
@@ -139,10 +139,10 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     left = rest - table @ by
     prior = rest[white.size :]
 
-    assert kept.residual_square(white) + float(prior @ prior) == pytest.approx(
+    assert kept.compute_residual_square(white) + float(prior @ prior) == pytest.approx(
         float(left @ left), rel=1e-6
     )
-    along, size = kept.residual_products(white, white)
+    along, size = kept.compute_residual_products(white, white)
     assert 0.0 < size <= float(white @ white)
     assert along == pytest.approx(size - kept.basis.T @ white @ kept.prior, rel=1e-6)
 

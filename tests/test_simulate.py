@@ -205,7 +205,7 @@ def test_a_test_ends_where_the_travel_does():
     log = simulate(short, Routine(ramp=0.5, step=3.5), rng=rng())
 
     assert all(np.ptp(run.position) <= 2.0 for run in log.runs)
-    assert len(log.runs_of_test("dynamic-forward")[0]) < 100
+    assert len(log.list_runs_of_test("dynamic-forward")[0]) < 100
 
 
 @pytest.mark.parametrize(
@@ -236,7 +236,7 @@ def test_a_brownout_is_said_and_only_then():
 
 def test_a_recorded_voltage_is_what_reached_the_motors():
     # a Kraken's 120 A are 120·12/366 V = 3.93 V from rest, whatever is asked for
-    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).runs_of_test(
+    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).list_runs_of_test(
         "dynamic-forward"
     )[0]
 

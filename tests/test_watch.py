@@ -190,7 +190,7 @@ def test_a_run_that_is_damaged_is_repeated_before_others_are_asked_for():
 def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_through():
     robot = replace(MECHANISMS["drivetrain"], stator=40.0)
     log = simulate(robot, Routine(step=5.0), rng=np.random.default_rng(1), electrical=True)
-    run = log.runs_of_test("dynamic-forward")[0]
+    run = log.list_runs_of_test("dynamic-forward")[0]
     lasts, volts = find_voltage_limit(run)
     said = advise(log, last="dynamic-forward")
     freed = simulate(
@@ -200,7 +200,7 @@ def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_thro
     assert 0.02 <= lasts < 0.5
     assert volts < 3.0
     assert said.startswith("dynamic-forward met a current limit or a weak battery: for ")
-    assert find_voltage_limit(freed.runs_of_test("dynamic-forward")[0]) is None
+    assert find_voltage_limit(freed.list_runs_of_test("dynamic-forward")[0]) is None
 
 
 def test_a_step_without_a_limit_is_not_one():

@@ -69,7 +69,7 @@ class CallbackInterpreter(StatementInterpreter):
             self.note_unreadable(callback)
             return False
         frame = Frame(where)
-        callee = frame.unknown_value(node)
+        callee = frame.make_unknown_value(node)
         if isinstance(callback, Call):  # a function that makes one, with what it was given
             made = self.evaluate(callback, Frame(scope))
             callee = made if isinstance(made.origin, Function | Member) else callee
@@ -83,7 +83,7 @@ class CallbackInterpreter(StatementInterpreter):
     def note_unreadable(self, node: Node) -> None:
         """Note that a call leads out of these files."""
         said = f"`{node.place.text}` calls code that is not in this file or in the files next to it"
-        self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
+        self.unread.setdefault(said, ParseProblem(said, self.find_line_of(node)))
 
     def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
@@ -91,7 +91,9 @@ class CallbackInterpreter(StatementInterpreter):
         receiver = None if owner is None else self.evaluate(owner, frame)
         args = [self.evaluate(arg, frame) for arg in node.args]
         if node.spread:  # any of the arguments that are left may be in it
-            args += [replace(frame.unknown_value(node), carries=None, factor=None)] * MOST_SPREAD
+            args += [
+                replace(frame.make_unknown_value(node), carries=None, factor=None)
+            ] * MOST_SPREAD
         named = {word: self.evaluate(value, frame) for word, value in node.named}
         return self._applied(node, receiver, args, named, frame)
 
@@ -110,7 +112,7 @@ class CallbackInterpreter(StatementInterpreter):
         if receiver is not None and spell_as_java(name) in RUNS and self._holds_lambda(receiver):
             return self._invoked(receiver, args, frame)
         if receiver is not None and spell_as_java(name) in LOOPS and args:
-            several = self.loop_elements(receiver, frame)
+            several = self.list_loop_elements(receiver, frame)
             return [self._invoked(args[0], [element], frame) for element in several][-1]
         owner = None if receiver is None else (receiver.origin, receiver.scope)
         methods = find_called_functions(call, frame.scope, self.names, owner=owner)
@@ -124,11 +126,11 @@ class CallbackInterpreter(StatementInterpreter):
             said = self._implemented(fresh, call, (receiver, args, named), frame)
         every = [*args, *named.values()]
         if said is None and (fresh is not None or not methods):
-            said = self.note_call(call, receiver, every, frame.unknown_value(call))
+            said = self.note_call(call, receiver, every, frame.make_unknown_value(call))
         if said is not None:
             return said
         self._keep(call, receiver, every, frame)
-        return self.flow.apply_library_call(call, receiver, every, frame.unknown_value(call))
+        return self.flow.apply_library_call(call, receiver, every, frame.make_unknown_value(call))
 
     def _implemented(
         self,
@@ -153,7 +155,7 @@ class CallbackInterpreter(StatementInterpreter):
             return self.follow_call(found[0], args, named, frame, me=me)
         ways = [partial(self.follow_call, one, args, named, frame, me=me) for one in found]
         return (
-            self.note_ambiguous_call(call, receiver, ways, frame.unknown_value(call))
+            self.note_ambiguous_call(call, receiver, ways, frame.make_unknown_value(call))
             if ways
             else None
         )
@@ -199,7 +201,9 @@ class CallbackInterpreter(StatementInterpreter):
         inner.locals |= captured
         outer = Frame(replace(scope, functions=scope.functions[:-1]), me, around=inner.around)
         inner.locals |= {
-            one.name: self.evaluate(one.default, outer) if one.default else inner.unknown_value(one)
+            one.name: self.evaluate(one.default, outer)
+            if one.default
+            else inner.make_unknown_value(one)
             for one in function.parameters
         }
         inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
@@ -210,7 +214,7 @@ class CallbackInterpreter(StatementInterpreter):
         self.condition = condition
         if len(inner.returned) == 1:
             return inner.returned[0]
-        return join_values(inner.returned, at=inner.unknown_value(function))
+        return join_values(inner.returned, at=inner.make_unknown_value(function))
 
     def _object(self, receiver: Value | None, frame: Frame) -> str:
         """The object whose code a method is, to be put before the names of its fields."""
@@ -236,5 +240,5 @@ class CallbackInterpreter(StatementInterpreter):
             foreign = False
         if foreign or spell_as_java(call.target.name).startswith(("mut", "with")):
             self.store_value(
-                call.target.owner, join_values(args, at=frame.unknown_value(call)), frame
+                call.target.owner, join_values(args, at=frame.make_unknown_value(call)), frame
             )

@@ -180,7 +180,7 @@ class CommandReader:
         condition = args[asked : asked + 1]
         second = asked > 1 and bool(args) and not self.find_tests(args[0], depth=depth).tests
         negated = name in EXCEPT or second
-        truth = self._decorators.constant_truth(condition[0]) if condition else None
+        truth = self._decorators.find_constant_truth(condition[0]) if condition else None
         if condition and truth is not None:  # it guards nothing
             if truth is not negated:
                 return found

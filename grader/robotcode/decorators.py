@@ -44,7 +44,7 @@ class Decorators:
         self._measures = measures
         self._truth = TruthFolder(names, measures)
 
-    def constant_truth(self, condition: BoundNode) -> bool | None:
+    def find_constant_truth(self, condition: BoundNode) -> bool | None:
         """The constant value of a condition; None if it may change."""
         return self._truth.fold(condition)
 

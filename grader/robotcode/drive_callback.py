@@ -75,7 +75,7 @@ class DriveTrace(CallbackInterpreter):
                 uses_parameter=carries,
                 scaled=scaled,
                 text=call.place.text,
-                line=self.line_of(call),
+                line=self.find_line_of(call),
                 negative=negative,
                 condition=condition,
             )
@@ -133,7 +133,7 @@ class DriveTrace(CallbackInterpreter):
                     uses_parameter=sent.carries,
                     scaled=sent.is_scaled,
                     text=call.place.text,
-                    line=self.line_of(call),
+                    line=self.find_line_of(call),
                     negative=sent.factor is not None and sent.factor < 0,
                     condition=self.condition,
                 )

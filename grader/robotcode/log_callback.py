@@ -69,8 +69,8 @@ class LogTrace(CallbackInterpreter):
 
     def evaluate_unassigned_variable(self, node: Name | Member, frame: Frame) -> Value:
         """The value of a field: whatever it is given anywhere in the class."""
-        key = self.storage_key(node, frame)
-        at = frame.unknown_value(node)
+        key = self.make_storage_key(node, frame)
+        at = frame.make_unknown_value(node)
         if key in self._commanded:
             return replace(at, marks=frozenset({Mark.COMMANDED}))
         if key in self._open:
@@ -120,7 +120,7 @@ class LogTrace(CallbackInterpreter):
                 unit=value.unit,
                 source=_source(signal, value.marks),
                 text=call.target.place.text,
-                line=self.line_of(call.target),
+                line=self.find_line_of(call.target),
                 device=reading.device,
                 type=reading.type,
                 quantity=reading.quantity,

@@ -69,7 +69,7 @@ class Routine:
         """Names of the tests that it runs, in order."""
         return tuple(f"{kind}-{way}" for kind in self.kinds for way in DIRECTIONS)
 
-    def longest_duration(self, _test: str, /) -> float:
+    def find_longest_duration(self, _test: str, /) -> float:
         """[s] until a test ends, unless it reaches an end of the travel first."""
         return self.timeout
 

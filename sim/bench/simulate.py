@@ -215,7 +215,7 @@ def _loop_times(
     mechanism: Mechanism, routine: Routine, test: str, *, period: float, rng: np.random.Generator
 ) -> Array:
     """[s] when a test drives: loops from the second on, each a little early or late."""
-    timeout, jitter = routine.longest_duration(test), mechanism.sensor.jitter
+    timeout, jitter = routine.find_longest_duration(test), mechanism.sensor.jitter
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
     if count < FEWEST:
         raise BadRequest(

@@ -175,7 +175,7 @@ class Log:
     Examples:
         >>> run = Run("quasistatic-reverse", [0.0], [0.0], [0.0], [0.0])
         >>> log = Log((run,), units="rotations", type="simple")
-        >>> log.units, len(log.runs_of_test("quasistatic-reverse"))
+        >>> log.units, len(log.list_runs_of_test("quasistatic-reverse"))
         ('rotations', 1)
     """
 
@@ -194,7 +194,7 @@ class Log:
                 f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
             )
 
-    def runs_of_test(self, test: str) -> tuple[Run, ...]:
+    def list_runs_of_test(self, test: str) -> tuple[Run, ...]:
         """All runs of one test, in order; empty if it was not recorded."""
         return tuple(run for run in self.runs if run.test == test)
 

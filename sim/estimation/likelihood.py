@@ -166,7 +166,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def compared_counts(self) -> tuple[int, int, int]:
-        """How many positions are compared, how many velocities, and how many pairs; at least 1."""
+        """Numbers of compared positions, velocities and pairs; each at least 1."""
         x, v = ~self.ignored_readings.T
         positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
         return max(positions, 1), max(velocities, 1), max(both, 1)
@@ -178,7 +178,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def sample_count(self) -> int:
-        """How many samples are compared."""
+        """Number of compared samples."""
         return int(np.count_nonzero(~self.ignored_readings.all(axis=1)))
 
     @cached_property
@@ -207,7 +207,7 @@ class PredictionErrorProblem:
         """Nuisance parameters to start from: no offsets."""
         return RunNuisance.at_first_samples(len(self.records))
 
-    def priors_of(self, structure: ModelStructure) -> dict[str, float]:
+    def select_priors(self, structure: ModelStructure) -> dict[str, float]:
         """The priors of those parameters that a search of this structure moves."""
         return {name: sd for name, sd in self.priors.items() if name in structure.searched_names}
 
@@ -315,12 +315,14 @@ class PredictionErrorProblem:
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
             innovations = self.predict_errors(model, nuisance, kalman_filter)
-            cov = self.covariance(innovations)
+            cov = self.compute_covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + compute_friction_prior(values, nuisance)
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
-            cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
+            cost += sum(
+                (values[name] / sd) ** 2 for name, sd in self.select_priors(structure).items()
+            )
             cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
@@ -330,7 +332,7 @@ class PredictionErrorProblem:
 
     # -- compare ---------------------------------------------------------------------------------
 
-    def covariance(self, innovations: Array) -> Array:
+    def compute_covariance(self, innovations: Array) -> Array:
         """(2, 2) covariance of innovations, kept positive definite."""
         x, v = innovations.T.copy()
         positions, velocities, both = self.compared_counts
@@ -359,7 +361,7 @@ class PredictionErrorProblem:
         near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
         return np.asarray((near @ point.whitening.T).ravel())
 
-    def jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
+    def compute_jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
         """(2 n, searched + nuisance) derivatives of the whitened innovations.
 
         With respect to each parameter, then to the start of each run, then, where they vary between
@@ -411,12 +413,12 @@ class PredictionErrorProblem:
         starts = (next(results) - point.innovations) / self.noise.position
         columns.append(self._one_column_per_run(self.whiten(point, starts)))
         if self.varying_friction:
-            columns.append(self.friction_jacobian(point))
+            columns.append(self.compute_friction_jacobian(point))
         if self.lag_sd:
-            columns.append(self.lag_jacobian(point))
+            columns.append(self.compute_lag_jacobian(point))
         return np.column_stack(columns)
 
-    def friction_jacobian(self, point: Estimate) -> Array:
+    def compute_friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
         by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
@@ -425,7 +427,7 @@ class PredictionErrorProblem:
         )
         return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
 
-    def lag_jacobian(self, point: Estimate) -> Array:
+    def compute_lag_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
         by = LAG_STEP * self.lag_sd
         later = point.nuisance.add_lag(np.full(len(self.records), by))
@@ -433,7 +435,7 @@ class PredictionErrorProblem:
         moved = self.predict_errors(model, later, point.kalman_filter)
         return self._one_column_per_run(self.whiten(point, (moved - point.innovations) / by))
 
-    def nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
+    def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
         """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
         priors = [(self.start_sd, point.nuisance.position_offset)]
         if self.varying_friction:
@@ -446,7 +448,7 @@ class PredictionErrorProblem:
         """Two values of a parameter whose simulations give the derivative by it."""
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        size = max(structure.parameter_scale(name, value), self.priors.get(name, 0.0))
+        size = max(structure.find_parameter_scale(name, value), self.priors.get(name, 0.0))
         step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
         may_rise = structure.clamp_value(name, above) == above

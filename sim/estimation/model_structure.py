@@ -95,7 +95,7 @@ class ModelStructure:
             model += Part(name, {p: values[f"{name}.{p}"] for p in EFFECTS[name].names})
         return model
 
-    def parameter_scale(self, name: str, value: float) -> float:
+    def find_parameter_scale(self, name: str, value: float) -> float:
         """Typical size of a parameter: its own value, or an ordinary one."""
         if name in POSITIVE:
             return abs(value)
@@ -117,6 +117,6 @@ class ModelStructure:
             return value * min(max(1.0 + by / value, 1.0 / 3.0), 3.0)
         known = self.parameters.get(name)
         if known is not None and known.least >= 0.0 and math.isfinite(by):
-            size = self.parameter_scale(name, value)
+            size = self.find_parameter_scale(name, value)
             by = min(max(by, -0.7 * size), 2.0 * size)
         return self.clamp_value(name, value + by)

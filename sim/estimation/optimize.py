@@ -38,19 +38,19 @@ class JointJacobian:
         """(k,) coordinates of whitened innovations (2 n,) in the Jacobian's column space."""
         return np.asarray(self.basis.T @ white + self.prior)
 
-    def residual_square(self, white: Array) -> float:
+    def compute_residual_square(self, white: Array) -> float:
         """Sum of squares with the Jacobian's columns projected out, up to a constant."""
         taken = self.project(white)
         return float(white @ white - taken @ taken)
 
-    def improvement(self, white: Array, columns: Array, sd: float) -> float:
+    def compute_improvement(self, white: Array, columns: Array, sd: float) -> float:
         """Decrease of -2 log L by further columns (2 n, m) with priors of deviation ``sd``."""
         taken = self.basis.T @ columns
         square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
         slope = columns.T @ white - taken.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
-    def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
+    def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """Products of a change with innovations and itself, the Jacobian projected out."""
         taken = self.basis.T @ change
         product = float(change @ white - taken @ self.project(white))
@@ -73,14 +73,17 @@ def append_prior_rows(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> tuple[Array, Array]:
     """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
-    table, rest = problem.jacobian(point, fine=fine), problem.whiten(point, point.innovations)
+    table, rest = (
+        problem.compute_jacobian(point, fine=fine),
+        problem.whiten(point, point.innovations),
+    )
     runs = len(problem.records)
-    nuisance = problem.nuisance_priors(point)
+    nuisance = problem.list_nuisance_priors(point)
     count = runs * len(nuisance)
     prior = np.zeros((count, table.shape[1]))
     prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
     own = [offset / sd for sd, offset in nuisance]
-    known = problem.priors_of(point.structure)
+    known = problem.select_priors(point.structure)
     rows = np.zeros((len(known), table.shape[1]))
     for row, (name, sd) in enumerate(known.items()):
         rows[row, point.structure.searched_names.index(name)] = 1.0 / sd
@@ -134,7 +137,7 @@ def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
     structure = point.structure
     for column, name in enumerate(structure.searched_names):
         value = point.values[name]
-        by = TINY * structure.parameter_scale(name, value) * np.sign(slope[column])
+        by = TINY * structure.find_parameter_scale(name, value) * np.sign(slope[column])
         free[column] = structure.clamp_value(name, value - by) != value
     return free
 

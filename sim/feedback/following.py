@@ -149,4 +149,4 @@ def _volts(believed: Plant, at: float, speed: float, push: float) -> float:
     """[V] that WPILib's feedforward classes ask for; none for friction where it shall stand."""
     gains, way = believed.gains, (speed > 0.0) - (speed < 0.0)
     moves = gains["kS"] * way + gains["kV"] * speed + gains["kA"] * push
-    return moves + believed.gravity_voltage(at)
+    return moves + believed.compute_gravity_voltage(at)

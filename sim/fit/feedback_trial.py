@@ -95,7 +95,7 @@ def _try_loop(
 ) -> FeedbackTrial | None:
     held = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # friction below zero would push
     plant = Plant(found.type, held, angle=find_unit(found.units).si)
-    target, delay = plant.target_step(loop), choose_feedback_delay(found, preset, loop=loop)
+    target, delay = plant.choose_target_step(loop), choose_feedback_delay(found, preset, loop=loop)
     if not target > 0.0:
         return None
     response = simulate_step_response(

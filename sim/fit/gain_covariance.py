@@ -38,7 +38,7 @@ def compute_gain_covariances(
         extended, wide = add_absent_effects(problem, point)
     table, rest = append_prior_rows(extended, wide, fine=True)
     count = len(wide.structure.searched_names)
-    known = extended.priors_of(wide.structure)
+    known = extended.select_priors(wide.structure)
     weak = np.zeros(table.shape[1], dtype=bool)
     weak[:count] = [name in known for name in wide.structure.searched_names]
     noise = invert_information(table, weak=weak)

@@ -49,8 +49,8 @@ class InformationMatrix:
             for name, gone, square, one in zip(self.names, lost, squares, scale, strict=True)
         }
 
-    def information_on_pair(self, first: str, second: str) -> Array:
-        """(2, 2) information about two gains, the others being unknown, too.
+    def compute_pair_information(self, first: str, second: str) -> Array:
+        """(2, 2) information about two gains while the others are unknown.
 
         Args:
             first: a gain, as ``kV``.

@@ -120,7 +120,7 @@ class Fit:
             ),
         }
 
-    def all_doubts(self, preset: Preset = PRESETS["default"]) -> tuple[Doubt, ...]:
+    def list_doubts(self, preset: Preset = PRESETS["default"]) -> tuple[Doubt, ...]:
         """The doubts about the gains, and those about the feedback gains of one preset."""
         return (
             *self.doubts,
@@ -153,18 +153,18 @@ class Fit:
                 loop: {"kP": gains.kp, "kD": gains.kd}
                 for loop, gains in self.feedback(preset).items()
             },
-            "warnings": [{"code": d.code, "message": d.message} for d in self.all_doubts(preset)],
+            "warnings": [{"code": d.code, "message": d.message} for d in self.list_doubts(preset)],
             "small_effects": {
                 part.effect: part.to_json(find_unit(self.units)) for part in self.parts
             },
         }
 
-    def gain_unit(self, gain: str) -> str:
+    def format_gain_unit(self, gain: str) -> str:
         """The unit of a gain, as printed: ``V·s/m``."""
-        return gain_unit(gain, find_unit(self.units))
+        return format_gain_unit(gain, find_unit(self.units))
 
 
-def gain_unit(gain: str, per: Unit) -> str:
+def format_gain_unit(gain: str, per: Unit) -> str:
     """The unit of a gain when position is measured in ``per``."""
     return {"kV": f"V·s/{per.symbol}", "kA": f"V·s²/{per.symbol}", "offset_rad": "rad"}.get(
         gain, "V"

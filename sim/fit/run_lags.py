@@ -54,7 +54,10 @@ def fit_run_lags(
     extended = replace(problem, lag_sd=period / UNIFORM)
     white = problem.whiten(point, point.innovations)
     own = make_joint_jacobian(problem, point, fine=True)
-    if not own.improvement(white, extended.lag_jacobian(point), extended.lag_sd) > WORTH:
+    if (
+        not own.compute_improvement(white, extended.compute_lag_jacobian(point), extended.lag_sd)
+        > WORTH
+    ):
         return problem, point
     alike = fit_tracking(every, point.structure, point.values)
     extended = replace(every, lag_sd=period / UNIFORM)
@@ -80,7 +83,7 @@ def fit_run_lags(
 
 def compute_laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
     """Correction of -2 log L for integrating over the runs' lags (Laplace)."""
-    slopes = np.sum(np.square(problem.lag_jacobian(point)), axis=0)
+    slopes = np.sum(np.square(problem.compute_lag_jacobian(point)), axis=0)
     return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))
 
 

@@ -108,13 +108,13 @@ def predict_improvement(
         more: ``effect.parameter`` and its value.
         kept: the joint Jacobian at the estimate.
     """
-    now = kept.residual_square(problem.whiten(point, point.innovations))
+    now = kept.compute_residual_square(problem.whiten(point, point.innovations))
     gains = []
     for name, value in more:
         structure = point.structure + name.partition(".")[0]
         values = {**point.values, name: value}
         other = problem.evaluate(structure, values, point.nuisance, point.process_noise)
-        gains.append(now - kept.residual_square(problem.whiten(point, other.innovations)))
+        gains.append(now - kept.compute_residual_square(problem.whiten(point, other.innovations)))
     return np.array(gains)
 
 

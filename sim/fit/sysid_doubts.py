@@ -40,9 +40,9 @@ def list_sysid_doubts(
 
 def _doubt_repeats(log: Log) -> list[Doubt]:
     again = [
-        f"{test} ({len(log.runs_of_test(test))} runs)"
+        f"{test} ({len(log.list_runs_of_test(test))} runs)"
         for test in FOUR_TESTS
-        if len(log.runs_of_test(test)) > 1
+        if len(log.list_runs_of_test(test)) > 1
     ]
     other = sorted({run.test for run in log.runs} - set(FOUR_TESTS))
     doubts = []
@@ -66,7 +66,7 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
     """
     steps = [
-        _rise_changes(log.runs_of_test(test)[0])
+        _rise_changes(log.list_runs_of_test(test)[0])
         for test in FOUR_TESTS
         if test.startswith("dynamic")
     ]

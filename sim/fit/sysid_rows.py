@@ -214,7 +214,7 @@ def trim_step(
 
 def _first_runs(log: Log) -> dict[str, Run]:
     """The first run of each of the four tests."""
-    missing = [test for test in FOUR_TESTS if not log.runs_of_test(test)]
+    missing = [test for test in FOUR_TESTS if not log.list_runs_of_test(test)]
     if missing:
         raise NotIdentifiable(
             f"no {' and no '.join(missing)} test in this log",
@@ -222,7 +222,7 @@ def _first_runs(log: Log) -> dict[str, Run]:
             advice="SysId's recipe needs all four: quasistatic and dynamic, forward and reverse. "
             "Run the missing one, or hold the button longer so that it is logged.",
         )
-    return {test: log.runs_of_test(test)[0] for test in FOUR_TESTS}
+    return {test: log.list_runs_of_test(test)[0] for test in FOUR_TESTS}
 
 
 def _rows_of_run(run: Run) -> Rows:

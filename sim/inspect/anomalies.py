@@ -57,7 +57,7 @@ class Anomaly:
     at_start: bool
     recurs: bool = False
 
-    def candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
+    def list_candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
         """Candidate (begin, end) samples of the disturbance within the anomaly.
 
         Args:
@@ -67,7 +67,7 @@ class Anomaly:
         return self._span_grid(self.first, self.last + 1, reach=margin, stride=stride)
 
     def refine_spans(self, span: tuple[int, int], *, margin: int) -> list[tuple[int, int]]:
-        """Candidate spans at sample resolution around the best of ``candidate_spans``."""
+        """Candidate spans at sample resolution around the best of ``list_candidate_spans``."""
         first, last = span
         return self._span_grid(
             self.begin + first, self.begin + last, reach=max(1, margin // 3) - 1, stride=1
@@ -83,7 +83,7 @@ class Anomaly:
             if self.begin <= begin < end <= self.end
         ]
 
-    def share_explained_by(self, shape: Array) -> float:
+    def compute_explained_share(self, shape: Array) -> float:
         """[1] share of the squared residual explained by a shape (end - begin,); may be below 0."""
         total = float(self.residual @ self.residual)
         rest = self.residual - shape

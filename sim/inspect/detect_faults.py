@@ -47,7 +47,7 @@ class Inspection:
         """Whether no fault was found, and nothing that would hide one."""
         return not self.faults and not any(doubt.grave for doubt in self.doubts)
 
-    def by_kind(self) -> tuple[tuple[Damage, ...], ...]:
+    def group_by_kind(self) -> tuple[tuple[Damage, ...], ...]:
         """The faults of each kind together, the worst kind first, and the worst of a kind first.
 
         Worse is what spoils more seconds, weighted by its confidence; what concerns the whole log

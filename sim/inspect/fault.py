@@ -82,7 +82,7 @@ class Damage:
 
 @dataclass(frozen=True)
 class FaultStrike:
-    """Where and how hard a fault strikes.
+    """The place and severity of a fault.
 
     Args:
         run: which run, from 0; every fault has one, even if it spoils the whole log.

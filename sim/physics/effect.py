@@ -194,7 +194,7 @@ class Effect:
         """Parameter values at which the effect vanishes."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
 
-    def contract_breaches(self) -> list[str]:
+    def find_contract_breaches(self) -> list[str]:
         """What is wrong with this effect as it is written; empty if nothing is."""
         found = []
         if self.kind not in KINDS:

@@ -53,9 +53,18 @@ def plot_velocity_time(
     for column, kind in enumerate(KINDS):
         for row, way in enumerate(DIRECTIONS):
             test = f"{kind}-{way}"
-            other = beside.runs_of_test(test)[0] if beside and beside.runs_of_test(test) else None
+            other = (
+                beside.list_runs_of_test(test)[0]
+                if beside and beside.list_runs_of_test(test)
+                else None
+            )
             _draw(
-                grid[row][column], log.runs_of_test(test)[0], rows[test], other, name=name, per=per
+                grid[row][column],
+                log.list_runs_of_test(test)[0],
+                rows[test],
+                other,
+                name=name,
+                per=per,
             )
     for axes in grid[-1]:
         axes.set_xlabel("time since the test began [s]", color=INK)
@@ -105,9 +114,9 @@ def _curve(
 
 def _miss(run: Run, beside: Log | None) -> float | None:
     """[m/s or rad/s] root mean square between a run and what a model makes of it."""
-    if beside is None or not beside.runs_of_test(run.test):
+    if beside is None or not beside.list_runs_of_test(run.test):
         return None
-    other = beside.runs_of_test(run.test)[0]
+    other = beside.list_runs_of_test(run.test)[0]
     model = np.interp(run.time - run.time[0], other.time - other.time[0], other.velocity)
     return float(np.sqrt(np.mean((run.velocity - model) ** 2)))
 
@@ -118,7 +127,7 @@ def _table(
     header = ("test", "recorded", "used", "from [s]", "to [s]", f"fastest used [{per.symbol}/s]")
     lines = []
     for test in FOUR_TESTS:
-        run, used = log.runs_of_test(test)[0], rows[test]
+        run, used = log.list_runs_of_test(test)[0], rows[test]
         fastest = float(used.velocity[np.argmax(np.abs(used.velocity))]) / per.si
         start, end = (float(used.time[i] - run.time[0]) for i in (0, -1))
         miss = _miss(run, beside)
@@ -147,7 +156,7 @@ def _words(
     if beside is not None:
         said += f" A thin dashed line is the {name}."
     for test in FOUR_TESTS:
-        run, used = log.runs_of_test(test)[0], rows[test]
+        run, used = log.list_runs_of_test(test)[0], rows[test]
         said += f" The fit uses {len(used)} of the {len(run)} samples of {test}: those from "
         said += f"{used.time[0] - run.time[0]:.2f} to {used.time[-1] - run.time[0]:.2f} s. The run "
         said += f"lasts {run.time[-1] - run.time[0]:.2f} s"

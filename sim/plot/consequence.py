@@ -58,7 +58,7 @@ def make_profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
 
 
 def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
-    """What an answer would do, panel by panel.
+    """The motion that an answer causes beside the wanted one, panel by panel.
 
     Args:
         shown: at least one panel.

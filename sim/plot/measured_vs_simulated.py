@@ -78,7 +78,7 @@ def describe_run(one: RunReplay, *, per: Unit) -> str:
 
 
 def make_error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
-    """How far the simulation is off, run by run."""
+    """A table of the simulation's errors, run by run."""
     rows = []
     for one in runs:
         velocity, position = _misses(one)

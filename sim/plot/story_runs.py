@@ -47,7 +47,7 @@ class RunOverlay:
         rest[~self.compared | ~np.isfinite(rest).all(axis=1)] = np.nan
         return rest
 
-    def rms_error(self, track: Array) -> float:
+    def compute_rms_error(self, track: Array) -> float:
         """[unit/s] RMS velocity error; infinite if the simulation diverged."""
         rest = self.error(track)[:, 1]
         if not np.isfinite(track[self.compared]).all() or np.isnan(rest).all():
@@ -148,7 +148,9 @@ def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise:
     )
     told = []
     for one in runs:
-        sizes = [_floors(one.rms_error(track) / per.si, noise) for track in _tracks(one, said)]
+        sizes = [
+            _floors(one.compute_rms_error(track) / per.si, noise) for track in _tracks(one, said)
+        ]
         told.append(f"{one.run.test}: {' before, '.join(sizes)}{' after' * (len(sizes) - 1)}.")
     if len(runs) > DRAWN:
         told.append(f"The other {len(runs) - DRAWN} runs are not drawn.")
@@ -165,7 +167,7 @@ def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> T
         (
             f"{number}: {one.run.test}",
             *(
-                _floors(one.rms_error(track) / per.si, story.noise_floor)
+                _floors(one.compute_rms_error(track) / per.si, story.noise_floor)
                 for track in _tracks(one, said)
             ),
         )

@@ -134,7 +134,7 @@ def _make_story(
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
     findings, judged = make_findings(
-        problem, done, faults, chapters, without=shown.gaps_without(done),
+        problem, done, faults, chapters, without=shown.measure_gaps_without(done),
         held_out=shown.held_out, left=left, per=per,
     )  # fmt: skip
     chapters = chapters[: len(select_reported_rounds(done, findings))]
@@ -145,7 +145,8 @@ def _make_story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
-        where=shown.gap_places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.kind,
+        where=shown.find_gap_places(chapters[0]),
+        chapters=chapters, shown=shown.log, how=shown.kind,
         notes=(*list_remarks(problem, done, findings, left), *seen),
         compared=shown.compared_samples,
         judged=judged,

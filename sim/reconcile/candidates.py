@@ -63,7 +63,7 @@ class Candidate:
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     values = point.structure.free_count * math.log(max(problem.sample_count, 2))
-    own = compute_laplace_correction(point.values, problem.friction_jacobian(point))
+    own = compute_laplace_correction(point.values, problem.compute_friction_jacobian(point))
     return Candidate(effect, point, point.cost + own + compute_backlash_phase_prior(point) + values)
 
 

@@ -36,7 +36,7 @@ class DamageDecision:
     excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
     reported: tuple[DamagedInterval, ...] = ()
 
-    def excluded_from(self, name: str) -> tuple[ExcludedInterval, ...]:
+    def list_excluded(self, name: str) -> tuple[ExcludedInterval, ...]:
         """The intervals of a log that are left out of the fit."""
         return self.excluded.get(name, ())
 

@@ -105,8 +105,8 @@ class HeldOutLog:
         """Per run, (n,) which samples are compared: it moves, and nothing is excluded."""
         return tuple(one.measurements.informative for one in self.problem.records)
 
-    def gap_places(self, base: Chapter) -> tuple[Place, ...]:
-        """Places where the base model's velocity is off, the most significant first."""
+    def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
+        """Places where the base model's velocity is wrong, the most significant first."""
         noise = self.problem.noise.velocity
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(TOLD, signal="velocity") if found else ()
@@ -115,8 +115,8 @@ class HeldOutLog:
         """Each model's gap and simulated runs."""
         return tuple(map(self._chapter, done))
 
-    def gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
-        """[owner's unit/s] effect -> the gap of the last model without it.
+    def measure_gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
+        """[owner's unit/s] effect -> the gap of the last model without this effect.
 
         If the model diverges without an effect, the gap of the model before it.
         """

@@ -122,19 +122,19 @@ def rate_starts(
             other = estimate_backlash_phase(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        return square - kept.residual_square(
+        return square - kept.compute_residual_square(
             problem.whiten(point, other.innovations)
         ) - compute_backlash_phase_prior(other), other
 
     now = problem.whiten(point, point.innovations)
-    square = kept.residual_square(now)
+    square = kept.compute_residual_square(now)
     found = []
     for one in more:
         gained, other = begun(one)
         if not math.isfinite(gained):
             continue
         change = problem.whiten(point, other.innovations) - now
-        along, size = kept.residual_products(change, now)
+        along, size = kept.compute_residual_products(change, now)
         part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
         if as_given or not _is_other_size_worthwhile(structure, part):

@@ -72,7 +72,7 @@ class Recordings:
         return PredictionErrorProblem.from_records(self._records(name))
 
     def count_repeated_runs(self, name: str) -> int:
-        """How many runs of a log stand in those before it as well, sample by sample."""
+        """Number of a log's runs that also are in an earlier log, sample by sample."""
         if name not in self.logs_by_name:
             return 0
         known = [run for log in self._before(name) for run in log.runs]
@@ -92,7 +92,7 @@ class Recordings:
             self.logs_by_name[name],
             session=session,
             since=compute_session_length(*self._before(name)),
-            aside=self.damage.excluded_from(name),
+            aside=self.damage.list_excluded(name),
         )
 
 

@@ -10,7 +10,7 @@ from sim.core.log import Log
 from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
-from sim.fit.result import Fit, gain_unit
+from sim.fit.result import Fit, format_gain_unit
 from sim.report.gain_verdicts import write_gain_verdict
 
 FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
@@ -39,7 +39,7 @@ def show_fit(
     """
     console = console or Console(soft_wrap=True, highlight=False)
     per = find_unit(found.units)
-    doubts = found.doubts if tried else found.all_doubts(preset)
+    doubts = found.doubts if tried else found.list_doubts(preset)
     for doubt in doubts:
         if doubt.grave:
             console.print(f"wrong: {doubt.message}", style="bold")
@@ -79,7 +79,7 @@ def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
             "angle" if name == "offset_rad" else name,
             _digits(value, found.errors.get(name, math.nan)),
             format_error(value, found.errors.get(name, math.nan)),
-            gain_unit(name, per),
+            format_gain_unit(name, per),
         )
         for name, value in found.gains.items()
     ]

@@ -26,7 +26,7 @@ ENOUGH = "Enough: every gain is usable."
 
 
 def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Sequence[str]) -> str:
-    """What to do next.
+    """Advice about the next test, in one sentence.
 
     Args:
         log: all runs so far, in the order they were recorded.
@@ -54,8 +54,8 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
 
 
 def list_missing_tests(log: Log) -> tuple[str, ...]:
-    """Those of the four tests of SysId of which a log has no run."""
-    return tuple(test for test in FOUR_TESTS if not log.runs_of_test(test))
+    """The tests of SysId's four of which a log has no run."""
+    return tuple(test for test in FOUR_TESTS if not log.list_runs_of_test(test))
 
 
 def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspection) -> str:
@@ -83,7 +83,7 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
 
 
 def find_voltage_limit(run: Run) -> tuple[float, float] | None:
-    """How long a limit held the voltage of a step down after it came on, and to what at first.
+    """Duration and first voltage of a limit at the start of a step; None without one.
 
     The command of a step is constant. Where the voltage at the motor is lower at first, by as much
     as would make a step of the command (``LEAST_STEP``), the current was limited or the battery

@@ -127,7 +127,7 @@ def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str
     spelling = _spelling(language, season)
     refuse_impossible_gains(found)
     write = LANGUAGES[language]
-    class_ = class_name(name or found.type)
+    class_ = make_class_name(name or found.type)
     cls = CLASSES.get(found.type) or (
         write.angular if find_unit(found.units).angular else write.linear
     )
@@ -193,8 +193,8 @@ def refuse_impossible_gains(found: Fit) -> None:
             )
 
 
-def class_name(name: str) -> str:
-    """The class of a mechanism's gains: ``LeftDriveGains`` of ``left drive``.
+def make_class_name(name: str) -> str:
+    """The class name for a mechanism's gains: ``LeftDriveGains`` of ``left drive``.
 
     Raises:
         BadRequest: the name has no letter in front.
@@ -227,7 +227,7 @@ def _constants(found: Fit, write: Language) -> Iterator[str]:
     shown = found.in_units("radians") if found.type == "arm" else found
     for gain in ORDER[found.type]:
         error = shown.errors.get(gain, math.nan)
-        yield _line(write, gain, shown.gains[gain], error, shown.gain_unit(gain))
+        yield _line(write, gain, shown.gains[gain], error, shown.format_gain_unit(gain))
     if found.type != "arm":
         return
     reading = "measured"

@@ -75,7 +75,7 @@ def make_gain_rows(found: Fit) -> list[Gain]:
                 _minus(round_to_error(value, error)),
                 format_error(value, error),
                 _minus(between),
-                found.gain_unit(name),
+                found.format_gain_unit(name),
                 MEANS[name],
             )
         )
@@ -83,7 +83,7 @@ def make_gain_rows(found: Fit) -> list[Gain]:
 
 
 def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
-    """How well the gains explain the log: name, number, what it says."""
+    """Rows about the goodness of fit: name, number, and what it means."""
     per = find_unit(found.units).symbol
     rows = [
         (

@@ -166,7 +166,7 @@ class PIDController:
 
 @dataclass(frozen=True)
 class LoopInput:
-    """What a controller knows in one loop.
+    """The values that a controller knows in one loop.
 
     Args:
         now: what the profile asks for now.
@@ -183,7 +183,7 @@ class LoopInput:
 
 @dataclass(frozen=True, eq=False)
 class FollowedMove:
-    """A move as it went, loop by loop.
+    """A simulated move, loop by loop.
 
     Args:
         time: (n,) [s].

@@ -38,7 +38,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
     """
     from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - once needed
 
-    log = one.log(reading)
+    log = one.combine_runs(reading)
     unit = find_unit(log.units)
     runs = [
         {
@@ -48,7 +48,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
             "start": float(run.time[0]) if len(run) else 0.0,
             "end": float(run.time[-1]) if len(run) else 0.0,
         }
-        for name, part in one.parts(reading).items()
+        for name, part in one.read_parts(reading).items()
         for run in part.runs
     ]
     return {
@@ -110,7 +110,7 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - only for people
     from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
 
-    pooled, log = one.fit(reading), one.log(reading)
+    pooled, log = one.fit(reading), one.combine_runs(reading)
     found = pooled.found.in_log_units()
     rows = {row.name: row for row in make_gain_rows(found)}
     gains = [
@@ -128,7 +128,7 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
         "type": found.type,
         "gains": gains,
         "verdict": write_gain_verdict(found, log),
-        "doubts": _doubts(found.all_doubts(), one),
+        "doubts": _doubts(found.list_doubts(), one),
         "notes": list(pooled.notes),
         "parts": sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
@@ -150,7 +150,7 @@ def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
 
     found = one.fit(reading).found
-    doubted, notes = compare_directions_alone(found, one.log(reading), patient=False)
+    doubted, notes = compare_directions_alone(found, one.combine_runs(reading), patient=False)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
     return {"doubts": _doubts(more, one), "notes": list(notes)}
 
@@ -224,7 +224,9 @@ def write_report(one: "OpenLog", reading: "Reading") -> str:
     pooled, preset = one.fit(reading), PRESETS["default"]
     found = pooled.found.in_log_units()
     tried = try_feedback_gains(found, preset)
-    return render_page(Report(one.name, found, one.log(reading), preset, tried, pooled.notes))
+    return render_page(
+        Report(one.name, found, one.combine_runs(reading), preset, tried, pooled.notes)
+    )
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:

@@ -158,7 +158,7 @@ class PageRequest(BaseHTTPRequestHandler):
     def _post(self, steps: list[str], query: Mapping[str, str]) -> None:
         match steps:
             case ["logs"]:
-                name, path = self.server.session.place_for(query.get("name", "log"))
+                name, path = self.server.session.choose_place(query.get("name", "log"))
                 self._receive(path)
                 self._send_json(_name(self.server.session.add(name, path)))
             case ["example"]:
@@ -202,9 +202,9 @@ class PageRequest(BaseHTTPRequestHandler):
             doubts = not self.server.session.view.raw
             self._send_json(page_data.describe_log(one, reading, doubts=doubts))
         elif what == "entries":
-            self._send_json(page_data.describe_entries(one.entries()))
+            self._send_json(page_data.describe_entries(one.list_entries()))
         else:
-            content = page_data.pack_samples(one.log(reading))
+            content = page_data.pack_samples(one.combine_runs(reading))
             self._send(content, "application/octet-stream")
 
     def _send_findings(
@@ -213,7 +213,7 @@ class PageRequest(BaseHTTPRequestHandler):
         """What is found out of a log."""
         match what:
             case "faults":
-                found = page_data.describe_faults(one.inspection(reading), one)
+                found = page_data.describe_faults(one.inspect(reading), one)
                 self._send_json(found)
             case "fit":
                 self._send_json(page_data.describe_fit(one, reading))

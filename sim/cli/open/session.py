@@ -48,7 +48,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class LiveView:
-    """What `sysid watch` shows on the page.
+    """Status and logs of a source that ``sysid watch`` follows on the page.
 
     Args:
         status: what it follows, or waits for.
@@ -83,8 +83,8 @@ class OpenLog:
     _kept: dict[Hashable, Any] = field(default_factory=dict)
     _locks: dict[Hashable, threading.Lock] = field(default_factory=dict)
 
-    def parts(self, reading: Reading) -> "dict[str, Log]":
-        """The log of each motor or side by its name.
+    def read_parts(self, reading: Reading) -> "dict[str, Log]":
+        """The log of each mechanism, side or motor by its name.
 
         Raises:
             Refusal: the file cannot be read in this way.
@@ -105,17 +105,17 @@ class OpenLog:
 
         return self._once(("parts", reading), read)
 
-    def log(self, reading: Reading) -> "Log":
-        """All runs of all parts as one log.
+    def combine_runs(self, reading: Reading) -> "Log":
+        """All runs of all mechanisms in the file as one log.
 
         Raises:
-            Refusal: as ``parts``.
+            Refusal: as ``read_parts``.
         """
         from sim.cli.fit.parts import join_parts  # noqa: PLC0415 - with the formats
 
-        return self._once(("log", reading), lambda: join_parts(self.parts(reading)))
+        return self._once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
-    def entries(self) -> "list[Entry]":
+    def list_entries(self) -> "list[Entry]":
         """The entries of the file, for a person who chooses signals.
 
         Raises:
@@ -125,28 +125,28 @@ class OpenLog:
 
         return self._once("entries", lambda: list_entries(self.path))
 
-    def inspection(self, reading: Reading) -> "Inspection":
+    def inspect(self, reading: Reading) -> "Inspection":
         """The faults and warnings found in the log.
 
         Raises:
-            Refusal: as ``parts``.
+            Refusal: as ``read_parts``.
         """
         from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - once it is needed
 
-        return self._once(("faults", reading), lambda: inspect(self.log(reading)))
+        return self._once(("faults", reading), lambda: inspect(self.combine_runs(reading)))
 
     def fit(self, reading: Reading) -> "PooledParts":
         """The gains, in the unit of the log.
 
         Raises:
-            Refusal: as ``parts``, or the log cannot be fitted.
+            Refusal: as ``read_parts``, or the log cannot be fitted.
         """
 
         def find() -> "PooledParts":
             from sim.cli.fit.parts import describe_kind, fit_parts  # noqa: PLC0415 - once needed
             from sim.fit import fit  # noqa: PLC0415 - the same
 
-            parts = self.parts(reading)
+            parts = self.read_parts(reading)
             return fit_parts(
                 parts, lambda log: fit(log, type=reading.type or ""), kind=describe_kind(parts, 1)
             )
@@ -253,7 +253,7 @@ class Session:
             if one is not None:
                 one.renew(finished, path)
 
-    def place_for(self, name: str) -> tuple[str, Path]:
+    def choose_place(self, name: str) -> tuple[str, Path]:
         """A name that any system can write, and a new path for a dropped file of that name."""
         plain = re.sub(r"[^\w. ()+-]", "_", Path(name.replace("\\", "/")).name).strip(". ")
         plain = plain[-LONGEST_NAME:] or "log"
@@ -295,7 +295,7 @@ class Session:
         spoiled = contaminate(
             log, "encoder-slip", severity=1.0, test="quasistatic-forward", at=5.5, rng=rng
         )
-        name, path = self.place_for("example drivetrain.wpilog")
+        name, path = self.choose_place("example drivetrain.wpilog")
         write(spoiled.log, path)
         return self.add(name, path)
 

@@ -27,7 +27,7 @@ class SpanText:
 
 @dataclass(frozen=True)
 class PageView:
-    """What the page shows of every log.
+    """Options of what the page shows of every log.
 
     Args:
         raw: the data alone: nothing is detected or fitted.

@@ -173,7 +173,7 @@ def _renew_page(session: "Session", live: "LiveFit") -> None:
         session.renew(one, one.path, one.logs)
     update = live.last
     log = None if update is None else update.log
-    counts = {test: len(log.runs_of_test(test)) if log else 0 for test in FOUR_TESTS}
+    counts = {test: len(log.list_runs_of_test(test)) if log else 0 for test in FOUR_TESTS}
     session.live = LiveView(live.source.status, counts, "" if update is None else update.advice)
 
 

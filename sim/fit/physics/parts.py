@@ -15,7 +15,7 @@ HEAVY = 1.15  # [of theory] kA: rotors and wheels add 3 to 10 %
 
 @dataclass(frozen=True)
 class Parts:
-    """What a mechanism is built from, as its team knows it.
+    """Motor, gearing and load of a mechanism, as its team knows them.
 
     Args:
         motor: which one drives it.
@@ -57,7 +57,7 @@ class Parts:
 
 
 def fit_in_si(found: Fit) -> Fit:
-    """The same fit per meter or per radian."""
+    """The fit converted to meters or radians."""
     return found.in_units("radians" if find_unit(found.units).angular else "meters")
 
 

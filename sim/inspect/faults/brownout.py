@@ -245,7 +245,7 @@ def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> fl
         last=anomaly.end,
         velocity=float(anomaly.expected[0]),
     )
-    return anomaly.share_explained_by(without - anomaly.expected)
+    return anomaly.compute_explained_share(without - anomaly.expected)
 
 
 FAULT = Fault(

@@ -178,7 +178,7 @@ def _rise(
     step, speed, speeds, most = fine[1], 0.0, [], np.inf
     for volts in (way * np.interp(fine, since, voltage)).tolist():
         speeds.append(speed)
-        steady = baseline.ks + way * float(baseline.gravity(np.array(place)))
+        steady = baseline.ks + way * float(baseline.compute_gravity(np.array(place)))
         if most == np.inf and keeps < 1.0:
             most = steady + keeps * (volts - steady)
         most = max(most, steady)
@@ -220,7 +220,7 @@ def _start(features: LogFeatures, index: int, first: int) -> _Start | None:
         time,
         way * (run.position[picked] - run.position[picked].mean()),
         abs(float(run.voltage[first])),
-        baseline.ks + way * baseline.gravity(place),
+        baseline.ks + way * baseline.compute_gravity(place),
         step,
         baseline,
     )

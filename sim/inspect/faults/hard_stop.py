@@ -141,7 +141,7 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
             continue
         off = find_first_motion(run, still=features.still_speed)
         way, volts = np.sign(run.voltage[off]), abs(float(run.voltage[off]))
-        pressed = float(way * baseline.gravity(run.position[:1])[0])
+        pressed = float(way * baseline.compute_gravity(run.position[:1])[0])
         given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)
         end = lowest if way > 0.0 else highest
         gone = np.abs(run.position[: off + 1] - run.position[0])

@@ -86,7 +86,7 @@ def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
 def _falls(run: Run, log: Log) -> bool:
     """Whether the other direction of the same test goes the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
-    for other in log.runs_of_test(mate):
+    for other in log.list_runs_of_test(mate):
         goes = find_majority_sign(other.velocity) * find_majority_sign(run.velocity) > 0
         if goes and other.top_speed > FALLS * run.top_speed:
             return True

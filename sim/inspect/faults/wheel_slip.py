@@ -195,7 +195,9 @@ def _fresh(run: Run, first: int, last: int) -> Counts:
 
 def _push(run: Run, baseline: BaselineModel) -> Array:
     """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
-    return np.asarray(baseline.steady_speed(run) * np.sign(run.voltage[find_step_start(run)]))
+    return np.asarray(
+        baseline.compute_steady_speed(run) * np.sign(run.voltage[find_step_start(run)])
+    )
 
 
 def _smooth(values: Array) -> Array:

@@ -22,7 +22,7 @@ FOREVER = 2**62  # [µs] the end of a run that the file does not see end
 
 @dataclass(frozen=True, eq=False)
 class StateEntry:
-    """Where the tests of one mechanism are named.
+    """The entry that names the tests of one mechanism.
 
     Args:
         mechanism: its name; empty if the entry is not named as SysId's are.

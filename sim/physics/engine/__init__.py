@@ -271,7 +271,7 @@ def engine_can_compile() -> bool:
 
 
 def engine_is_cached() -> bool:
-    """Whether the engine waits in the cache; if not, its first use takes about 20 seconds.
+    """Whether a compiled engine is in the cache; if not, its first use takes 20 seconds.
 
     Where it cannot be compiled there is nothing to wait for, and the answer is True.
     """

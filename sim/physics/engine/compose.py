@@ -76,7 +76,7 @@ RUNNING = {
 
 
 def make_parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
-    """Where the parameters of each effect stand in the engine's one array of parameters."""
+    """Slice of each effect's parameters in the engine's parameter array."""
     found, at = {}, 0
     for name, effect in effects.items():
         found[name] = slice(at, at + len(effect.parameters))
@@ -98,7 +98,7 @@ def compose_engine(
         ImportError: it has to be compiled, and Numba or llvmlite (extra ``fast``) is missing.
     """
     for name, effect in effects.items():
-        if wrong := effect.contract_breaches():
+        if wrong := effect.find_contract_breaches():
             raise BadRequest(
                 wrong[0],
                 where=f"effect {name}",

@@ -48,7 +48,7 @@ _SAID = {
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """What one side of a mechanism logged in one run.
+    """The columns that one side of a mechanism logged in one run.
 
     Args:
         voltage: (n,) [V].

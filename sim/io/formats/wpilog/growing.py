@@ -56,5 +56,5 @@ class GrowingLog:
 
     @property
     def was_replaced(self) -> bool:
-        """Whether the file is shorter than what was read of it, so that it is another one."""
+        """Whether the file is shorter than what was read of it, so it is another file."""
         return self.path.stat().st_size < self._size

@@ -120,15 +120,15 @@ class Records:
     end: int
     head: RecordHeaders
 
-    def header_at(self, offset: int) -> RecordHeaders:
-        """What the header at an offset of the file says, whole or not."""
+    def read_header_at(self, offset: int) -> RecordHeaders:
+        """The header at an offset of the file, complete or not."""
         with open_log(self.path) as stream:
             stream.seek(offset)
             found = bytearray(stream.read(PAD)) + bytearray(PAD)
         header = read_headers(File(found).buffer, np.array([0]))
         return RecordHeaders(header.id, header.size, header.time, header.payload + offset)
 
-    def only_zeros_from(self, offset: int) -> bool:
+    def has_only_zeros_from(self, offset: int) -> bool:
         """Whether the rest of the file is nothing but zero bytes."""
         with open_log(self.path) as stream:
             stream.seek(offset)
