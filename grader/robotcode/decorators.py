@@ -100,7 +100,7 @@ class Decorators:
         return None if lasts >= WHOLE else make_hindrance(HindranceKind.CUT, "", node)
 
     def _duration(self, seen: BoundNode) -> float | None:
-        """How long a command lasts [s]; None if it cannot be told."""
+        """How long a command lasts [s]; None if unknown."""
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Function):  # a function that runs once

@@ -37,7 +37,7 @@ class GainConstant:
         gain: ``kS``, ``kV``, ``kA``, ``kG`` or ``kP``.
         name: as written.
         holder: the class it is in; empty at the top of a file.
-        value: the number; None if it cannot be told.
+        value: the number; None if unknown.
         text: what it is given, as written.
         comment: the comments beside it and directly above it.
         line: its line, from 1.
@@ -58,7 +58,7 @@ class Argument:
 
     Args:
         gain: whose constant it is made of; empty if of none, or of several.
-        value: the number; None if it cannot be told.
+        value: the number; None if unknown.
         text: as written.
     """
 

@@ -183,7 +183,7 @@ def find_class(node: Node, scope: Scope, names: SymbolTable) -> Scope | None:
 
 
 def fold_text(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
-    """A string constant, joined from several where need be; empty if it cannot be told."""
+    """A string constant, joined from several where need be; empty if unknown."""
     node, scope = resolve(node, scope, names)
     if isinstance(node, Text):
         return node.value

@@ -71,8 +71,8 @@ class DeviceSettings:
     """The settings that the program gives its devices.
 
     Args:
-        per_pulse: encoder -> what it counts per pulse; None if that cannot be told.
-        position, velocity: the conversion factors of Spark encoders; None if one cannot be told.
+        per_pulse: encoder -> what it counts per pulse; None if unknown.
+        position, velocity: the conversion factors of Spark encoders; None if unknown.
         ratios: the source text of every sensor-to-mechanism ratio.
         inverted: the motors that are set to turn the other way round.
         configured: the devices that get a configuration.
@@ -116,8 +116,8 @@ def find_native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[
 
     Returns:
         ``rotation``, ``rotation per second``, ``rpm``, ``pulse`` or ``set`` (whatever the program
-        set the device to), or empty if it cannot be told; and the factor that the program set,
-        None if it cannot be told.
+        set the device to), or empty if unknown; and the factor that the program set,
+        None if unknown.
     """
     moves = reading.quantity == "velocity"
     found: tuple[str, float | None] = ("", None)

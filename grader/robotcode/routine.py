@@ -139,7 +139,7 @@ def _routine(call: Call, scope: Scope, names: SymbolTable) -> _Routine:
 
 
 def _kind(node: Node, scope: Scope, names: SymbolTable) -> str:
-    """The class of an argument; empty if it cannot be told."""
+    """The class of an argument; empty if unknown."""
     value, where = resolve(node, scope, names)
     if isinstance(value, Call):
         return _part_made(value, where, names)

@@ -143,7 +143,7 @@ class Triggers:
         return f"port {port}" if port is not None else node.name
 
     def find_port(self, seen: BoundNode) -> int | None:
-        """The port a controller is made with; None if it cannot be told."""
+        """The port a controller is made with; None if unknown."""
         made = resolve_bound(seen, self._names)
         if not isinstance(made.node, Call):
             return None
@@ -251,7 +251,7 @@ class Triggers:
         return text
 
     def _argument(self, seen: BoundNode) -> str:
-        """A button's number, or its name; empty if it cannot be told."""
+        """A button's number, or its name; empty if unknown."""
         found = self._measures.fold(seen.node, seen.scope)
         seen = resolve_bound(seen, self._names)
         node = seen.node

@@ -4,10 +4,10 @@ A module offers
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
     def recognizes(head: bytes) -> bool             whether a file that starts like this is its own
-    def read(path: Path, asked: ReadOptions) -> Log
+    def read(path: Path, options: ReadOptions) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
-    def read_motors(path, asked) -> dict[str, Log]    optional: where a log has several motors
+    def read_motors(path, options) -> dict[str, Log]    optional: where a log has several motors
 
 and is found by its place in the folder. Formats do not import one another.
 """
@@ -63,7 +63,7 @@ class Format(Protocol):
     def recognizes(self, head: bytes) -> bool:
         """Whether a file whose first bytes are ``head`` is of this format."""
 
-    def read(self, path: Path, asked: ReadOptions) -> Log:
+    def read(self, path: Path, options: ReadOptions) -> Log:
         """Read a file of this format into a log."""
 
 

@@ -90,7 +90,7 @@ class RunFacts:
     Args:
         outcome: how it ended.
         said: in one line why it did not run; empty if it did.
-        line: where in the learner's code, from 1; 0 if that cannot be told.
+        line: where in the learner's code, from 1; 0 if unknown.
         where: the callback in which that was, ``drive`` or ``log``; empty otherwise.
         ramp: [V/s] of the quasistatic test.
         step: [V] of the dynamic test.

@@ -279,7 +279,7 @@ def find_measure_of_unit(unit: str) -> str:
 
 
 def infer_expression_type(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
-    """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if not told."""
+    """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if unknown."""
     depth += 1
     found = ""
     if depth > DEEPEST:
@@ -346,7 +346,7 @@ def _of_device(target: Member, scope: Scope, names: SymbolTable) -> str:
 
 
 def _of_measure(target: Member, scope: Scope, names: SymbolTable, depth: int) -> str:
-    """What a method of a measure or of a signal gives; empty if it cannot be told."""
+    """What a method of a measure or of a signal gives; empty if unknown."""
     name, inner = target.name, target.owner
     owner = infer_expression_type(inner, scope, names, depth=depth)
     if owner == SIGNAL and name == "getValue":

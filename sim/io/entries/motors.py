@@ -67,7 +67,7 @@ class _Search:
     entries: Sequence[Entry]
     state: StateEntry
     rivals: tuple[str, ...]  # mechanisms whose name is longer and ends the same
-    asked: ReadOptions
+    options: ReadOptions
     where: str
 
 
@@ -76,7 +76,7 @@ def find_motors(
     entries: Sequence[Entry],
     tests: Sequence[RunInterval],
     *,
-    asked: ReadOptions,
+    options: ReadOptions,
     where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
     """The motors of a mechanism whose signals are used, each of them complete.
@@ -85,7 +85,7 @@ def find_motors(
         state: where its tests are named.
         entries: all entries of the file.
         tests: when its tests ran.
-        asked: which motor, and which entries, where a person has said so.
+        options: which motor, and which entries, where a person has said so.
         where: the file, for messages.
 
     Returns:
@@ -93,28 +93,28 @@ def find_motors(
 
     Raises:
         MissingSignal: no motor has all signals; the message names what is missing.
-        BadRequest: the motor asked for is not there, or a name is ambiguous.
+        BadRequest: the chosen motor is not there, or a name is ambiguous.
     """
     named = {name.rest for entry in entries if (name := split_name(entry.name, WORD))}
     rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
-    search = _Search(entries, state, rivals, asked, where)
+    search = _Search(entries, state, rivals, options, where)
     given = {
         signal: find_requested_entry(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
-        for signal, name in asked.entries.items()
+        for signal, name in options.entries.items()
         if signal in NEEDED + OPTIONAL
     }
-    if asked.ignore_velocity and "position" in given:
+    if options.ignore_velocity and "position" in given:
         given["velocity"] = given["position"]  # its slope is taken later
     if all(signal in given for signal in NEEDED):
-        return (MotorEntries(asked.motor or "", given),), (), tuple(tests)
+        return (MotorEntries(options.motor or "", given),), (), tuple(tests)
     found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
-    if asked.ignore_velocity:
+    if options.ignore_velocity:
         found = [_without_velocity(motor) for motor in found]
     noted: tuple[Doubt, ...] = ()
     if not given and not any(motor.is_complete for motor in found):
         other, tests = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
-    if asked.motor is not None:
+    if options.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
     if not (whole or given or found or split_name(state.entry.name, WORD)):
@@ -134,12 +134,12 @@ def _of_other_loggers(
         BadRequest: the tests drove one mechanism after another, and none was chosen.
     """
     devices = find_devices(search.entries)
-    if search.asked.ignore_velocity:
+    if search.options.ignore_velocity:
         devices = [one.use_position_as_velocity() for one in devices]
     driven = select_driven_devices(devices, tests)
     words = set(split_words(search.state.mechanism))
     some = [one for one in driven if words & set(split_words(one.name))] or driven
-    if search.asked.motor is None and some:
+    if search.options.motor is None and some:
         groups = group_by_tests(some, tests)
         some, tests = groups[0] if len(groups) == 1 else _picked(groups, search)
     return [MotorEntries(one.name, one.signals) for one in some], tests
@@ -147,7 +147,7 @@ def _of_other_loggers(
 
 def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
     """The mechanism that a person chose."""
-    pick = search.asked.pick
+    pick = search.options.pick
     if pick is not None and 1 <= pick <= len(groups):
         return groups[pick - 1]
     names = [" and ".join(one.name for one in devices) for devices, _ in groups]
@@ -159,7 +159,7 @@ def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
 
 
 def _without_velocity(motor: MotorEntries) -> MotorEntries:
-    """A motor whose position stands where its velocity would, so that none is asked for."""
+    """A motor whose velocity entry is replaced by its position entry."""
     if "position" not in motor.signals:
         return motor
     return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
@@ -216,13 +216,13 @@ def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
 
 
 def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
-    """The motor that was asked for, by its name or by an ending that only it has."""
-    wanted = (search.asked.motor or "").lower()
+    """The chosen motor, by its name or by an ending that only it has."""
+    wanted = (search.options.motor or "").lower()
     same = [motor for motor in found if motor.name.lower() == wanted]
     same = same or [motor for motor in found if motor.name.lower().endswith(wanted)]
     if len(same) == 1:
         return same[0]
-    name, mechanism = search.asked.motor, search.state.mechanism or search.state.entry.name
+    name, mechanism = search.options.motor, search.state.mechanism or search.state.entry.name
     names = [motor.name for motor in same or found]
     raise BadRequest(
         f"{name!r} matches several motors of {mechanism!r}"

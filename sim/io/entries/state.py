@@ -52,7 +52,7 @@ class RunInterval:
 
 
 def find_state_entries(
-    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    entries: Sequence[Entry], *, options: ReadOptions, where: str
 ) -> tuple[StateEntry, ...]:
     """The entries that name tests, one for each mechanism.
 
@@ -60,9 +60,9 @@ def find_state_entries(
         MissingSignal: there is none; the advice names an entry that might be meant.
         BadRequest: one mechanism has several.
     """
-    if "state" in asked.entries:
+    if "state" in options.entries:
         entry = find_requested_entry(
-            asked.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
+            options.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
         )
         if not names_tests(entry):
             raise _no_test([entry], where=where)

@@ -23,7 +23,7 @@ class GrowingLog:
     """
 
     def __init__(self, path: Path, *, state: str | None = None) -> None:
-        self._asked = ReadOptions(entries={"state": state} if state else {})
+        self._options = ReadOptions(entries={"state": state} if state else {})
         self._size = 0  # [bytes] at the last look
         self._file = GrowingFile(path, lambda entry: entry.type == STRING)
 
@@ -49,7 +49,7 @@ class GrowingLog:
         entries = read_contents(self._file.read_appended_records()).entries
         where = str(self.path)
         with suppress(MissingSignal):
-            states = find_state_entries(entries, asked=self._asked, where=where)
+            states = find_state_entries(entries, options=self._options, where=where)
             found = [one for state in states for one in find_run_intervals(state, where=where)[0]]
             return tuple(sorted(found, key=lambda one: one.begin))
         return ()
