@@ -21,7 +21,7 @@ class Mistake:
         file: the solution's file it is made from.
         edit_text: the right text -> the wrong text.
         check: id of the check that has to fail.
-        says: part of what the learner is told.
+        says: part of the feedback to the learner.
         misconception: its code, or empty.
     """
 

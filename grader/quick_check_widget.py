@@ -45,7 +45,7 @@ class QuickCheck(Prediction):
         self._buttons.observe(self._tell, "value")
 
     def answer(self, chosen: str) -> str:
-        """Choose an answer; the feedback to it.
+        """Choose an answer; returns the feedback to it.
 
         Raises:
             BadRequest: it is none of the answers.
@@ -72,7 +72,7 @@ class QuickNumberCheck:
     Args:
         question: what is asked.
         expected: the right number, in ``unit``.
-        unit: as it is asked for; empty for a bare number.
+        unit: of the answer; empty for a bare number.
         tolerance: share by which it may be off.
         gain: which gain it is, whose slips are known; empty for any other number.
         angular: whether rotations and radians may be taken for each other.

@@ -1,4 +1,4 @@
-"""What a learner is told about one check, as one text."""
+"""The feedback to one check, as one text."""
 
 from collections.abc import Mapping
 from typing import Any

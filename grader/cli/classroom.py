@@ -172,7 +172,7 @@ def _format_first_names(names: "Sequence[str]") -> str:
 
 
 def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
-    """Whether students' code is run: as told, else where it does no harm; says what that means."""
+    """Whether students' code is run: as chosen, else where it is safe; prints what that means."""
     from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
 
     if run is False or not any(one.runs_code for one in asked):

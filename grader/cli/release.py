@@ -98,7 +98,7 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
 
 
 def report_left_out(left_out: "Sequence[str]") -> None:
-    """Say which files of the course folder students do not get."""
+    """Print which files of the course folder students do not get."""
     if left_out:
         more = f" and {len(left_out) - NAMED} more" if len(left_out) > NAMED else ""
         print_error(f"left out, as no part of the course: {', '.join(left_out[:NAMED])}{more}")
@@ -164,7 +164,7 @@ def _release(
 
 
 def write_file(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all.
+    """Write a file atomically.
 
     Raises:
         BadRequest: it cannot be written.

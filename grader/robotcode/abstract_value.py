@@ -75,7 +75,7 @@ class Value:
         return self.carries is not False or bool(self.marks) or self.closed or self.log is not None
 
     def times(self, factor: float | None) -> "Value":
-        """The value multiplied; None for a factor that cannot be told."""
+        """The value multiplied by a factor; None if the factor is unknown."""
         known = None if factor is None or self.factor is None else self.factor * factor
         scale = None if factor is None or self.scale is None else self.scale * factor
         return replace(self, factor=known, scale=scale)

@@ -146,7 +146,7 @@ def list_owned_motors(home: Scope, names: SymbolTable) -> tuple[str, ...]:
 
 
 class _Followers:
-    """Finds the motors of a class that are told to follow another, in the order of the text."""
+    """Finds the motors of a class that are set to follow another, in the order of the text."""
 
     def __init__(self, names: SymbolTable) -> None:
         self._names = names

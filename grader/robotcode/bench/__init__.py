@@ -83,7 +83,7 @@ def run_sysid_routine(
 def press_buttons(
     path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
 ) -> RunFacts:
-    """Press every button of a robot in RobotPy, in test mode and out of it.
+    """Press every button of a RobotPy robot, in test mode and out of it.
 
     Args:
         path: the learner's file.
