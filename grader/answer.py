@@ -216,27 +216,20 @@ class NumberAnswers(Protocol):
         """The right numbers."""
 
 
-def make_number_check(
-    name: str,
-    description: str,
-    *,
-    points: float,
-    after: Check[Any] | tuple[Check[Any], ...] = (),
-) -> Check[Any]:
+def make_number_check(name: str, description: str, *, points: float) -> Check[Any]:
     """Make a check of one number.
 
     Args:
         name: the number's name; in lower case it names the check.
         description: the line that the learner reads.
         points: for full marks.
-        after: the check, or checks, that have to pass first.
     """
 
     def judge(answers: NumberAnswers) -> str | None:
         return judge_number(name, answers.given, answers.key, points=points)
 
     judge.__name__, judge.__doc__ = name.lower(), description
-    return check(points=points, after=after)(judge)
+    return check(points=points)(judge)
 
 
 def diagnose_number(

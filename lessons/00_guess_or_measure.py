@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 0: Start here: guess or measure?
 #
-# *About 35 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
+# *About 40 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
 # line.*
 #
 # **At the end you can**
@@ -203,7 +203,8 @@ MY_KS, MY_KV = START  # for example 0.2, 2.4
 # Now your opponent drives. Line one of its program runs four tests with the robot and keeps the
 # **log**: a table of time, voltage, position and velocity with fifty rows per second. Line two
 # *fits* the formula to the log: it computes the gains that match the rows best, in the same way as
-# the SysId tool of WPILib (the code library of FRC). Line three drives the robot with these gains.
+# the SysId tool of WPILib (the code library of FRC). Line three makes the robot drive with these
+# gains.
 
 # %%
 log = simulate(robot, sim.Routine(ramp=1.0, step=2.0), rng=np.random.default_rng(1))
@@ -281,9 +282,9 @@ Table(
 #
 # - **You** had an easy race. Each try took you two seconds. On a real robot, for each try you
 #   change the number, deploy the code, drive, and walk back.
-# - **The three lines** had an easy race, too. On a real robot, line one is a lot of work: you need
-#   code for the tests, room to drive, a good battery, and a log without wrong data. Lessons 3 to 6
-#   teach this.
+# - **Your opponent's program** had an easy race, too. On a real robot, line one is a lot of work:
+#   you need code for the tests, room to drive, a good battery, and a log without wrong data.
+#   Lessons 3 to 6 teach this.
 #
 # <details><summary>Want to know why the true gains have an error, too?</summary>
 #
@@ -409,10 +410,10 @@ Table(
 # SysId. ([allwpilib issue 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) This course
 # makes such mistakes on purpose, so that you recognize them.
 #
-# (This course grew out of another lesson, the *source lesson*. Most of it is right. Where the
-# source lesson is wrong or incomplete, you find a folded box. The box quotes the source lesson,
-# shows what the official documentation says, and lets you try it. These boxes are for mentors; you
-# do not need them.)
+# (This course grew out of another lesson, the *source lesson*. Most of it is right. Where it is
+# wrong or incomplete, you find a box with the title *For mentors*. The box quotes the source
+# lesson, shows what the official documentation says, and lets you try it. You do not need these
+# boxes.)
 #
 # <details><summary>For mentors: which question SysId asks</summary>
 #
@@ -567,8 +568,8 @@ Table(("added to", "moving mass [kg]", "kV grows by", "kA grows by", "kG grows b
 # - For **kA**, and for **kG**, measuring wins. You can see the effect of kA only while the speed
 #   changes, and friction makes kG hard to see (lesson 2).
 # - When **something changes** on the robot, measuring wins: it shows what changed, and by how much.
-# - With a **damaged log** (a log with wrong data), measuring loses. A fit prints three gains even
-#   when they are wrong. Lesson 6 teaches you to recognize such a log.
+# - With a **damaged log** (a log with wrong data), a guess can be better. A fit prints three gains
+#   even when they are wrong. Lesson 6 teaches you to recognize such a log.
 #
 # ## 7 What good gains give you
 #

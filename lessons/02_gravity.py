@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 2: Gravity
 #
-# *About 35 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
+# *About 40 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
 # explains it.*
 #
 # **At the end you can**
@@ -317,9 +317,10 @@ Table(
 # ## 4 An arm: the cosine
 #
 # Hold a heavy bag with your arm stretched out level. Then let the arm hang straight down. The bag
-# is the same, but the level arm needs far more strength. Only the *horizontal* distance from your
-# shoulder to the weight matters. For an arm of length L at the angle θ from level, this distance is
-# L·cos(θ). The cosine is 1 when the arm is level, and 0 when it points straight up or down.
+# is the same, but you need far more strength while your arm is level. Only the *horizontal*
+# distance from your shoulder to the weight matters. For an arm of length L at the angle θ from
+# level, this distance is L·cos(θ). The cosine is 1 when the arm is level, and 0 when it points
+# straight up or down.
 #
 # So the motor needs kG·cos(θ) volts to balance gravity. **Predict:**
 
@@ -334,12 +335,10 @@ guess_angle = Prediction(
 guess_angle
 
 # %%
-cosines = [
-    (f"{angle}°", round(float(np.cos(np.radians(angle))), 3)) for angle in (0, 30, 45, 60, 90, 120)
-]
 print(guess_angle.reveal("half"))
 print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
-Table(("angle from level", "share of kG"), tuple(cosines))
+for angle in (0, 60, 120):
+    print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
 
 # %% [markdown]
 # Beyond 90° the share of kG is negative: the arm is past the top, and gravity pulls it down on the
@@ -887,7 +886,7 @@ quick
 #
 # <details><summary>More, if you like</summary>
 #
-# - Add noise to the middles of the arm's windows: `middle = middle + 0.02 *
+# - Add noise to the middle voltages of the arm's windows: `middle = middle + 0.02 *
 #   np.random.default_rng(1).standard_normal(7)`. By how much does the fitted offset change?
 # - A constant-force spring pulls the carriage up as hard as the motor does with 1 V. What is kG
 #   now? Can kG become negative?

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 35 minutes. You need lessons 1 and 2. You need no robot today.*
+# *About 40 minutes. You need lessons 1 and 2. You need no robot today.*
 #
 # **At the end you can**
 #
@@ -273,7 +273,7 @@ Table(
 #
 # SysId itself does not read an intercept: it fits all runs at once, and its model has a kA term for
 # the ramps, too. If you read an intercept by eye, use a slow ramp. How slow must the flywheel's
-# ramp be for an error of kS below 0.03 V? Solve τ·ramp = 0.03 V.
+# ramp be to keep the error of kS below 0.03 V? Solve τ·ramp = 0.03 V.
 #
 # <details><summary>Answer</summary>
 #
@@ -292,8 +292,8 @@ Table(
 # > [SysId's source:
 # > FeedforwardAnalysis.cpp](https://github.com/wpilibsuite/allwpilib/tree/v2026.2.2/sysid/src/main/native/cpp/analysis/FeedforwardAnalysis.cpp))
 # >
-# > **Try it:** how slow must the flywheel's ramp be for an error of kS below 0.03 V? Solve τ·ramp =
-# > 0.03 V.
+# > **Try it:** how slow must the flywheel's ramp be to keep the error of kS below 0.03 V? Solve
+# > τ·ramp = 0.03 V.
 # </details>
 
 # %% [markdown]

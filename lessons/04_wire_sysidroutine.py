@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 4: Wire a SysIdRoutine
 #
-# *About 30 minutes. You need lesson 3, and you should have written some robot code. You need no
+# *About 35 minutes. You need lesson 3, and you should have written some robot code. You need no
 # robot today.*
 #
 # **At the end you can**
@@ -695,7 +695,7 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 #   drive with all motors. With half the motors, each volt gives half the force, so kS and kA
 #   double. kV stays the same.
 # - **R² shows none of these mistakes.** R² cannot show a wrong unit or a wrong sign, because the
-#   model fits such a log as well as a correct log.
+#   model fits such a log just as well as it fits a correct log.
 
 # %% [markdown]
 # ## 5 From your robot to your computer
@@ -713,8 +713,8 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
-# The analysis type is `simple` unless you add `--type elevator` or `--type arm`. WPILib's SysId
-# window starts with the type *Elevator*, so check its menu.
+# The analysis type is `simple` unless you add `--type elevator` or `--type arm`. When WPILib's
+# SysId window opens, the type *Elevator* is selected, so check its menu.
 #
 # <details><summary>For mentors: where the log is</summary>
 #

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 5: Pre-flight and the first run
 #
-# *About 35 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
+# *About 40 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
 # 6, and take them to the robot.*
 #
 # **At the end you can**
@@ -98,10 +98,10 @@ Table(
 #
 # > v ≈ r·t / kV,  and the distance is  d ≈ r·t² / (2·kV) = kV·v² / (2·r)
 #
-# Until you let go of the button, the motors still drive. Then the motors brake, if their neutral
-# mode is *Brake* (the neutral mode says what a motor does at 0 V). The wheels can only brake as
-# hard as they grip the carpet. So the robot needs at least `v² / (2·μ·g)` more meters to stop, with
-# g = 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
+# The motors drive until you let go of the button. Then the motors brake, if their neutral mode is
+# *Brake* (the neutral mode says what a motor does at 0 V). The wheels can only brake as hard as
+# they grip the carpet. So the robot needs at least `v² / (2·μ·g)` more meters to stop, with g =
+# 9.81 m/s² and the grip μ (about 1.1 for wheels on carpet, less on a smooth floor).
 #
 # **Predict:**
 
@@ -223,7 +223,7 @@ guess_stop = Prediction(
 guess_stop
 
 # %% [markdown]
-# Move the sliders. The slider *moment* sets the time: 0 is the start of the test, 1 is the end. The
+# Move the sliders. The slider "moment" sets the time: 0 is the start of the test, 1 is the end. The
 # dashed outline shows where the robot stops.
 
 # %%
@@ -326,10 +326,10 @@ show_interactive(
 morning("2 battery", STEP, moment=1.0)
 
 # %% [markdown]
-# In the menus, first choose *2 battery* and *step*. The step test draws so much current that the
-# battery voltage falls below the dashed line. Then the robot controller turns the motors off to
-# protect itself: this is a *brownout*. The battery recovers, the motors start, and the voltage
-# falls again. The robot hardly moves. (A real robot switches more slowly.) Then try other checks.
+# First choose "2 battery" and "step". The step test draws so much current that the battery voltage
+# falls below the dashed line. Then the robot controller turns the motors off to protect itself:
+# this is a *brownout*. The battery recovers, the motors start, and the voltage falls again. The
+# robot hardly moves. (On a real robot, this repeats more slowly.) Then choose other checks.
 #
 # ### Which logs are good?
 #
@@ -454,17 +454,17 @@ Table(
 
 # %% [markdown]
 # Without a brownout, both kA columns are right, even with the tired battery: this robot calls
-# `setVoltage`, and its motor controllers compensate for the lower battery voltage. With `set` they
-# do not compensate (lesson 4). With a brownout, both are wrong, and kA from the commanded voltage
-# is far worse. So charge the battery, begin with a small step, and log the applied voltage.
+# `setVoltage`, and its motor controllers compensate for the lower battery voltage. With `set`, the
+# controllers do not do this (lesson 4). With a brownout, both are wrong, and kA from the commanded
+# voltage is far worse. So charge the battery, begin with a small step, and log the applied voltage.
 #
 # Require **12.5 V or more at rest**, and 20 mΩ or less on a battery tester.
 #
 # <details><summary>Want to know why 12.5 V?</summary>
 #
-# The lesson that this course grew out of requires 12 V or more at rest. But a lead-acid battery at
-# 12.0 V is half empty or worse: in one table, only a quarter of the charge is left ([a table of
-# voltages, at one
+# The source lesson requires at least 12 V at rest. But a lead-acid battery at 12.0 V is half empty
+# or worse. According to one table of voltages, only a quarter of the charge is left ([the table, at
+# one
 # commit](https://github.com/age-series/ElectricalAge2/blob/5ea25a23cbcb7443347505035cc4ea10f73b5002/src/main/resources/assets/eln2/datasets/lead_acid_12v/ds.csv)).
 # WPILib's docs give 12.7 to 13.5 V for a full battery with nothing connected, and say that a
 # battery at 12.5 V on an idle robot "should be swapped and charged". These docs also say that you
@@ -504,8 +504,8 @@ Table(
 # > **Lesson says:** "There is no position limit, no current limit bypass protection, and no
 # > closed-loop correction."
 # >
-# > **Source says:** half of the lesson's sentence is true. During a test, nothing corrects the
-# > motion (this is called *open loop*). But limits *in the motor controller* go on working in a
+# > **Source says:** the last part of the lesson's sentence is true. During a test, nothing corrects
+# > the motion (this is called *open loop*). But limits *in the motor controller* go on working in a
 # > test, if you have set them: "it is up to you to set up hard or soft limits to prevent injury or
 # > damage". Only the safety code in your own **commands** does not run, because no other command
 # > can use the subsystem during a test. ([WPILib docs: Running the
@@ -846,8 +846,8 @@ Table(
 #   positive velocity.
 # - [ ] **Log.** You have fetched a log from this robot before, and know its folder. Each mechanism
 #   gets its own log.
-# - [ ] **Guard.** While the guard locks the tests, no button moves anything. One person only waits
-#   to disable the robot.
+# - [ ] **Guard.** While the guard locks the tests, pressing a button moves nothing. One person only
+#   waits to disable the robot.
 #
 # For each log, also write down the current limit and the neutral mode, **brake or coast**. (Use the
 # mode that you drive with: it decides how far the robot rolls after a test.)

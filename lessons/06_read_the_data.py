@@ -218,7 +218,7 @@ guess_gap = Prediction(
 display(guess_late, guess_gap)
 
 # %% [markdown]
-# Choose a log and a plot. First look at the log *clean* in every plot.
+# Choose a log and a plot. First look at the log "clean" in every plot.
 
 
 # %%
@@ -291,12 +291,6 @@ show_interactive(
 look("current limit", "over time")
 
 # %% [markdown]
-# This plot shows a velocity filter best:
-
-# %%
-look("velocity filter", "velocity and position's slope")
-
-# %% [markdown]
 # The next table shows what each fault does to the gains. *kS ÷ true* is the gain that SysId finds,
 # divided by the true one: 1 is right. The two **R²** are scores that SysId shows for a fit: 1 is
 # perfect. Section 5 explains them.
@@ -328,7 +322,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 #   see it fall below the threshold of lesson 5.
 # - **Hard stop.** The velocity goes to zero within a few samples. The position stays the same, and
 #   the voltage stays on.
-# - **Loop overrun.** In the plot *time steps*, some points are far above 20 ms. The other plots
+# - **Loop overrun.** In the plot "time steps", some points are far above 20 ms. The other plots
 #   hardly show the fault.
 # - **Command logged.** The voltage of the step test looks perfect, but at first the velocity rises
 #   in a straight line.
@@ -363,7 +357,7 @@ Table(HEADER, tuple((name, *outcome(log)) for name, log in gallery.items()))
 # > Brownouts, at one
 # > commit](https://github.com/wpilibsuite/frc-docs/blob/c6315dc0701cb74273487d6e303a8cc5098a8462/source/docs/software/roborio-info/roborio-brownouts.rst))
 # >
-# > **Try it:** look at both brownouts above in the plot *over time*.
+# > **Try it:** in the menus above, choose each of the two brownouts and the plot "over time".
 # </details>
 #
 # ### How bad are timing gaps?
@@ -424,16 +418,14 @@ Table(("gaps", "kV ÷ true", "kA ÷ true, mean of ten", "smallest", "largest"), 
 # ### How bad are repeated samples?
 #
 # A motor controller sends its measurements in *status frames*, 50 to 250 times a second. A program
-# that logs faster writes the same measurement several times. The next cell logs every 5 ms.
+# that logs faster writes the same measurement several times. Here is a log with a row every 5 ms,
+# but only 50 frames a second.
 
 # %%
-rows = []
-for rate in (50, 100, 250):
-    framed = replace(ROBOT, sensor=replace(ROBOT.sensor, frame=1 / rate))
-    log = simulate(framed, ROUTINE, rng=np.random.default_rng(3), period=0.005)
-    ours, recipe = (fit(log, method=how).gains for how in ("output-error", "sysid"))
-    rows.append((f"{rate} Hz", recipe["kA"] / TRUTH["kA"], ours["kA"] / TRUTH["kA"]))
-Table(("status frames", "kA ÷ true, SysId's recipe", "kA ÷ true, sysid fit"), tuple(rows))
+framed = replace(ROBOT, sensor=replace(ROBOT.sensor, frame=1 / 50))
+log = simulate(framed, ROUTINE, rng=np.random.default_rng(3), period=0.005)
+for who, method in (("SysId's recipe", "sysid"), ("sysid fit", "output-error")):
+    print(f"{who}: kA is {fit(log, method=method).gains['kA'] / TRUTH['kA']:.2f} times the true kA")
 
 # %% [markdown]
 # Between two equal measurements, SysId computes an acceleration of zero. So log at the rate of the
@@ -538,18 +530,6 @@ show_interactive(
 
 # %%
 trimmed(end=4.4, threshold=0.1, median=3)
-
-# %%
-tries = {
-    "as recorded": (6.0, 0.0, 1),
-    "end at 4.4 s, before the stop": (4.4, 0.0, 1),
-    "threshold 0.1 m/s only": (6.0, 0.1, 1),
-    "median of 3 only": (6.0, 0.0, 3),
-    "all three": (4.4, 0.1, 3),
-    "all three, but a median of 15": (4.4, 0.1, 15),
-    "all three, but a threshold of 1 m/s": (4.4, 1.0, 3),
-}
-Table(HEADER[:4], tuple((name, *ratios(*choice).values()) for name, choice in tries.items()))
 
 # %% [markdown]
 # - The threshold drops the noisy standstill, and the samples at the stop. The setting "ramp ends"
@@ -712,9 +692,9 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 # - **Damage hardly changes kV, but it changes kA a lot; kS is in between.** Many samples contain
 #   information about kV, and only a few about kA.
 # - **The acceleration R² compares accelerations row by row (lesson 7), and it finds more faults.**
-#   Sort the logs by it: spikes (wild readings), the sudden jump and the worst slips are at the
-#   bottom. But this score does *not notice* a wrong voltage, a wrong gear ratio or a wrong sign.
-#   And a low value proves nothing: many good logs have one.
+#   Sort the logs by this score: spikes (wild readings), the sudden jump and the worst slips come
+#   last. But this score does *not notice* a wrong voltage, a wrong gear ratio or a wrong sign. And
+#   a low value proves nothing: many good logs have one.
 #
 # <details><summary>Want to know more?</summary>
 #
@@ -798,8 +778,7 @@ for damage in seen.damages:
 plot_time_series(gallery["encoder slip"], dynamic_seconds=0.6, damages=seen.damages)
 
 # %% [markdown]
-# In a terminal, type `sysid inspect drive.wpilog`. The program has never seen *your* robot, so look
-# yourself first.
+# In a terminal, type `sysid inspect drive.wpilog`. But look at the plots yourself first.
 
 # %% [markdown]
 # ## 7 System check

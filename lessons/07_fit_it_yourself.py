@@ -272,16 +272,17 @@ by_hand(intercept=0.8, slope=2.0)
 
 # %% [markdown]
 # Now let NumPy do it. `np.linalg.lstsq` ("least squares") needs the equations as a table: one row
-# per sample, and one **column per unknown**. In each row, the column holds the number that
-# multiplies this unknown. For a line, the columns are 1 and v.
+# per sample, and one **column per unknown**. In each row, each column holds the number that
+# multiplies its unknown. For a line, the columns are 1 and v.
 
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
 (intercept, slope), *_ = np.linalg.lstsq(columns, six_volts, rcond=None)
-by_hand(float(intercept), float(slope))
+smallest = np.sum((six_volts - columns @ [intercept, slope]) ** 2)
+print(f"{intercept:.2f} V at v = 0, {slope:.2f} V per m/s, sum of squares {smallest:.4f}")
 
 # %% [markdown]
-# No straight line has a smaller sum. A regression finds this line.
+# No straight line has a smaller sum. Set the sliders to these values.
 
 # %% [markdown]
 # ## 4 The whole fit in five lines
@@ -307,12 +308,9 @@ def voltage_left(log: sim.Log) -> dict[str, float]:
     return {"kS": float(ks), "kV": float(kv), "kA": float(ka)}
 
 
-HEADER = ("fit", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]")
 first_try = voltage_left(log)
-Table(
-    HEADER,
-    (("five lines, voltage on the left side", *first_try.values()), ("truth", *truth.values())),
-)
+print(f"kV is {first_try['kV'] / truth['kV']:.2f} times the truth,", end=" ")
+print(f"kA is {first_try['kA'] / truth['kA']:.2f} times the truth.")
 
 # %% [markdown]
 # kV is very good, but kA is far from the truth. This log has no fault. What happened?
@@ -413,6 +411,7 @@ def acceleration_left(log: sim.Log) -> dict[str, float]:
     return {name: float(gain) for name, gain in mine.gains(alpha, beta, gamma).items()}
 
 
+HEADER = ("fit", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]")
 second_try = acceleration_left(log)
 Table(
     HEADER,
@@ -446,8 +445,8 @@ plot_curves(
 
 # %% [markdown]
 # The acceleration on the left side is the better choice, so SysId uses it. But it is not perfect:
-# the velocity is still a column, and it is noisy, too. So α and β become smaller, and kA, which is
-# 1/β, becomes larger.
+# one column still contains the velocity, which is noisy, too. So α and β become smaller, and kA,
+# which is 1/β, becomes larger.
 #
 # <details><summary>Want to know more? What SysId's source says</summary>
 #
@@ -520,15 +519,8 @@ def my_fit(
 
 
 recipe = fit(log, method="sysid")
-Table(
-    HEADER,
-    (
-        ("five lines, data not prepared", *second_try.values()),
-        ("my fit, four stages", *my_fit(log).values()),
-        ("SysId's recipe", *recipe.gains.values()),
-        ("truth", *truth.values()),
-    ),
-)
+for name, gains in (("my fit", my_fit(log)), ("SysId", recipe.gains)):
+    print(f"{name}: " + ", ".join(f"{gain} {value:.3f}" for gain, value in gains.items()))
 
 # %% [markdown]
 # Your gains and SysId's gains are close. SysId computes its threshold from the noise, so it drops a
@@ -659,17 +651,17 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # %% [markdown]
 # ### Explain
 #
-# - The **filter** and the **left side** matter most. A filter window that is longer than the rise
-#   makes kA too small (section 9). Noise in the acceleration column also makes kA too small
-#   (section 4).
+# The **filter** and the **left side** matter most. A filter window that is longer than the rise
+# makes kA too small (section 9). Noise in the acceleration column also makes kA too small (section
+# 4).
+#
+# <details><summary>Want to know more? Time step, trim and threshold</summary>
+#
 # - **Time step.** SysId uses the mean time step, which is wrong for the rows next to a gap. So gaps
 #   in the log make kA less accurate. kV hardly changes.
 # - **Trim.** At full speed the acceleration is zero, so the rows at full speed only bring noise
 #   into the fit.
-#
-# <details><summary>Want to know more? The threshold</summary>
-#
-# - The **threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy
+# - **Threshold.** It hardly matters *here*, because our encoder is quiet at rest. With a noisy
 #   encoder, sgn(v) is random in the rows at standstill. The longer the robot stands, the worse kA
 #   gets. (To try it, see the last point of section 14.)
 # </details>
@@ -706,8 +698,7 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect. A score of 0 is no better than guessing the mean every time. (For the simulation
-# we use the two forward tests. SysId uses all four.)
+# So 1 is perfect. A score of 0 is no better than guessing the mean every time.
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -722,16 +713,10 @@ rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
 
-print(f"acceleration R²:             by hand {acceleration_r2:.4f}")
-print(f"  the same, adjusted:        by hand {adjusted:.4f}   SysId {recipe.acceleration_r2:.4f}")
-print(
-    f"simulated velocity R²:       by hand {sysids:.3f}    SysId {recipe.simulated_velocity_r2:.3f}"
-)
-print(f"  the same, textbook R²:     by hand {textbook:.4f}")
-print(f"RMSE, the typical error:     {rmse:.4f} m/s")
-print(
-    f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} in the textbook's formula, which uses squares."
-)
+print(f"Acceleration R², adjusted: {adjusted:.4f} by hand, {recipe.acceleration_r2:.4f} by SysId")
+print(f"Simulated velocity R²: {sysids:.3f} by hand, {recipe.simulated_velocity_r2:.3f} by SysId")
+print(f"With the textbook's formula it would be {textbook:.4f}. (RMSE: {rmse:.4f} m/s)")
+print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} in the textbook's formula.")
 
 # %% [markdown]
 #
@@ -741,6 +726,8 @@ print(
 # every additional column matches some of the noise by chance. With hundreds of rows the difference
 # is very small. ([SysId's source:
 # OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
+#
+# For the simulation we used the two forward tests. SysId uses all four.
 # </details>
 #
 # **Myth check.** "R² must be above 0.9." *Which one?* The *simulated velocity* R² should be above
@@ -878,9 +865,9 @@ plot_curves(
 )
 
 # %% [markdown]
-# After a step the velocity rises with the time constant kA/kV (after this time, it has nearly two
-# thirds of its new value). A window that is longer than kA/kV flattens the rise: the filter removes
-# what you want to measure.
+# After a step the velocity rises with the time constant kA/kV (after this time, it has reached
+# nearly two thirds of its new value). A window that is longer than kA/kV flattens the rise: the
+# filter removes what you want to measure.
 #
 # A window of 3 to 5 samples helps on a *slow* mechanism. On a fast mechanism, log faster, or repair
 # the encoder.
@@ -972,19 +959,10 @@ show_interactive(
 kp_picture(q=1.5, r=7.0, delay=0)
 
 # %%
-at_load = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)
-rows = []
-for name, q, delay in (
-    ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
-    ("a quarter of the top speed, the first value in SysId's window", at_load, 0.0),
-    ("the q that gives kP = 0.62", 3.43, 0.0),
-    ("1.5 m/s, and a delay of 112 ms, which SysId uses for a NEO's encoder", 1.5, 0.112),
-):
-    kp = design_velocity_loop(
-        kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay
-    ).kp
-    rows.append((name, q, kp))
-Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
+window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed
+for name, q in (("kP of 0.62", 3.43), ("default in SysId's code", 1.5), ("SysId's window", window)):
+    kp = design_velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=0.0).kp
+    print(f"{name}: q = {q:.2f} m/s, kP = {kp:.2f} V·s/m")
 
 # %% [markdown]
 # The gains are the same, but the values of kP are very different. So a suggested kP is only a first
@@ -992,7 +970,7 @@ Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
 #
 # <details><summary>Want to know more? Where these numbers come from</summary>
 #
-# The quarter of the top speed is in [SysId's source:
+# The rule "a quarter of the top speed" comes from [SysId's source:
 # Analyzer.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/view/Analyzer.cpp).
 # The delays are in
 # [FeedbackControllerPreset.h](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/include/sysid/analysis/FeedbackControllerPreset.h).

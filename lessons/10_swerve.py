@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 10: Swerve
 #
-# *About 40 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
+# *About 35 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
 #
 # **At the end you can**
 #
@@ -304,8 +304,8 @@ Table(
 #
 # ### The log shows the lever
 #
-# You can check the lever without a tape measure. The speed of a wheel is lever · ω, where ω is the
-# robot's rate in rad/s. So the ratio of the two kV is the lever:
+# You can check the length of the lever without a tape measure. The speed of a wheel is lever · ω,
+# where ω is the robot's rate in rad/s. So the ratio of the two kV is the lever:
 
 # %%
 quotient = turning.gains["kV"] / straight.gains["kV"]
@@ -337,8 +337,9 @@ print(f"Without wheels and rotors: {least:.2f} to {most:.2f} kg·m².")
 # %% [markdown]
 # ## 6 The push against a wall: when do the wheels slip?
 #
-# The carpet can hold only a limited force. If a motor pushes harder, the wheel spins on the floor:
-# it **slips**. While it slips, your log shows the speed of the wheel, not the speed of the robot.
+# The carpet gives the wheels only limited grip. If a motor pushes harder, the wheel spins on the
+# floor: it **slips**. While it slips, your log shows the speed of the wheel, not the speed of the
+# robot.
 #
 # CTRE's program runs its translation test with a step of 4 V. **Predict:**
 
@@ -383,9 +384,10 @@ animate_mechanism(
 )
 
 # %% [markdown]
-# A fit of such a log finds a kA that is far too large: after the first jump the wheels get faster
-# only slowly, until the robot is as fast as they are. Choose a step that does not make the wheels
-# slip, here about 1.8 V. If the robot is heavier or the motors are weaker, the step may be larger.
+# A fit of such a log finds a kA that is far too large, because after the first jump the wheels
+# speed up only slowly, until the robot is as fast as its wheels. Choose a step that does not make
+# the wheels slip, here about 1.8 V. If the robot is heavier or the motors are weaker, the step may
+# be larger.
 #
 # ### Measure it
 #
@@ -499,7 +501,7 @@ Table(
 # [ModuleConfig.java, at one
 # commit](https://github.com/mjansen4857/pathplanner/blob/c8ac86828f398c73cc945206dcd519279b3e50df/pathplannerlib/src/main/java/com/pathplanner/lib/config/ModuleConfig.java))
 # Choreo's page proposes the torque at 1.5 times the current of the breaker: 60 A for a 40 A
-# breaker. Then some torque remains for corrections. But a torque above the torque at the slip
+# breaker. Then some torque remains for corrections. But more torque than the motor has at the slip
 # current does not help. Choreo's window has *Wheel COF*, too. ([Robot Configuration, at one
 # commit](https://github.com/SleipnirGroup/Choreo/blob/05c89476612291b458a7971b6c61f665d0fe1244/docs/document-settings/robot-configuration.md),
 # [ModuleConfigPanel.tsx, at one

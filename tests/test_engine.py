@@ -430,7 +430,7 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
         "sessions": np.zeros(1), "c": make_model_constants(PLAIN), "w": NO_WIRES, "on": on,
         "p": parameters, "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS),
         "began": np.zeros(1), "steps": EXACT, "plain": True,
-        "measured": np.zeros((0, 2)), "trust": np.zeros((0, 4)),
+        "measured": np.zeros((0, 2)), "trust": np.zeros((0, 4)), "errors": np.zeros((0, 2)),
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip
     engine = compose_engine(EFFECTS)

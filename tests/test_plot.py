@@ -26,7 +26,6 @@ from sim.plot import (
     plot_misses,
     plot_time_series,
     plot_timesteps,
-    plot_velocity_time,
     plot_voltage_velocity,
     show_interactive,
 )
@@ -55,11 +54,7 @@ PICTURES = {
         DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
     ),
     "timesteps": lambda: plot_timesteps(DRIVE),
-    "velocity over time": lambda: plot_velocity_time(SHOOTER, median=3, beside=SHOOTER),
     "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
-    "acceleration with a fit": lambda: plot_acceleration_velocity(
-        SHOOTER, gains=sim.MECHANISMS["shooter"].gains
-    ),
     "choices": lambda: plot_choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
     "choices with spreads": lambda: plot_choices(
         {"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}

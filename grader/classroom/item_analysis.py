@@ -67,7 +67,7 @@ def analyze_items(students: Sequence[GradedStudent]) -> tuple[ItemStatistics, ..
     rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
     for one in students:
         graded = [record for record in one.records if _has_answer(record)]
-        total = sum(_read_number(record, "score") for record in graded)
+        total = sum(float(record["score"]) for record in graded)
         for record in graded:
             for check in _list_checks(record):
                 key = (str(record["exercise"]), str(check["id"]))
@@ -100,14 +100,10 @@ def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, 
 
 
 def _summarize_exercise(name: str, records: Sequence[Mapping[str, Any]]) -> ExerciseStatistics:
-    shares = [
-        _read_number(one, "score") / _read_number(one, "max_score")
-        for one in records
-        if _has_answer(one)
-    ]
+    shares = [float(one["score"]) / float(one["max_score"]) for one in records if _has_answer(one)]
     return ExerciseStatistics(
         name,
-        max(_read_number(one, "max_score") for one in records),
+        max(float(one["max_score"]) for one in records),
         sum(one["status"] != MISSING for one in records),
         sum(one["status"] == "passed" for one in records),
         sum(one["status"] == "ungradable" for one in records),
@@ -155,10 +151,6 @@ def _has_answer(record: Mapping[str, Any]) -> bool:
 def _list_checks(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
     found: Sequence[Mapping[str, Any]] = record["checks"]
     return found
-
-
-def _read_number(record: Mapping[str, Any], name: str) -> float:
-    return float(record[name])
 
 
 def _rank_texts(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:

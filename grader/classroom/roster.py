@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.submission_names import Identities
-from sim.bench.dataset.roster import make_distinct_names
-from sim.bench.dataset.roster_file import read_roster
+from sim.bench.dataset.roster import make_distinct_names, read_roster
 from sim.core.errors import BadRequest
 
 COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")

@@ -7,6 +7,7 @@ import click
 
 from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
+from sim.support.printable import list_first
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -154,7 +155,7 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
     if nameless:
         print_error(
             "these students worked without a name, so they are graded on the numbers for no name: "
-            f"{_format_first_names(nameless)}"
+            f"{list_first(nameless, most=SHOWN, separator='; ')}"
         )
     matched = [
         f"{one.place.name} as {one.student}"
@@ -162,13 +163,7 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
         if not one.problem and one.student.casefold() not in one.place.name.casefold()
     ]
     if matched:
-        print_error(f"found on the roster: {_format_first_names(matched)}")
-
-
-def _format_first_names(names: "Sequence[str]") -> str:
-    """The first few of many, and how many more there are."""
-    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-    return "; ".join(names[:SHOWN]) + more
+        print_error(f"found on the roster: {list_first(matched, most=SHOWN, separator='; ')}")
 
 
 def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:

@@ -9,6 +9,7 @@ from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.command_line import DONE, NOT_RIGHT
+from sim.support.printable import list_first
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -100,8 +101,7 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
 def report_left_out(left_out: "Sequence[str]") -> None:
     """Print which files of the course folder students do not get."""
     if left_out:
-        more = f" and {len(left_out) - NAMED} more" if len(left_out) > NAMED else ""
-        print_error(f"left out, as no part of the course: {', '.join(left_out[:NAMED])}{more}")
+        print_error(f"left out, as no part of the course: {list_first(left_out, most=NAMED)}")
 
 
 def _release(

@@ -21,6 +21,7 @@ from grader.robotcode.name_resolution import (
     find_implementing_methods,
     get_last_name,
     infer_type,
+    method_name,
     resolve,
 )
 from grader.robotcode.scope import Scope
@@ -87,8 +88,7 @@ class CallbackInterpreter(StatementInterpreter):
 
     def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
-        owner = node.target.owner if isinstance(node.target, Member) else None
-        receiver = None if owner is None else self.evaluate(owner, frame)
+        receiver = None if node.owner is None else self.evaluate(node.owner, frame)
         args = [self.evaluate(arg, frame) for arg in node.args]
         if node.spread:  # any of the arguments that are left may be in it
             args += [
@@ -106,14 +106,9 @@ class CallbackInterpreter(StatementInterpreter):
         frame: Frame,
     ) -> Value:
         """A call, when what it is called on and with is known."""
-        name = get_last_name(call.target)
-        if receiver is None and name in frame.locals and frame.scope.module.language == "python":
-            return self._invoked(frame.locals[name], args, frame)
-        if receiver is not None and spell_as_java(name) in RUNS and self._holds_lambda(receiver):
-            return self._invoked(receiver, args, frame)
-        if receiver is not None and spell_as_java(name) in LOOPS and args:
-            several = self.list_loop_elements(receiver, frame)
-            return [self._invoked(args[0], [element], frame) for element in several][-1]
+        ran = self._runs_lambda(call, receiver, args, frame)
+        if ran is not None:
+            return ran
         owner = None if receiver is None else (receiver.origin, receiver.scope)
         methods = find_called_functions(call, frame.scope, self.names, owner=owner)
         fresh = next((method for method in methods if method[0] not in frame.around), None)
@@ -131,6 +126,21 @@ class CallbackInterpreter(StatementInterpreter):
             return said
         self._keep(call, receiver, every, frame)
         return self.flow.apply_library_call(call, receiver, every, frame.make_unknown_value(call))
+
+    def _runs_lambda(
+        self, call: Call, receiver: Value | None, args: list[Value], frame: Frame
+    ) -> Value | None:
+        """A call that runs a lambda: by its name, by its interface, or once for each element."""
+        if receiver is None:
+            held = frame.locals.get(get_last_name(call.target))
+            python = frame.scope.module.language == "python"
+            return self._invoked(held, args, frame) if held is not None and python else None
+        if method_name(call) in RUNS and self._holds_lambda(receiver):
+            return self._invoked(receiver, args, frame)
+        if method_name(call) in LOOPS and args:
+            several = self.list_loop_elements(receiver, frame)
+            return [self._invoked(args[0], [element], frame) for element in several][-1]
+        return None
 
     def _implemented(
         self,

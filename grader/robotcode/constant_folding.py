@@ -5,6 +5,8 @@ the program to run has no value.
 """
 
 import math
+import operator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from grader.robotcode.conversions import FACTORS, NUMBERS
@@ -15,7 +17,7 @@ from grader.robotcode.name_resolution import (
     get_last_name,
     get_simple_type_name,
 )
-from grader.robotcode.scope import Scope
+from grader.robotcode.scope import Scope, find_only_value
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS, spell_as_java
 
@@ -23,6 +25,15 @@ DEEPEST = 50  # expressions inside one another, names followed on the way
 LARGEST_INT = 2**31 - 1  # Java's; beyond it an int wraps around, which nobody means
 
 _DIMENSIONS = {(1, -1): "volts-per-second", (1, 0): "volts", (0, 1): "seconds", (0, 0): "number"}
+_BOTH: dict[str, Callable[[float, float], float]] = {  # what an operator does in both languages
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
+_JAVA = _BOTH | {"%": math.fmod}
+_PYTHON = _BOTH | {"%": operator.mod, "//": operator.floordiv}
+_DIVIDING = frozenset({"/", "//", "%"})
 _REAL = frozenset({"double", "float", "Double", "Float"})
 _WHOLE = frozenset({"int", "long", "short", "byte"})
 
@@ -108,9 +119,9 @@ class ConstantFolder:
 
     def _named(self, node: Name | Member, scope: Scope, depth: int) -> FoldedConstant | None:
         definitions = self._names.find_definitions(node, scope)
-        valued = [d for d in definitions if d.value is not None]
-        if len(valued) == 1 and valued[0].value is not None:
-            found = self.fold(valued[0].value, valued[0].scope, depth=depth)
+        only = find_only_value(definitions)
+        if only is not None:
+            found = self.fold(*only, depth=depth)
             declared = next((d.type for d in definitions if d.type), "")
             return _typed(found, declared)
         number = None if definitions else _library_number(node, scope)
@@ -216,19 +227,12 @@ def _operated(
     if {left.dimension, right.dimension} != {"number"}:
         return None
     whole = left.integer and right.integer and java
-    one, other = left.value, right.value
-    if sign in {"/", "//", "%"} and other == 0.0:
+    operate = (_JAVA if java else _PYTHON).get(sign)
+    if operate is None or (sign in _DIVIDING and right.value == 0.0):
         return None
-    if sign == "/":
-        value = float(math.trunc(one / other)) if whole else one / other
-    elif sign == "%":
-        value = math.fmod(one, other) if java else one % other
-    elif sign == "//" and not java:
-        value = float(one // other)
-    elif sign in {"+", "-", "*"}:
-        value = {"+": one + other, "-": one - other, "*": one * other}[sign]
-    else:
-        return None
+    value = operate(left.value, right.value)
+    if whole and sign == "/":
+        value = float(math.trunc(value))
     return None if whole and abs(value) > LARGEST_INT else FoldedConstant(value, integer=whole)
 
 

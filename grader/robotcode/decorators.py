@@ -23,9 +23,8 @@ from grader.robotcode.closure import BoundNode, resolve_bound, resolve_call
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.ir import Call, Function, Member, Node
-from grader.robotcode.name_resolution import get_last_name
+from grader.robotcode.name_resolution import method_name
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import spell_as_java
 
 WHOLE = 10.0  # [s] a test's own timeout, in WPILib's defaults and in the exercises
 LONGEST_WAIT = 5.0  # [s] longer, and whoever holds the button waits in vain
@@ -49,7 +48,7 @@ class Decorators:
         return self._truth.fold(condition)
 
     def find_hindrance(
-        self, seen: BoundNode, name: str, parts: list[Node], first: int
+        self, seen: BoundNode, name: str, parts: tuple[Node, ...], first: int
     ) -> Hindrance | None:
         """Why a command may not start, or not last; None if nothing keeps it from that.
 
@@ -70,7 +69,9 @@ class Decorators:
             return self._raced(seen, name, parts, first)
         return Hindrance(HindranceKind.UNREAD, _shown(call))
 
-    def _waits(self, seen: BoundNode, name: str, parts: list[Node], first: int) -> Hindrance | None:
+    def _waits(
+        self, seen: BoundNode, name: str, parts: tuple[Node, ...], first: int
+    ) -> Hindrance | None:
         """What a test has to wait for that comes before it."""
         before = parts[1:] if name == "beforeStarting" else parts[:first]
         for part in before:
@@ -79,7 +80,9 @@ class Decorators:
                 return make_hindrance(HindranceKind.NEVER, "", part)
         return None
 
-    def _raced(self, seen: BoundNode, name: str, parts: list[Node], first: int) -> Hindrance | None:
+    def _raced(
+        self, seen: BoundNode, name: str, parts: tuple[Node, ...], first: int
+    ) -> Hindrance | None:
         """Another command whose end is the end of the test, too."""
         call = seen.node
         static = isinstance(call, Call) and isinstance(call.target, Member) and name not in CHAINED
@@ -107,8 +110,7 @@ class Decorators:
             return 0.0
         if not isinstance(node, Call) or resolve_call(seen, self._names):
             return None
-        name, args = spell_as_java(get_last_name(node.target)), [*node.args]
-        args += [part for _, part in node.named]
+        name, args = method_name(node), node.all_args
         if name in INSTANT | ENDLESS:
             return 0.0 if name in INSTANT else math.inf
         if name in WAITING:
@@ -118,7 +120,7 @@ class Decorators:
             return 0.0 if truth else math.inf if truth is False else None
         return None
 
-    def _seconds(self, seen: BoundNode, args: list[Node]) -> float | None:
+    def _seconds(self, seen: BoundNode, args: tuple[Node, ...]) -> float | None:
         found = self._measures.fold(args[0], seen.scope) if args else None
         return None if found is None else found.value
 

@@ -1,6 +1,7 @@
 """The drive callback: which motors it commands, how, and whether the voltage gets there."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.callback_interpreter import CallbackInterpreter
@@ -13,6 +14,7 @@ from grader.robotcode.name_resolution import (
     get_last_name,
     get_simple_type_name,
     infer_type,
+    method_name,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -29,7 +31,6 @@ from grader.robotcode.vocabulary import (
     find_request_output,
     is_motor,
     normalize_enum_constant,
-    spell_as_java,
 )
 
 
@@ -61,45 +62,45 @@ class DriveTrace(CallbackInterpreter):
         outcomes = []
         for way in ways:
             way()
-            outcomes.append({_kind(one) for one in self.calls[len(before[0]) :]})
+            outcomes.append({_kind(one): one for one in self.calls[len(before[0]) :]})
             self.calls, self.stored, self.unread = [*before[0]], dict(before[1]), dict(before[2])
         first = outcomes[0]
-        if len(first) != 1 or any(one != first for one in outcomes):
+        if len(first) != 1 or any(one.keys() != first.keys() for one in outcomes):
             return None
-        output, carries, scaled, negative, condition = next(iter(first))
-        self.calls += [
-            DriveCall(
-                motor=motor,
-                method=get_last_name(call.target),
-                output=output,
-                uses_parameter=carries,
-                scaled=scaled,
-                text=call.place.text,
-                line=self.find_line_of(call),
-                negative=negative,
-                condition=condition,
-            )
-            for motor in self._motors(receiver, at)
-        ]
+        command = replace(
+            next(iter(first.values())),
+            method=get_last_name(call.target),
+            text=call.place.text,
+            line=self.find_line_of(call),
+        )
+        self.calls += [replace(command, motor=motor) for motor in self._motors(receiver, at)]
         return at
 
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
         """Record a command to a motor, or a call that may be one."""
-        method = spell_as_java(get_last_name(call.target))
-        if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
+        method = method_name(call)
+        of_motor = receiver is not None and self._is_motor(receiver)
+        if not of_motor and any(map(self._is_motor, args)):
             self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
             return None
         if method[:1].isupper():  # makes an object, a request perhaps
             return None
-        if not self._may_be_motor(method, receiver, at):
-            if receiver is not None and self._may_lead_to_one(method, receiver, args):
-                self.note_unreadable(call)
-            return None
+        if self._may_be_motor(method, receiver, at):
+            return self._command(call, receiver, args, at, of_motor=of_motor)
+        if receiver is not None and self._may_lead_to_one(method, receiver, args):
+            self.note_unreadable(call)
+        return None
+
+    def _command(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value, *, of_motor: bool
+    ) -> Value | None:
+        """Note a command to what is, or may be, a motor; None if it is no command."""
+        method = method_name(call)
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
-        if method in STOPS and receiver is not None and self._is_motor(receiver):
+        if method in STOPS and of_motor:
             if self.sure:  # under a condition it is a limit that ends the test early
                 self._note(call, receiver, Output.VOLTAGE, sent)
             return at

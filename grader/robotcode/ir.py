@@ -32,6 +32,11 @@ class SourceSpan:
     line: int
 
     @property
+    def last_line(self) -> int:
+        """The line it ends on."""
+        return self.line + self.source.count(b"\n", self.start, self.end)
+
+    @property
     def text(self) -> str:
         """The source text on one line."""
         stretch = self.source[self.start : min(self.end, self.start + 4 * LONGEST)]
@@ -158,6 +163,16 @@ class Call(Node):
     args: tuple[Node, ...]
     named: tuple[tuple[str, Node], ...] = ()
     spread: bool = False
+
+    @property
+    def all_args(self) -> tuple[Node, ...]:
+        """The positional arguments and the values of the keyword arguments."""
+        return (*self.args, *(node for _, node in self.named))
+
+    @property
+    def owner(self) -> Node | None:
+        """What a method is called on; None for a bare function."""
+        return self.target.owner if isinstance(self.target, Member) else None
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,9 +21,9 @@ from grader.robotcode.ir import (
     Text,
     iter_nodes,
 )
-from grader.robotcode.scope import Definitions, Scope, walk_with_scopes
+from grader.robotcode.scope import Definitions, Scope, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import STAND_INS
+from grader.robotcode.vocabulary import STAND_INS, spell_as_java
 
 MOST_STEPS = 20  # names followed, one to the next
 MOST_PIECES = 5  # strings joined one into the other
@@ -40,6 +40,11 @@ def get_simple_type_name(type_: str) -> str:
 def get_last_name(node: Node) -> str:
     """The last part of a dotted name, ``Config`` of ``SysIdRoutine.Config``; else empty."""
     return node.name if isinstance(node, Name | Member) else ""
+
+
+def method_name(call: Call) -> str:
+    """The name of what is called, in Java's spelling; empty if it has none."""
+    return spell_as_java(get_last_name(call.target))
 
 
 def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
@@ -63,10 +68,10 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
             continue
         if isinstance(node, Reference):
             break
-        valued = [d for d in names.find_definitions(node, scope) if d.value is not None]
-        if len(valued) != 1 or valued[0].value is None:
+        found = find_only_value(names.find_definitions(node, scope))
+        if found is None:
             break
-        node, scope = valued[0].value, valued[0].scope
+        node, scope = found
         if isinstance(node, Function) and node.property:
             returned = find_single_return(node)
             if returned is None:
@@ -75,10 +80,16 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
     return node, scope
 
 
+def list_returned_nodes(function: Function) -> list[Node]:
+    """The nodes that a function may return."""
+    found = iter_nodes(*function.body, but=(Function, Class))
+    return [node.value for node in found if isinstance(node, Return)]
+
+
 def find_single_return(function: Function) -> Node | None:
     """The node that a function returns, if it has a single return."""
-    found = [n for n in iter_nodes(*function.body, but=(Function, Class)) if isinstance(n, Return)]
-    return found[0].value if len(found) == 1 else None
+    found = list_returned_nodes(function)
+    return found[0] if len(found) == 1 else None
 
 
 def infer_type(node: Node, scope: Scope, names: SymbolTable) -> str:
@@ -218,8 +229,8 @@ def find_called_functions(
     ]
     if functions or scope.module.language == "python":
         return functions
-    homes = (Scope(scope.module, scope.classes[:n]) for n in range(len(scope.classes), 0, -1))
-    return next(filter(None, (_fitting(target.name, h, names, count) for h in homes)), [])
+    found = (_fitting(target.name, home, names, count) for home in scope.homes)
+    return next(filter(None, found), [])
 
 
 def find_methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:

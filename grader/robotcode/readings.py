@@ -18,7 +18,7 @@ from grader.robotcode.name_resolution import (
     infer_type_from,
     resolve,
 )
-from grader.robotcode.scope import Scope, collect_bindings, walk_with_scopes
+from grader.robotcode.scope import Scope, collect_bindings, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     APPLIED_DUTY,
@@ -166,9 +166,8 @@ class _SettingsReader:
                 if isinstance(node, Assign) and node.value is not None:
                     self._assigned(get_last_name(node.target), node.value)
                 elif isinstance(node, Call) and isinstance(node.target, Member):
-                    args = [*node.args, *(value for _, value in node.named)]
-                    if args:
-                        self._called(node.target, args[0], scope)
+                    for first in node.all_args[:1]:
+                        self._called(node.target, first, scope)
         return self._found
 
     def _assigned(self, name: str, value: Node) -> None:
@@ -284,8 +283,7 @@ def find_number_fields(
     at_top = collect_bindings(home.module.body, Scope(home.module))
     for several in (names.find_fields(home) if home.classes else {}, at_top):
         for name, definitions in several.items():
-            valued = [one for one in definitions if one.value is not None]
-            if len(valued) == 1 and valued[0].value is not None:
-                amount = measures.fold(valued[0].value, valued[0].scope)
-                if amount is not None and amount.dimension == "number":
-                    yield name, amount.value
+            only = find_only_value(definitions)
+            amount = None if only is None else measures.fold(*only)
+            if amount is not None and amount.dimension == "number":
+                yield name, amount.value

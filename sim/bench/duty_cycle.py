@@ -31,7 +31,6 @@ def simulate_duty_cycle(
     *,
     rng: np.random.Generator,
     battery: Battery = HEALTHY,
-    period: float = 0.02,
 ) -> Log:
     """Run a routine that sets a duty cycle, ``motor.set(volts / 12)``; no current limit.
 
@@ -40,7 +39,6 @@ def simulate_duty_cycle(
         routine: the commanded voltages.
         rng: the source of noise and jitter.
         battery: what feeds it.
-        period: [s] of the robot program's loop.
 
     Returns:
         The log with the voltage that really reached the motors, and the battery's as
@@ -51,7 +49,7 @@ def simulate_duty_cycle(
         BadRequest: as for ``simulate``.
     """
     unlimited = replace(mechanism, battery=battery, stator=math.inf, supply=math.inf, brownout=0.0)
-    log = simulate(unlimited, routine, rng=rng, period=period, duty_cycle=True, electrical=True)
+    log = simulate(unlimited, routine, rng=rng, duty_cycle=True, electrical=True)
     lowest = min(float(np.min(run.bus_voltage)) for run in log.runs if run.bus_voltage is not None)
     return log.add_doubts(_brownout(lowest)) if lowest < LOWEST else log
 

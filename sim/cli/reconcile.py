@@ -5,11 +5,17 @@ import math
 from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, as_json, read_logs_together, reading_options
+from sim.cli.options import (
+    FILE,
+    as_json,
+    read_logs_together,
+    reading_options,
+    several_options,
+)
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
 
 if TYPE_CHECKING:
@@ -24,28 +30,24 @@ TIME_LIMIT = 20.0  # [s] of processor time
 UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
-def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Decorator: the options for further logs, travel, time limit and report."""
-    options = (
-        click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
-        click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
-        click.option(
-            "--travel",
-            type=float,
-            help="Distance from stop to stop, in the log's units, if known.",
-        ),
-        click.option(
-            "--time-limit",
-            type=click.FloatRange(min=0.0, min_open=True),
-            metavar="SECONDS",
-            help="Processor time after which the search stops with the best model so far. "
-            "[default: 20; without Numba, no limit]",
-        ),
-        click.option("--html", type=FILE, help="Write a page with every figure and number."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# What is held against the model, and what is written.
+reconcile_options = several_options(
+    click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
+    click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
+    click.option(
+        "--travel",
+        type=float,
+        help="Distance from stop to stop, in the log's units, if known.",
+    ),
+    click.option(
+        "--time-limit",
+        type=click.FloatRange(min=0.0, min_open=True),
+        metavar="SECONDS",
+        help="Processor time after which the search stops with the best model so far. "
+        "[default: 20; without Numba, no limit]",
+    ),
+    click.option("--html", type=FILE, help="Write a page with every figure and number."),
+)
 
 
 @click.command()

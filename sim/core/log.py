@@ -194,6 +194,11 @@ class Log:
                 f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
             )
 
+    @cached_property
+    def top_speed(self) -> float:
+        """[m/s or rad/s] that of its fastest run; 0 if it has none."""
+        return max((run.top_speed for run in self.runs), default=0.0)
+
     def list_runs_of_test(self, test: str) -> tuple[Run, ...]:
         """All runs of one test, in order; empty if it was not recorded."""
         return tuple(run for run in self.runs if run.test == test)

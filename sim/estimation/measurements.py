@@ -176,12 +176,17 @@ def compute_third_differences(time: Array, values: Array) -> Array:
     With even times these are 1, -3, 3, -1; with others the weights of a divided difference, scaled
     so that independent noise makes as much of them.
     """
-    four = np.lib.stride_tricks.sliding_window_view(time, 4)
-    apart = four[:, :, None] - four[:, None, :]
-    apart[:, range(4), range(4)] = 1.0
-    weights = 1.0 / np.prod(apart, axis=2)
-    weights *= math.sqrt(THIRD) / np.linalg.norm(weights, axis=1)[:, None]
-    return np.asarray(np.sum(weights * np.lib.stride_tricks.sliding_window_view(values, 4), axis=1))
+    one, two, three = (time[apart:] - time[:-apart] for apart in (1, 2, 3))
+    first, middle, last = one[:-2], one[1:-1], one[2:]
+    weights = (
+        -1.0 / (first * two[:-1] * three),
+        1.0 / (first * middle * two[1:]),
+        -1.0 / (two[:-1] * middle * last),
+        1.0 / (three * two[1:] * last),
+    )
+    size = np.sqrt(sum(weight**2 for weight in weights) / THIRD)
+    summed = sum(weight * values[k : k + size.size] for k, weight in enumerate(weights))
+    return np.asarray(summed / size)
 
 
 def _measure_run(

@@ -83,7 +83,6 @@ def design_velocity_loop(
     velocity_error: float = VELOCITY_ERROR,
     volts: float = VOLTS,
     delay: float | None = None,
-    encoder_factor: float = 1.0,
 ) -> Feedback:
     """Gains of a velocity loop.
 
@@ -94,7 +93,6 @@ def design_velocity_loop(
         velocity_error: [unit/s] that is worth ``volts``.
         volts: [V].
         delay: [s] of the measurement; None takes the preset's.
-        encoder_factor: gearing times counts, where the controller counts encoder edges.
 
     Raises:
         BadRequest: kV is negative, kA negative, or an allowance is not positive.
@@ -111,7 +109,7 @@ def design_velocity_loop(
     b = math.expm1(rate * preset.period) / -kv if kv else preset.period / ka
     k, closed = _scalar_regulator(a, b, q=velocity_error**-2, r=volts**-2)
     k *= closed ** (_wait(preset, delay) / preset.period)
-    return Feedback(k * preset.output / (preset.velocity_time * encoder_factor), 0.0)
+    return Feedback(k * preset.output / preset.velocity_time, 0.0)
 
 
 def design_position_loop(

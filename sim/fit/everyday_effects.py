@@ -84,7 +84,10 @@ def add_everyday_effects(
         shape = known.neutral > 0.0  # how it looks, not how large it is
         values[name] = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
     extended = replace(problem, priors=priors)
-    return extended, extended.evaluate(structure, values, point.nuisance, point.process_noise)
+    wide = extended.evaluate(structure, values, point.nuisance, point.process_noise)
+    if first == 0.0:
+        extended.extend_jacobian(wide, problem.compute_jacobian(point, fine=True))
+    return extended, wide
 
 
 def fit_everyday_effects(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows, invert_information
-from sim.estimation.run_variation import compute_run_variation_covariance
+from sim.estimation.run_variation import compute_run_variation_covariance, interval_starts
 from sim.fit.everyday_effects import add_absent_effects
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.search import OPEN_LOOP
@@ -50,6 +50,9 @@ def compute_gain_covariances(
     if lacks and not followed.has_misfit:
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
+        if not problem.priors:
+            same = problem.evaluate(point.structure, point.values, point.nuisance, q)
+            extended.extend_jacobian(left, problem.compute_jacobian(same, fine=True))
         table, rest = append_prior_rows(extended, left, fine=True)
         yield (
             left,
@@ -69,7 +72,7 @@ def _form_covariance(point: Estimate, table: Array, effects: NDArray[np.bool_]) 
         effects: (searched + runs,) columns of the small effects.
     """
     names = point.structure.searched_names
-    kept = table[:, ~effects]
+    kept = table.T[~effects].T
     inverse = invert_information(kept)
     total = np.zeros((len(names), len(names)))
     for place in np.flatnonzero(effects):
@@ -86,18 +89,8 @@ def _sandwich(problem: PredictionErrorProblem, table: Array, rest: Array, bread:
 
     Source: the sandwich of White (1980).
     """
-    rows = 2 * len(problem.measured)
-    intervals = np.repeat(_intervals(problem), 2)  # two measurements to a sample
-    scores = np.zeros((int(intervals.max()) + 1, table.shape[1]))
-    np.add.at(scores, intervals, table[:rows] * rest[:rows, None])
-    return np.asarray(bread @ (scores.T @ scores) @ bread)
-
-
-def _intervals(problem: PredictionErrorProblem) -> NDArray[np.int_]:
-    """(n,) which interval a sample lies in, counted through all runs."""
-    parts, first = [], 0
-    for record in problem.records:
-        time = record.measurements.time
-        parts.append(first + ((time - time[0]) // TOGETHER).astype(int))
-        first = int(parts[-1][-1]) + 1
-    return np.concatenate(parts)
+    rows, parts = 2 * len(problem.measured), []
+    for record, first in zip(problem.records, problem.run_edges, strict=False):
+        parts.append(2 * (first + interval_starts(record.measurements.time, TOGETHER)))
+    scores = np.add.reduceat(table[:rows].T * rest[:rows], np.concatenate(parts), axis=1)
+    return np.asarray(bread @ (scores @ scores.T) @ bread)

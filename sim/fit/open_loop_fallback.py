@@ -7,6 +7,7 @@ What gains are for is to say a velocity ahead, so then the velocities of whole r
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,7 +46,7 @@ class OpenLoopReplay:
     change: Array = field(default_factory=lambda: np.empty(0))
     simulated_change: Array = field(default_factory=lambda: np.empty(0))
 
-    @property
+    @cached_property
     def rmse(self) -> float:
         """[m/s or rad/s] RMS velocity error while it moves."""
         return float(np.sqrt(np.mean(self.error[self.moving] ** 2))) if self.moving.any() else 0.0
@@ -70,7 +71,7 @@ class OpenLoopReplay:
         left = float(np.mean((self.change - self.simulated_change) ** 2))
         return 1.0 - left / max(float(np.var(self.change)), 1e-300), math.sqrt(left)
 
-    @property
+    @cached_property
     def top_speed(self) -> float:
         """[m/s or rad/s] speed that hardly any sample exceeds."""
         return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0

@@ -301,15 +301,18 @@ def _add_lags(
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
         # a lag of any size shows in what one of the first two promises
-        firsts = [(name, size * problem.period) for name, all_ in left.items() for size in all_[:2]]
+        firsts, others = (
+            [(name, size * problem.period) for name, sizes in left.items() for size in sizes[part]]
+            for part in (slice(2), slice(2, None))
+        )
         kept = make_joint_jacobian(problem, point, fine=True)
-        if not predict_improvement(problem, point, firsts, kept=kept).max() > HINT:
+        promised = predict_improvement(problem, point, firsts, kept=kept)
+        if not promised.max() > HINT:
             break
-        tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
-        least = np.array([
-            WORTH + CHANCE * (sizes is SHORT_WINDOWS) for sizes in left.values() for _ in sizes
-        ])  # fmt: skip
-        worth = predict_improvement(problem, point, tried, kept=kept) - least
+        more = predict_improvement(problem, point, others, kept=kept)
+        tried = firsts + others
+        least = np.array([WORTH + CHANCE * (left[name] is SHORT_WINDOWS) for name, _ in tried])
+        worth = np.concatenate([promised, more]) - least
         if not worth.max() > 0.0:
             break
         best = int(np.argmax(worth))

@@ -8,6 +8,7 @@ damage, and ``detect`` finds it.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from types import ModuleType
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,11 @@ class LogInterval:
     test: str
     start: float
     end: float
+
+    @classmethod
+    def of_samples(cls, index: int, run: Run, first: int = 0, last: int = -1) -> Self:
+        """From one sample of a run to another; all of it if none is given."""
+        return cls(index, run.test, float(run.time[first]), float(run.time[last]))
 
     def overlap(self, other: "LogInterval") -> float:
         """Intersection over union of two intervals: 1 if equal, 0 if apart or in other runs."""

@@ -98,6 +98,11 @@ class LogFeatures:
         return tuple(_distance_ratio(run, moving) for run, moving in both)
 
     @cached_property
+    def usual_distance_ratio(self) -> float:
+        """The median of all runs: a conversion factor is the same in all of them."""
+        return float(np.median(self.distance_ratios)) if self.distance_ratios else 1.0
+
+    @cached_property
     def velocity_lag(self) -> VelocityLag | None:
         """Delay and scale of velocity against position; None if nothing moves."""
         return estimate_velocity_lag(self.log.runs)
@@ -124,8 +129,7 @@ class LogFeatures:
     @cached_property
     def still_speed(self) -> float:
         """[m/s or rad/s] threshold between motion and standstill."""
-        top = max((run.top_speed for run in self.log.runs), default=0.0)
-        return STANDING * top + 3.0 * self.noise
+        return STANDING * self.log.top_speed + 3.0 * self.noise
 
     @cached_property
     def baseline(self) -> BaselineModel | None:

@@ -24,7 +24,6 @@ def show_fit(
     log: Log | None = None,
     tried: Sequence[FeedbackTrial] = (),
     notes: Sequence[str] = (),
-    console: Console | None = None,
 ) -> None:
     """Print what is wrong, a verdict, gains with errors and units, feedback gains, and doubts.
 
@@ -35,9 +34,8 @@ def show_fit(
         log: what it was fitted to, for the advice in the verdict.
         tried: feedback gains on trial, with their doubts among the fit's.
         notes: what is well, a sentence each.
-        console: where to print; standard output if None.
     """
-    console = console or Console(soft_wrap=True, highlight=False)
+    console = Console(soft_wrap=True, highlight=False)
     per = find_unit(found.units)
     doubts = found.doubts if tried else found.list_doubts(preset)
     for doubt in doubts:

@@ -1,21 +1,21 @@
 """Robot code run for real: RobotPy in WPILib's own simulation, against motors of ours.
 
-    file ──apart──▶ on_bench (a process of its own) ──▶ robot.wpilog, seen.json ──logged──▶ Ran
+    file ──sandboxed_run──▶ a process of its own ──▶ robot.wpilog, seen.json ──log_facts──▶ RunFacts
 
-``on_bench`` lets the real scheduler run the four tests of the learner's SysIdRoutine on a tired
-battery, while what the motor controllers put out moves a model that the encoders see (and
-``on_buttons`` presses every button of a whole robot, in test mode and out of it). ``logged``
-holds the log that the robot wrote against what the bench saw. ``season`` knows when a program is
-written for another year than the RobotPy that is installed, ``contradiction`` puts what the run
-showed into words.
+``run_routine_child`` lets the real scheduler run the four tests of the learner's SysIdRoutine on a
+tired battery, while what the motor controllers put out moves a model that the encoders see (and
+``run_buttons_child`` presses every button of a whole robot, in test mode and out of it).
+``log_facts`` holds the log that the robot wrote against what the bench saw. ``season`` knows when a
+program is written for another year than the RobotPy that is installed, ``findings`` puts what the
+run showed into words.
 
-A learner's code shares its process with ``on_bench``. What keeps it from forging a run: the bench
-proves with a nonce that it came to its end (``apart``), and code that could find the nonce or
-change WPILib is refused before it is run (``tampering``).
+A learner's code shares its process with the bench. What keeps it from forging a run: the bench
+proves with a nonce that it came to its end (``sandboxed_run``), and code that could find the nonce
+or change WPILib is refused before it is run (``tampering``).
 
 A run takes about a second, needs the extra ``robot``, and executes what the learner wrote: a copy
-of it (``given``), shut in as far as the system can (``apart.confined``). Whoever only wants to read
-never comes here.
+of it (``sandbox_files``), shut in as far as the system can. Whoever only wants to read never comes
+here.
 """
 
 from dataclasses import replace

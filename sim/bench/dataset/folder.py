@@ -12,7 +12,6 @@ from sim.bench.dataset.plan import LogJob
 from sim.core.errors import BadRequest
 
 MOMENT = 946_684_800  # [s] 2000-01-01: when a file was made would tell how long it took, and why
-LISTED = 3  # [files] that a refusal names
 
 
 @dataclass(frozen=True)
@@ -94,12 +93,6 @@ def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
         if path.suffix in endings
     )
     return tuple(file for file in found if file not in mine)
-
-
-def name_files(files: Sequence[str]) -> str:
-    """Text that names the first few files and says how many more there are."""
-    more = f" and {len(files) - LISTED} more" if len(files) > LISTED else ""
-    return ", ".join(files[:LISTED]) + more
 
 
 class DatasetFolder:

@@ -2,23 +2,29 @@
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from sim.cli.fit.inertia import add_inertia, turning_options
-from sim.cli.fit.parts import describe_kind, fit_parts, join_parts
+from sim.cli.fit.parts import fit_parts, join_parts
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, make_paste_text
 from sim.cli.fit.plausibility import (
     check_against_physics,
     compare_directions_alone,
     read_motor_parts,
 )
-from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
+from sim.cli.options import (
+    FILE,
+    PartReader,
+    as_json,
+    reading_options,
+    several_options,
+    velocity_options,
+)
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -34,28 +40,20 @@ if TYPE_CHECKING:
 LOOPS = ("velocity", "position")
 
 
-def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options for the user's own feedback gains, to be simulated, too."""
-    options = (
-        click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
-        click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
-        click.option(
-            "--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"
-        ),
-        click.option("--html", type=FILE, help="Write a page with every figure and number."),
-        click.option(
-            "--plot", type=FILE, help="Write all figures into one file: .png, .svg or .pdf."
-        ),
-        click.option(
-            "--wpilog",
-            type=FILE,
-            help="Write a log with the measured and simulated signals, residual and innovation, "
-            "and a layout file for AdvantageScope.",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# The user's own feedback gains, to be simulated, too, and the files to write.
+feedback_options = several_options(
+    click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
+    click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
+    click.option("--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"),
+    click.option("--html", type=FILE, help="Write a page with every figure and number."),
+    click.option("--plot", type=FILE, help="Write all figures into one file: .png, .svg or .pdf."),
+    click.option(
+        "--wpilog",
+        type=FILE,
+        help="Write a log with the measured and simulated signals, residual and innovation, "
+        "and a layout file for AdvantageScope.",
+    ),
+)
 
 
 @click.command()
@@ -162,7 +160,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     parts = reader.read(files)
     log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
-    pooled = fit_parts(parts, find, kind=describe_kind(parts, len(files)))
+    pooled = fit_parts(parts, find, files=len(files))
     found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.parts import describe_kind, fit_parts
-from sim.cli.options import FILE, PartReader
+from sim.cli.fit.parts import fit_parts
+from sim.cli.options import FILE, PartReader, several_options
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class Turning:
 
 def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options for a robot that turns on the spot; the command gets them as ``turning``."""
-    options = (
+    options = several_options(
         click.option(
             "--straight",
             type=FILE,
@@ -65,9 +65,7 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
         turning = _read_turning(straight, mass=mass, lever=lever)
         return command(*args, turning=turning, **others)
 
-    for option in reversed(options):
-        asked = option(asked)
-    return asked
+    return options(asked)
 
 
 def _read_turning(
@@ -108,7 +106,7 @@ def find_inertia(
         )
     parts = PartReader(type="simple").read((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
-    gone = fit_parts(parts, find, kind=describe_kind(parts, 1)).found
+    gone = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
     return compute_moment_of_inertia(
         found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels

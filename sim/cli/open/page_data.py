@@ -112,17 +112,16 @@ def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
 
     pooled, log = one.fit(reading), one.combine_runs(reading)
     found = pooled.found.in_log_units()
-    rows = {row.name: row for row in make_gain_rows(found)}
     gains = [
         {
             "name": name,
             "value": value,
             "error": _finite(found.errors.get(name, math.nan)),
-            "error_text": rows["angle" if name == "offset_rad" else name].error,
-            "unit": rows["angle" if name == "offset_rad" else name].unit,
-            "means": rows["angle" if name == "offset_rad" else name].means,
+            "error_text": row.error,
+            "unit": row.unit,
+            "means": row.means,
         }
-        for name, value in found.gains.items()
+        for (name, value), row in zip(found.gains.items(), make_gain_rows(found), strict=True)
     ]
     return {
         "type": found.type,

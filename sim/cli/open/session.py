@@ -5,6 +5,7 @@ import shutil
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -143,13 +144,10 @@ class OpenLog:
         """
 
         def find() -> "PooledParts":
-            from sim.cli.fit.parts import describe_kind, fit_parts  # noqa: PLC0415 - once needed
+            from sim.cli.fit.parts import fit_parts  # noqa: PLC0415 - once it is needed
             from sim.fit import fit  # noqa: PLC0415 - the same
 
-            parts = self.read_parts(reading)
-            return fit_parts(
-                parts, lambda log: fit(log, type=reading.type or ""), kind=describe_kind(parts, 1)
-            )
+            return fit_parts(self.read_parts(reading), partial(fit, type=reading.type or ""))
 
         return self._once(("fit", reading), find)
 

@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sim.cli.fit.parts import describe_kind, fit_parts, join_parts, list_parts
+from sim.cli.fit.parts import fit_parts, join_parts, list_parts
 from sim.cli.watch.recordings import Recording, Source, split_finished_tests
 from sim.core.errors import Refusal
 from sim.core.log import Log
@@ -132,9 +132,7 @@ class LiveFit:
         pooled, refusal, found = None, None, None
         try:
             log = join_parts(parts)
-            pooled = fit_parts(
-                parts, partial(fit, type=self._type), kind=describe_kind(parts, len(files))
-            )
+            pooled = fit_parts(parts, partial(fit, type=self._type), files=len(files))
             found = pooled.found
             pooled = replace(pooled, found=found.in_log_units())
         except Refusal as why:

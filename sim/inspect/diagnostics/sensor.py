@@ -26,7 +26,7 @@ FAR = 2.5  # [times] what is this far off is a fault, not a look
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     """Doubts about a velocity that is later than its position."""
     found = features.velocity_lag
-    if not 1.0 / FAR < _velocity_over_slope(features) < FAR:  # another unit, not another time
+    if not 1.0 / FAR < features.usual_distance_ratio < FAR:  # another unit, not another time
         return []
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
@@ -49,7 +49,7 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
 
 def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     """Doubts about a velocity that is a little too large or small for its position."""
-    usual = _velocity_over_slope(features)
+    usual = features.usual_distance_ratio
     if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
         return []
     return [
@@ -60,11 +60,6 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
             "mechanism by a known distance, and check whether the position agrees.",
         )
     ]
-
-
-def _velocity_over_slope(features: LogFeatures) -> float:
-    """How many times the slope of the position the velocity is, by the median of all runs."""
-    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
 
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:

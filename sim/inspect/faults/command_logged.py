@@ -62,7 +62,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
             spoilt = _clipped(features, index, keeps=float(KEEPS ** np.cbrt(strike.severity)))
             if spoilt is not None:
                 log = replace_run(log, index, spoilt)
-                where.append(_whole(index, run))
+                where.append(LogInterval.of_samples(index, run))
     return DamagedLog(log, tuple(where))
 
 
@@ -281,7 +281,7 @@ def _ways(start: _Start, ka: Array, lack: Array) -> Array:
 def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
     return Damage(
         fault="command-logged",
-        where=_whole(index, run),
+        where=LogInterval.of_samples(index, run),
         confidence=1.0 - left,
         evidence=f"The log shows exactly {np.median(run.voltage):.3g} V, but at first the "
         f"mechanism has only {1.0 - shape.lacks:.0%} of the acceleration that this voltage "
@@ -290,10 +290,6 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
         advice="Log the applied voltage, which the motor controller measures, or use a step "
         f"smaller than {abs(float(np.median(run.voltage))):.1f} V. Until then, do not trust kA.",
     )
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

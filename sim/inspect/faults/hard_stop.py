@@ -67,7 +67,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         for index in range(strike.run + 1, len(log.runs)):
             follows = log.runs[index]
             damaged = replace_run(damaged, index, replace(follows, time=follows.time + late))
-    where = LogInterval(strike.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
+    where = LogInterval.of_samples(strike.run, spoilt, impact)
     return DamagedLog(damaged, (where,))
 
 
@@ -108,7 +108,7 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         return None
     return Damage(
         fault="hard-stop",
-        where=LogInterval(index, run.test, float(run.time[impact]), float(run.time[-1])),
+        where=LogInterval.of_samples(index, run, impact),
         confidence=share,
         evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
@@ -155,7 +155,7 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
         ):
             yield Damage(
                 fault="hard-stop",
-                where=LogInterval(index, run.test, float(run.time[0]), float(run.time[off])),
+                where=LogInterval.of_samples(index, run, last=off),
                 confidence=LEANS,
                 evidence=f"For the first {run.time[off] - run.time[0]:.1f} s gravity presses the"
                 " mechanism against the end of its travel. It moves by only "

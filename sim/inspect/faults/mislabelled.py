@@ -35,7 +35,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         moved = [strike.run, *(int(i) for i in rng.permutation(others))]
     for place, source in zip(moved, np.roll(moved, 1), strict=True):
         runs[place] = replace(runs[place], test=names[int(source)])
-    where = [_whole(i, runs[i]) for i in sorted(moved) if runs[i].test != names[i]]
+    where = [LogInterval.of_samples(i, runs[i]) for i in sorted(moved) if runs[i].test != names[i]]
     return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
@@ -49,7 +49,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if seems != run.test:
             yield Damage(
                 fault="mislabelled-test",
-                where=_whole(index, run),
+                where=LogInterval.of_samples(index, run),
                 confidence=CONFIDENCE,
                 evidence=f"The name of the run is {run.test}, but it looks like {seems}: "
                 f"{_voltage(run)}.",
@@ -81,10 +81,6 @@ def _voltage(run: Run) -> str:
         f"its voltage {does} (about {first:.2f} V in the first half, {last:.2f} V in the second), "
         f"and the position changes by {run.position[-1] - run.position[0]:.3g}"
     )
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

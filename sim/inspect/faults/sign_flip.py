@@ -38,7 +38,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         if index == strike.run or alike or strike.severity >= BOTH_WAYS:
             flipped = {name: -getattr(run, name) for name in signals}
             runs[index] = replace(run, **flipped)
-            where.append(_whole(index, run))
+            where.append(LogInterval.of_samples(index, run))
     return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
@@ -104,7 +104,7 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
     )
     return Damage(
         fault="sign-flip",
-        where=_whole(index, run),
+        where=LogInterval.of_samples(index, run),
         confidence=0.95,
         evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "
         f"{speed:.3g} per second, while the position changes by "
@@ -118,10 +118,6 @@ def _typical(values: Array) -> float:
     """The median of the larger half of the values; 0 if there are none."""
     hard = values[_hard(values)]
     return float(np.median(hard)) if hard.size else 0.0
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

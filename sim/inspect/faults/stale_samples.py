@@ -38,7 +38,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
     return DamagedLog(
         replace(log, runs=tuple(runs)),
-        tuple(_whole(index, run) for index, run in enumerate(runs) if len(run)),
+        tuple(LogInterval.of_samples(index, run) for index, run in enumerate(runs) if len(run)),
     )
 
 
@@ -95,7 +95,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     )
     return Damage(
         fault="stale-samples",
-        where=_whole(index, run),
+        where=LogInterval.of_samples(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
         evidence=f"The log repeats {repeated}. It has a sample every {period * 1000.0:.3g} ms, but "
         f"the sensor updates only every {usual * 1000.0:.0f} ms.",
@@ -109,10 +109,6 @@ def _hold(run: Run, held: int, phase: int) -> Run:
     count = np.arange(len(run))
     latest = np.maximum((count + phase) // held * held - phase, 0)
     return replace(run, position=run.position[latest], velocity=run.velocity[latest])
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -153,11 +153,8 @@ def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval
     stories = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
     return [
         (
-            LogInterval(
-                index,
-                run.test,
-                float(run.time[story[0].first]),
-                float(run.time[min(story[-1].last + 1, len(run) - 1)]),
+            LogInterval.of_samples(
+                index, run, story[0].first, min(story[-1].last + 1, len(run) - 1)
             ),
             story,
         )

@@ -8,6 +8,7 @@ the mechanism's state entry tells where to split.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
@@ -66,9 +67,28 @@ class _Search:
 
     entries: Sequence[Entry]
     state: StateEntry
-    rivals: tuple[str, ...]  # mechanisms whose name is longer and ends the same
     options: ReadOptions
     where: str
+
+    @cached_property
+    def rivals(self) -> tuple[str, ...]:
+        """The mechanisms whose name is longer and ends the same."""
+        named = {name.rest for one in self.entries if (name := split_name(one.name, WORD))}
+        return tuple(name for name in named if name.endswith(f"-{self.state.mechanism}"))
+
+    @cached_property
+    def given(self) -> dict[str, Entry]:
+        """The signals whose entries a person has named."""
+        given = {
+            signal: find_requested_entry(
+                name, role=signal, kinds=NUMBERS, entries=self.entries, where=self.where
+            )
+            for signal, name in self.options.entries.items()
+            if signal in NEEDED + OPTIONAL
+        }
+        if self.options.ignore_velocity and "position" in given:
+            given["velocity"] = given["position"]  # its slope is taken later
+        return given
 
 
 def find_motors(
@@ -95,33 +115,20 @@ def find_motors(
         MissingSignal: no motor has all signals; the message names what is missing.
         BadRequest: the chosen motor is not there, or a name is ambiguous.
     """
-    named = {name.rest for entry in entries if (name := split_name(entry.name, WORD))}
-    rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
-    search = _Search(entries, state, rivals, options, where)
-    given = {
-        signal: find_requested_entry(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
-        for signal, name in options.entries.items()
-        if signal in NEEDED + OPTIONAL
-    }
-    if options.ignore_velocity and "position" in given:
-        given["velocity"] = given["position"]  # its slope is taken later
-    if all(signal in given for signal in NEEDED):
-        return (MotorEntries(options.motor or "", given),), (), tuple(tests)
-    found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
-    if options.ignore_velocity:
-        found = [_without_velocity(motor) for motor in found]
+    search = _Search(entries, state, options, where)
+    by_hand = MotorEntries(options.motor or "", search.given)
+    if by_hand.is_complete:
+        return (by_hand,), (), tuple(tests)
+    found = _by_motor(search)
     noted: tuple[Doubt, ...] = ()
-    if not given and not any(motor.is_complete for motor in found):
+    if not search.given and not any(motor.is_complete for motor in found):
         other, tests = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
     if options.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
-    if not (whole or given or found or split_name(state.entry.name, WORD)):
-        raise make_no_motor_error(entries, where=where, mechanism=state.mechanism)
     if not whole:
-        best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
-        raise _missing(best, search)
+        raise _missing(found, search)
     return whole, (*noted, *_left_out(found, where)), tuple(tests)
 
 
@@ -177,8 +184,8 @@ def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:
     )
 
 
-def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
-    """For each motor of the mechanism the usable entry of each signal it has."""
+def _by_motor(search: _Search) -> list[MotorEntries]:
+    """The motors of the mechanism, with the usable entry of each signal they have."""
     same: dict[tuple[str, str], dict[str, list[Entry]]] = {}
     for signal in NEEDED + OPTIONAL:
         for entry in search.entries:
@@ -201,7 +208,8 @@ def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
             )
         usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
         motors.setdefault(motor, {})[signal] = usable[0]
-    return motors
+    found = [MotorEntries(name, signals | search.given) for name, signals in motors.items()]
+    return [_without_velocity(one) if search.options.ignore_velocity else one for one in found]
 
 
 def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
@@ -244,8 +252,14 @@ def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
             )
 
 
-def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
+def _missing(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
     """The refusal when no motor is whole: what is missing, and what there is instead."""
+    none = MotorEntries("", search.given)
+    if not (search.given or found or split_name(search.state.entry.name, WORD)):
+        return make_no_motor_error(
+            search.entries, where=search.where, mechanism=search.state.mechanism
+        )
+    motor = max(found, key=lambda one: len(one.signals), default=none)
     lacking = [signal for signal in NEEDED if signal not in motor.signals]
     signal = lacking[0]
     mechanism = search.state.mechanism or "<mechanism>"

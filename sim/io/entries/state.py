@@ -66,28 +66,25 @@ def find_state_entries(
         )
         if not names_tests(entry):
             raise _no_test([entry], where=where)
-        name = split_name(entry.name, WORD)
-        return (StateEntry(name.rest if name else "", name.path if name else "", entry),)
-    named = [
-        StateEntry(name.rest, name.path, entry)
-        for entry in entries
-        if entry.type == STRING and (name := split_name(entry.name, WORD))
-    ]
+        return (_of_sysid(entry) or StateEntry("", "", entry),)
+    texts = [entry for entry in entries if entry.type == STRING]
+    named = [state for state in map(_of_sysid, texts) if state is not None]
     telling = [state for state in named if names_tests(state.entry)]
-    if not telling and not named:
-        telling = [
-            StateEntry(_mechanism_in(entry.name), "", entry)
-            for entry in entries
-            if entry.type == STRING and names_tests(entry)
-        ]
+    if named and not telling:
+        raise _no_test([state.entry for state in named], where=where)
+    if not named:
+        others = filter(names_tests, texts)
+        telling = [StateEntry(_mechanism_in(entry.name), "", entry) for entry in others]
     if not telling:
-        raise (
-            _no_test([state.entry for state in named], where=where)
-            if named
-            else _no_state(where=where)
-        )
+        raise _no_state(where=where)
     mechanisms = dict.fromkeys(state.mechanism for state in telling)
     return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
+
+
+def _of_sysid(entry: Entry) -> StateEntry | None:
+    """An entry that is named as SysId names its own; None if it is not."""
+    name = split_name(entry.name, WORD)
+    return None if name is None else StateEntry(name.rest, name.path, entry)
 
 
 def find_run_intervals(

@@ -62,5 +62,6 @@ EFFECT = Effect(
     start_values=find_start_values,
     is_ordinary=is_ordinary,
     hooks={"coulomb_friction": coulomb_friction},
+    same_in_motion="constant-load",
     symmetric=False,
 )

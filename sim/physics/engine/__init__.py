@@ -156,8 +156,6 @@ def simulate_run(
     wires: Array = NO_WIRES,
     step: float | None = None,
     plain: bool = False,
-    measured: Array = UNSEEN,
-    trust: Array = NO_CORRECTION,
     slide: Array | None = None,
 ) -> Track:
     """Simulate a model under a voltage.
@@ -170,10 +168,7 @@ def simulate_run(
         wires: (9,) battery and limits, see ``power_path.py``; none is an ideal source.
         step: [s] the longest; None chooses.
         plain: in uncompiled Python, for comparison.
-        measured: (n, 2) position and velocity that correct the motion, nan where there is none;
-            None simulates in open loop.
-        trust: (2, 2) Kalman gain: from both innovations to the corrections of both.
-        slide: (n,) [V] linear change of the voltage until the next sample; None holds it.
+        slide: (n,) [V] by which the voltage slides evenly to the next; None holds it.
 
     Examples:
         >>> time = np.linspace(0.0, 5.0, 251)
@@ -194,8 +189,7 @@ def simulate_run(
         np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
         make_model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
-        np.array([state.clock]), longest, simple, _as_contiguous(measured),
-        np.tile(np.ravel(_as_contiguous(trust)), (len(measured), 1)), out,
+        np.array([state.clock]), longest, simple, UNSEEN, np.zeros((0, 4)), np.empty((0, 2)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
@@ -215,6 +209,7 @@ def filter_runs(
     backlash_phase: Array,
     friction_offset: Array,
     lag_offset: Array,
+    errors: Array | None = None,
 ) -> Array:
     """Predict all runs of a batch with a model and its Kalman gain, in one call of the engine.
 
@@ -232,6 +227,7 @@ def filter_runs(
             weight decides.
         friction_offset: (runs,) [V] dry friction of each beyond kS.
         lag_offset: (runs,) [s] by which each is late beyond the model's delay.
+        errors: (n, 2) where innovations are written, measured minus expected, if wanted.
 
     Returns:
         (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
@@ -245,15 +241,16 @@ def filter_runs(
     bodies = np.column_stack([begin, batch.velocity, load, batch.velocity, np.zeros(begin.size)])
     aside = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
-    corrects = bool(kalman_gain.any())
-    rows = len(batch.measured) if corrects else 0
-    gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
+    measured = batch.measured if errors is not None or kalman_gain.any() else UNSEEN
+    gains = _as_contiguous(kalman_gain.reshape(-1, 4)[: len(measured)])
+    errors = np.empty(measured.shape) if errors is None else errors
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
         batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
         batch.sessions, make_model_constants(model), NO_WIRES, on, parameters,
         np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
-    batch.measured if corrects else UNSEEN, _as_contiguous(gains), out )  # fmt: skip
+        measured, gains, errors, out,
+    )  # fmt: skip
     return out
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.physics.effects import EFFECTS
-from sim.physics.engine.compose import HOOKS, make_parameter_slices
+from sim.physics.engine.compose import DELAY_HOOKS, HOOKS, make_parameter_slices
 from sim.physics.model import Model, Part
 
 __all__ = [
@@ -37,11 +37,7 @@ SLACKS = {
     for name, act in ((one.name, one.hooks.get("backlash_gap")) for one in EFFECTS.values())
     if act is not None
 }
-DELAYS = frozenset(
-    one.name
-    for one in EFFECTS.values()
-    if set(one.hooks) <= {"command_delay", "transform_velocity"}
-)
+DELAYS = frozenset(name for name, one in EFFECTS.items() if set(one.hooks) <= DELAY_HOOKS)
 
 
 def is_pure_delay(part: Part) -> bool:

@@ -82,11 +82,11 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
     u = limit_voltage(w, 0.0 if off else asked, state[V])
-    out[k, APPLIED] = u
+    current, bus = 0.0, 0.0
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
-        out[k, BUS] = compute_bus_voltage(w, u, current)
-        out[k, CURRENT] = current
+        bus = compute_bus_voltage(w, u, current)
+    out[k, APPLIED], out[k, BUS], out[k, CURRENT] = u, bus, current
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
@@ -140,17 +140,18 @@ def compute_voltage_slope(time: Array, slides: Array, command: int) -> float:
 def step_run(
     time: Array, asked: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
-    measured: Array, trust: Array, out: Array,
+    measured: Array, trust: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
     """Simulate one run into ``out``; ``state`` and ``memory`` hold its end.
 
     A command holds from its sample until the next, or changes linearly by ``slides`` [V]. It comes
     ``late`` [s] later than the effects delay it; until the first has come, a mechanism at rest is
     held there, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that correct
-    the motion by the Kalman gains ``trust`` (n, 4), nan where there is none; without rows the
-    simulation is open loop. ``steps`` limits a step: longest [s], longest way [unit], shortest [s]
-    and largest change of speed [unit/s]. ``ways`` is room for the tables of ``two_body_modes.py``:
-    of one model only, and empty at first.
+    the motion by the Kalman gains ``trust`` (n, 4), or (1, 4) for all, nan where there is none;
+    the innovations go into ``errors`` (n, 2). Without rows the simulation is open loop. ``steps``
+    limits a step: longest [s], longest way [unit], shortest [s], and largest change of speed
+    [unit/s]. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
+    at first.
     """
     lag = command_delay(on, p) + late
     n = time.size
@@ -166,7 +167,8 @@ def step_run(
         out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
             ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
-            correct_state(state, ahead, faster, trust[k])
+            errors[k, 0], errors[k, 1] = ahead, faster
+            correct_state(state, ahead, faster, trust[min(k, trust.shape[0] - 1)])
             out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
             out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
@@ -197,7 +199,8 @@ def step_runs(
     edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
     high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
-measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
+    measured: Array, trust: Array, errors: Array, out: Array,
+) -> None:  # fmt: skip
     """Simulate runs that are stored one after another.
 
     Run k has the samples from ``edges[k]`` to ``edges[k + 1]``. It begins in the state
@@ -211,15 +214,17 @@ measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
         if k > 0 and sessions[k] != sessions[k - 1]:
             for i in range(memory.size):
                 memory[i] = 0.0
-        lead = measured[first:last] if measured.shape[0] > 0 else measured
-        gains = trust[first:last] if measured.shape[0] > 0 else trust
+        lead, left = measured, errors
+        if measured.shape[0] > 0:
+            lead, left = measured[first:last], errors[first:last]
+        gains = trust[first:last] if trust.shape[0] > 1 else trust
         step_run(
             time[first:last], asked[first:last], slides[first:last], bodies[k],
             bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k],
-            run_lags[k], steps, plain, lead, gains, out[first:last],
+            run_lags[k], steps, plain, lead, gains, left, out[first:last],
         )  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
     """Allocate the output array of ``move`` for ``n`` samples."""
-    return np.zeros((n, 8))
+    return np.empty((n, 8))
