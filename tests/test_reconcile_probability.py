@@ -15,10 +15,10 @@ from sim.reconcile.probability import (
     FEATURES,
     FILE,
     Evidence,
+    compute_log_ratio,
     compute_log_size,
     compute_probability,
     compute_rival_share,
-    log_ratio,
 )
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import SIZES
@@ -108,7 +108,7 @@ def test_what_is_the_same_in_motion_is_no_rival():
     ],
 )
 def test_gaps_that_are_no_numbers_say_nothing(with_, without, ratio):
-    assert log_ratio(with_, without) == pytest.approx(ratio)
+    assert compute_log_ratio(with_, without) == pytest.approx(ratio)
 
 
 def test_no_other_effect_of_the_last_model_is_a_rival():

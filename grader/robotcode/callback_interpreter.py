@@ -20,8 +20,8 @@ from grader.robotcode.name_resolution import (
     find_class,
     find_implementing_methods,
     get_last_name,
+    get_method_name,
     infer_type,
-    method_name,
     resolve,
 )
 from grader.robotcode.scope import Scope
@@ -135,9 +135,9 @@ class CallbackInterpreter(StatementInterpreter):
             held = frame.locals.get(get_last_name(call.target))
             python = frame.scope.module.language == "python"
             return self._invoked(held, args, frame) if held is not None and python else None
-        if method_name(call) in RUNS and self._holds_lambda(receiver):
+        if get_method_name(call) in RUNS and self._holds_lambda(receiver):
             return self._invoked(receiver, args, frame)
-        if method_name(call) in LOOPS and args:
+        if get_method_name(call) in LOOPS and args:
             several = self.list_loop_elements(receiver, frame)
             return [self._invoked(args[0], [element], frame) for element in several][-1]
         return None

@@ -118,7 +118,7 @@ def infer_bound_class(seen: BoundNode, names: SymbolTable) -> str:
 
 
 def is_open_parameter(seen: BoundNode, names: SymbolTable) -> bool:
-    """Whether a name is a parameter that nobody has given anything yet."""
+    """Whether a name is a parameter without an argument so far."""
     if not isinstance(seen.node, Name):
         return False
     found = names.find_local(seen.node.name, seen.scope)
@@ -126,7 +126,7 @@ def is_open_parameter(seen: BoundNode, names: SymbolTable) -> bool:
 
 
 def find_bound_return(inside: BoundNode) -> BoundNode | None:
-    """What the body of a function returns; None if that may be one of several."""
+    """The value that a function's body returns; None if there may be several."""
     function = inside.node
     returned = find_single_return(function) if isinstance(function, Function) else None
     return None if returned is None else inside.with_node(returned)

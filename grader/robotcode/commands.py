@@ -35,8 +35,8 @@ from grader.robotcode.ir import (
 from grader.robotcode.name_resolution import (
     find_called_functions,
     get_last_name,
+    get_method_name,
     list_returned_nodes,
-    method_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import DIRECTIONS, normalize_enum_constant
@@ -128,7 +128,7 @@ class CommandReader:
         return bool(find_called_functions(call, seen.scope, self._names))
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> TestsRun:
-        name = method_name(call)
+        name = get_method_name(call)
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             inner = enter_call(seen, functions[0])

@@ -23,7 +23,7 @@ from grader.robotcode.closure import BoundNode, resolve_bound, resolve_call
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.ir import Call, Function, Member, Node
-from grader.robotcode.name_resolution import method_name
+from grader.robotcode.name_resolution import get_method_name
 from grader.robotcode.symbol_table import SymbolTable
 
 WHOLE = 10.0  # [s] a test's own timeout, in WPILib's defaults and in the exercises
@@ -110,7 +110,7 @@ class Decorators:
             return 0.0
         if not isinstance(node, Call) or resolve_call(seen, self._names):
             return None
-        name, args = method_name(node), node.all_args
+        name, args = get_method_name(node), node.all_args
         if name in INSTANT | ENDLESS:
             return 0.0 if name in INSTANT else math.inf
         if name in WAITING:

@@ -12,9 +12,9 @@ from grader.robotcode.motors import list_motor_names
 from grader.robotcode.name_resolution import (
     find_class,
     get_last_name,
+    get_method_name,
     get_simple_type_name,
     infer_type,
-    method_name,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -80,7 +80,7 @@ class DriveTrace(CallbackInterpreter):
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
         """Record a command to a motor, or a call that may be one."""
-        method = method_name(call)
+        method = get_method_name(call)
         of_motor = receiver is not None and self._is_motor(receiver)
         if not of_motor and any(map(self._is_motor, args)):
             self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
@@ -97,7 +97,7 @@ class DriveTrace(CallbackInterpreter):
         self, call: Call, receiver: Value | None, args: list[Value], at: Value, *, of_motor: bool
     ) -> Value | None:
         """Note a command to what is, or may be, a motor; None if it is no command."""
-        method = method_name(call)
+        method = get_method_name(call)
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
         if method in STOPS and of_motor:

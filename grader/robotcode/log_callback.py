@@ -8,7 +8,7 @@ from grader.robotcode.callback_interpreter import CallbackInterpreter
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import LoggedSignal, Source
 from grader.robotcode.ir import Call, Function, FunctionParameter, Member, Name
-from grader.robotcode.name_resolution import fold_text, method_name
+from grader.robotcode.name_resolution import fold_text, get_method_name
 from grader.robotcode.readings import DeviceReading, DeviceSettings, find_native_unit
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.statement_interpreter import Frame
@@ -55,7 +55,7 @@ class LogTrace(CallbackInterpreter):
         at: Value,  # noqa: ARG002 - the log is what the call is made on, or nothing
     ) -> Value | None:
         """Record a value that is logged."""
-        name = method_name(call)
+        name = get_method_name(call)
         if receiver is None or receiver.log is None:
             if any(arg.log is not None for arg in args):
                 self.note_unreadable(call)

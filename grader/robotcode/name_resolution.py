@@ -42,8 +42,8 @@ def get_last_name(node: Node) -> str:
     return node.name if isinstance(node, Name | Member) else ""
 
 
-def method_name(call: Call) -> str:
-    """The name of what is called, in Java's spelling; empty if it has none."""
+def get_method_name(call: Call) -> str:
+    """The name of the called method, in Java's spelling; empty if it has none."""
     return spell_as_java(get_last_name(call.target))
 
 

@@ -9,9 +9,9 @@ from grader.robotcode.conversions import FACTORS
 from grader.robotcode.ir import Call, Member, Node, Operation
 from grader.robotcode.name_resolution import (
     get_last_name,
+    get_method_name,
     get_simple_type_name,
     infer_type,
-    method_name,
 )
 from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, find_device, find_quantity
 from grader.robotcode.scope import Scope
@@ -95,7 +95,7 @@ class TransferFunctions:
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value:
         """The value of a call whose function is not in these files."""
-        name = method_name(call)
+        name = get_method_name(call)
         several = [*args] if receiver is None else [receiver, *args]
         made = join_values(several, at=at)
         made = replace(made, marks=made.marks | self._marks(name, receiver))

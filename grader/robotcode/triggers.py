@@ -44,7 +44,7 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     get_last_name,
-    method_name,
+    get_method_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import spell_as_java
@@ -141,7 +141,7 @@ class Triggers:
         node = seen.node
         if isinstance(node, Name) and node.name in seen.given:
             return self.find_controller(seen.given[node.name])
-        if isinstance(node, Call) and method_name(node) == "getHID":
+        if isinstance(node, Call) and get_method_name(node) == "getHID":
             return self.find_controller(seen.with_node(node.owner or node))
         if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(
             infer_bound_class(seen, self._names)
@@ -168,7 +168,7 @@ class Triggers:
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[TriggerPart, ...]:
         self.asked.add(call)
-        name, args = method_name(call), call.all_args
+        name, args = get_method_name(call), call.all_args
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             return self._returned(enter_call(seen, functions[0]), call, depth)

@@ -36,13 +36,13 @@ def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON for other programs.")
 
 
-def several_options(*options: Option) -> Option:
-    """One decorator that adds several options to a command, in their order."""
+def combine_options(*options: Option) -> Option:
+    """Decorator that adds several options to a command, in their order."""
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
 # How to read a log.
-reading_options = several_options(
+reading_options = combine_options(
     click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
     click.option(
         "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
@@ -54,7 +54,7 @@ reading_options = several_options(
     click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
 )
 # Which mechanism, and how to put a velocity right that was logged wrongly.
-velocity_options = several_options(
+velocity_options = combine_options(
     click.option(
         "--pick",
         type=click.IntRange(min=1),

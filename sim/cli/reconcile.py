@@ -12,9 +12,9 @@ import click
 from sim.cli.options import (
     FILE,
     as_json,
+    combine_options,
     read_logs_together,
     reading_options,
-    several_options,
 )
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
 
@@ -31,7 +31,7 @@ UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
 # What is held against the model, and what is written.
-reconcile_options = several_options(
+reconcile_options = combine_options(
     click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
     click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
     click.option(

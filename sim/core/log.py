@@ -196,7 +196,7 @@ class Log:
 
     @cached_property
     def top_speed(self) -> float:
-        """[m/s or rad/s] that of its fastest run; 0 if it has none."""
+        """[m/s or rad/s] top speed of its fastest run; 0 without runs."""
         return max((run.top_speed for run in self.runs), default=0.0)
 
     def list_runs_of_test(self, test: str) -> tuple[Run, ...]:

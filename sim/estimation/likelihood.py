@@ -404,14 +404,14 @@ class PredictionErrorProblem:
         names = point.structure.searched_names
         if fine:
             table = self.compute_jacobian(point).copy(order="F")
-            table[:, : len(names)] = self.parameter_jacobian(point, names, known=table)
+            table[:, : len(names)] = self.compute_parameter_jacobian(point, names, known=table)
             return table
         model = point.structure.model(point.values)
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         starts = self.predict_errors(model, moved, point.kalman_filter)
         starts = (starts - point.innovations) / self.noise.position
         parts = [
-            self.parameter_jacobian(point, names),
+            self.compute_parameter_jacobian(point, names),
             self._one_column_per_run(self.whiten(point, starts)),
         ]
         if self.varying_friction:
@@ -421,7 +421,7 @@ class PredictionErrorProblem:
         return np.concatenate([part.T for part in parts]).T
 
     def extend_jacobian(self, point: Estimate, known: Array) -> None:
-        """Keep the fine Jacobian of an estimate whose last effects are absent, from that without.
+        """Store the Jacobian of an estimate with absent effects, extended from that without them.
 
         Args:
             point: the estimate.
@@ -434,10 +434,12 @@ class PredictionErrorProblem:
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
         table = np.zeros((len(every) + nuisance, len(known)))
         table[:others], table[len(every) :] = known.T[:others], known.T[others:]
-        table[[every.index(name) for name in sizes]] = self.parameter_jacobian(point, sizes).T
+        table[[every.index(name) for name in sizes]] = self.compute_parameter_jacobian(
+            point, sizes
+        ).T
         self._keep_jacobian(point, {True: table.T})
 
-    def parameter_jacobian(
+    def compute_parameter_jacobian(
         self, point: Estimate, names: Sequence[str], *, known: Array | None = None
     ) -> Array:
         """(2 n, names) derivatives of the whitened innovations by some parameters.

@@ -86,12 +86,12 @@ def append_prior_rows(
         problem.compute_jacobian(point, fine=fine),
         problem.whiten(point, point.innovations),
     )
-    rows, own = prior_rows(problem, point)
+    rows, own = make_prior_rows(problem, point)
     return np.vstack([table, rows]), np.concatenate([rest, own])
 
 
-def prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
-    """The rows of the priors in Jacobian and innovations, nuisance parameters first."""
+def make_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
+    """The priors' rows of Jacobian and innovations, nuisance parameters first."""
     runs, names = len(problem.records), point.structure.searched_names
     nuisance = problem.list_nuisance_priors(point)
     known = problem.select_priors(point.structure)
@@ -148,7 +148,7 @@ def _gradient_and_information(
 ) -> tuple[Array, Array]:
     """(k,) half the gradient of -2 log L by all parameters, and (k, k) their information JᵀJ."""
     table, rest = problem.compute_jacobian(point), problem.whiten(point, point.innovations)
-    rows, own = prior_rows(problem, point)
+    rows, own = make_prior_rows(problem, point)
     with np.errstate(over="ignore"):  # a value that nothing bears to be moved
         return table.T @ rest + rows.T @ own, table.T @ table + rows.T @ rows
 

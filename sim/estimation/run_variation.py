@@ -160,15 +160,15 @@ def _run_information(
         information = free.T @ columns
         score = free.T @ rest[rows] - shares.T @ own
         time = problem.records[number].measurements.time
-        starts = 2 * interval_starts(time, LASTS)  # two measurements to a sample
+        starts = 2 * find_interval_starts(time, LASTS)  # two measurements to a sample
         scores = np.add.reduceat(free.T * rest[rows], starts, axis=1).T
         excess = max(_excess(information, scores), 1.0)
         runs.append(RunInformation(information / excess, score / excess))
     return runs
 
 
-def interval_starts(time: Array, length: float) -> NDArray[np.intp]:
-    """The first sample of each interval of that length [s] in which there is any."""
+def find_interval_starts(time: Array, length: float) -> NDArray[np.intp]:
+    """Index of the first sample in each interval of this length [s] that has samples."""
     return np.flatnonzero(np.diff((time - time[0]) // length, prepend=-1.0))
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows, invert_information
-from sim.estimation.run_variation import compute_run_variation_covariance, interval_starts
+from sim.estimation.run_variation import compute_run_variation_covariance, find_interval_starts
 from sim.fit.everyday_effects import add_absent_effects
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.search import OPEN_LOOP
@@ -91,6 +91,6 @@ def _sandwich(problem: PredictionErrorProblem, table: Array, rest: Array, bread:
     """
     rows, parts = 2 * len(problem.measured), []
     for record, first in zip(problem.records, problem.run_edges, strict=False):
-        parts.append(2 * (first + interval_starts(record.measurements.time, TOGETHER)))
+        parts.append(2 * (first + find_interval_starts(record.measurements.time, TOGETHER)))
     scores = np.add.reduceat(table[:rows].T * rest[:rows], np.concatenate(parts), axis=1)
     return np.asarray(bread @ (scores @ scores.T) @ bread)

@@ -40,7 +40,7 @@ class LogInterval:
 
     @classmethod
     def of_samples(cls, index: int, run: Run, first: int = 0, last: int = -1) -> Self:
-        """From one sample of a run to another; all of it if none is given."""
+        """The interval from one sample of a run to another; without samples, the whole run."""
         return cls(index, run.test, float(run.time[first]), float(run.time[last]))
 
     def overlap(self, other: "LogInterval") -> float:

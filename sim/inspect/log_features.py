@@ -99,7 +99,7 @@ class LogFeatures:
 
     @cached_property
     def usual_distance_ratio(self) -> float:
-        """The median of all runs: a conversion factor is the same in all of them."""
+        """The median distance ratio of all runs; a conversion factor is the same in all."""
         return float(np.median(self.distance_ratios)) if self.distance_ratios else 1.0
 
     @cached_property

@@ -20,10 +20,10 @@ from sim.reconcile.probability import (
     Evidence,
     JudgedEffect,
     compute_log_gap,
+    compute_log_ratio,
     compute_log_size,
     compute_probability,
     compute_rival_share,
-    log_ratio,
 )
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
@@ -128,7 +128,10 @@ def judge_effects(
         evidence = Evidence(
             likelihood=math.log(max(_removal_cost(before, now), 1.0)),
             gap=0.5
-            * (log_ratio(with_.velocity, bare.velocity) + log_ratio(with_.position, bare.position)),
+            * (
+                compute_log_ratio(with_.velocity, bare.velocity)
+                + compute_log_ratio(with_.position, bare.position)
+            ),
             size=compute_log_size(name, last.values),
             rival=compute_rival_share(
                 name, added, list_rival_scores(before, last.structure.effects, name)
@@ -191,8 +194,8 @@ def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
     for one in done[1:]:
         name = one.candidate.effect
         with_, bare = compare_gaps(one, done[-1])
-        last = log_ratio(with_.velocity, bare.velocity)
-        first = log_ratio(alone[name], 1.0) if name in alone else last
+        last = compute_log_ratio(with_.velocity, bare.velocity)
+        first = compute_log_ratio(alone[name], 1.0) if name in alone else last
         found[name] = 1.0 - math.exp(0.5 * (first + last))
     return found
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 
-from sim.physics.effects import EFFECTS, motion_class
+from sim.physics.effects import EFFECTS, find_motion_class
 from sim.reconcile.thresholds import FEWEST_NOISES, MOST_NOISES, NARROWEST, SIZES
 
 FILE = Path(__file__).with_name("probability.json")
@@ -83,7 +83,7 @@ def compute_probability(evidence: Evidence) -> float:
     return 1.0 / (1.0 + math.exp(-odds))
 
 
-def log_ratio(with_: float, without: float) -> float:
+def compute_log_ratio(with_: float, without: float) -> float:
     """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
@@ -139,7 +139,7 @@ def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -
     others = [
         other
         for name, other in tried.items()
-        if motion_class(name) != motion_class(effect)
+        if find_motion_class(name) != find_motion_class(effect)
         and (EFFECTS[effect].has_onset or not EFFECTS[name].has_onset)
     ]
     return min(max(max(others, default=0.0) / max(own, 1.0), 0.0), 1.0)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 import sim
 from sim.cli.reconcile import choose_time_limit, inspect_damage
 from sim.core.errors import BadRequest
-from sim.physics.effects import motion_class
+from sim.physics.effects import find_motion_class
 from sim.reconcile import reconcile
 from sim.reconcile.probability import FEATURES, FILE
 
@@ -95,9 +95,9 @@ def read_rows(path: Path) -> Rows:
     found = []
     for line in path.read_text(encoding="utf-8").splitlines():
         row = json.loads(line)
-        hidden = {motion_class(name) for name in row["truth"]["effects"]}
+        hidden = {find_motion_class(name) for name in row["truth"]["effects"]}
         for one in row.get("judged", ()):
-            named = {motion_class(name) for name in (one["effect"], *one["ambiguous_with"])}
+            named = {find_motion_class(name) for name in (one["effect"], *one["ambiguous_with"])}
             features = tuple(one["evidence"][name] for name in FEATURES)
             found.append((features, bool(named & hidden)))
     return found

@@ -21,8 +21,8 @@ from sim.cli.options import (
     FILE,
     PartReader,
     as_json,
+    combine_options,
     reading_options,
-    several_options,
     velocity_options,
 )
 from sim.core.vocabulary import METHODS
@@ -41,7 +41,7 @@ LOOPS = ("velocity", "position")
 
 
 # The user's own feedback gains, to be simulated, too, and the files to write.
-feedback_options = several_options(
+feedback_options = combine_options(
     click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
     click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
     click.option("--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"),

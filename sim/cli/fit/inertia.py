@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from sim.cli.fit.parts import fit_parts
-from sim.cli.options import FILE, PartReader, several_options
+from sim.cli.options import FILE, PartReader, combine_options
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class Turning:
 
 def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options for a robot that turns on the spot; the command gets them as ``turning``."""
-    options = several_options(
+    options = combine_options(
         click.option(
             "--straight",
             type=FILE,
