@@ -162,7 +162,7 @@ def _list_exercise_files(one: Exercise) -> set[Path]:
 
 
 def find_imported_modules(module: Path) -> set[Path]:
-    """A module of an exercise, and every module beside it that it imports, directly or not."""
+    """A module of an exercise, and the modules beside it that it imports, directly or not."""
     found: set[Path] = set()
     left = {module}
     while left:
@@ -214,7 +214,7 @@ def _read_content(name: str, path: Path) -> bytes:
 
 
 def strip_notebook(content: bytes, *, name: str) -> bytes:
-    """A notebook as it was derived: without outputs, and without what Jupyter noted in it.
+    """A notebook as it was made from its source: no outputs, no metadata of Jupyter's.
 
     Args:
         content: of the notebook's file.

@@ -48,7 +48,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.physics.motors import MOTORS, theoretical_kv
+from sim.physics.motors import MOTORS, compute_theoretical_kv
 from sim.plot import (
     Picture,
     Table,
@@ -419,7 +419,7 @@ TURN = 2 * math.pi  # [rad]
 rows = []
 for name in NAMES:
     one = MOTORS[name]
-    theory, exact = theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
+    theory, exact = compute_theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
     lower = f"{100 * (1 - exact / theory):.1f} %"
     rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", f"{theory:.4f}", f"{exact:.4f}", lower))
 Table(
@@ -558,7 +558,7 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # %%
 rows = []
 for name in ("falcon500", "krakenX60", "krakenX44"):
-    theory = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
+    theory = compute_theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
     rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
 Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 

@@ -648,9 +648,9 @@ down = all_rows["quasistatic-reverse"]
 def up_and(down_rows: int) -> Picture:
     """How well kS and kG are known from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
-    told = compute_information(used, type="elevator", noise=noise_of(elevator)).information_on_pair(
-        *SIDES
-    )
+    told = compute_information(
+        used, type="elevator", noise=noise_of(elevator)
+    ).compute_pair_information(*SIDES)
     return plot_ellipses(
         {f"95 of 100 fits (rows from the way down: {down_rows})": told},
         names=("kS [V]", "kG [V]"),
@@ -715,7 +715,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 
 # %%
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
-down_run = log.runs_of_test("quasistatic-reverse")[0]
+down_run = log.list_runs_of_test("quasistatic-reverse")[0]
 print(f"At 0 V the carriage goes down at {falls:.2f} m/s.")
 print(
     f"The slow ramp down lasted {down_run.time[-1] - down_run.time[0]:.1f} s. Then the carriage "

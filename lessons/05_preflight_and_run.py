@@ -658,7 +658,7 @@ plot_time_series(mine, dynamic_seconds=1.0)
 gains = fit(mine, method="sysid").in_log_units()
 Table(
     ("gain", "value", "unit"),
-    tuple((gain, gains.gains[gain], gains.gain_unit(gain)) for gain in ("kS", "kV", "kA")),
+    tuple((gain, gains.gains[gain], gains.format_gain_unit(gain)) for gain in ("kS", "kV", "kA")),
 )
 
 # %% [markdown]

@@ -141,7 +141,7 @@ plot_voltage_velocity(sound)
 plot_acceleration_velocity(sound)
 
 # %%
-rise = sound.runs_of_test("dynamic-forward")[0]
+rise = sound.list_runs_of_test("dynamic-forward")[0]
 slope = np.gradient(rise.velocity, rise.time)
 early, later = (int(np.searchsorted(rise.time, rise.time[0] + wait)) for wait in (0.02, 0.02 + TAU))
 print(guess_rise.reveal("largest at the start, then less and less"))
@@ -254,7 +254,7 @@ gallery = {
 
 def position_slope(log: sim.Log) -> Picture:
     """The first half second of a step: the logged velocity, and the slope of the position."""
-    run = log.runs_of_test(STEP)[0]
+    run = log.list_runs_of_test(STEP)[0]
     since = run.time - run.time[0]
     part = since < 0.5
     lines = {
@@ -473,7 +473,7 @@ messy = contaminate(
     sound, "hard-stop", severity=2, test=RAMP, at=4.5, rng=np.random.default_rng(2)
 ).log
 messy = contaminate(messy, "noisy-standstill", test=RAMP, rng=np.random.default_rng(2)).log
-ramp = messy.runs_of_test(RAMP)[0]
+ramp = messy.list_runs_of_test(RAMP)[0]
 wild = ramp.velocity.copy()
 wild[[90, 150, 200]] += np.array([1.2, -1.0, 1.5])
 messy = replace(messy, runs=(replace(ramp, velocity=wild), *messy.runs[1:]))
@@ -548,7 +548,7 @@ trimmed(end=4.4, threshold=0.1, median=3)
 rows = []
 for end in (6.0, 4.0, 2.0, 1.0):
     part = kept(sound, end=end, threshold=0.05)
-    top = float(part.runs_of_test(RAMP)[0].velocity.max())
+    top = float(part.list_runs_of_test(RAMP)[0].velocity.max())
     errors = fit(part, method="sysid").errors
     rows.append((f"{end:g} s of each ramp", top, errors["kV"], errors["kS"]))
 Table(
@@ -600,7 +600,8 @@ SCORES = {
     ACC: {case.name: case.fit.acceleration_r2 for case in all_cases},
 }
 OFF = {
-    gain: {case.name: case.gain_error(gain) for case in all_cases} for gain in ("kS", "kV", "kA")
+    gain: {case.name: case.compute_gain_error(gain) for case in all_cases}
+    for gain in ("kS", "kV", "kA")
 }
 KEYS = {
     "letter": lambda name: LETTERS[name],
@@ -657,7 +658,7 @@ Table(
         (
             label(case.name, revealed=True),
             case.story,
-            *(percent(case.gain_error(gain)) for gain in OFF),
+            *(percent(case.compute_gain_error(gain)) for gain in OFF),
             case.fit.acceleration_r2,
         )
         for case in sorted(all_cases, key=lambda case: LETTERS[case.name])
@@ -669,9 +670,11 @@ Table(
 # %%
 passing = [case for case in wrong if case.has_good_r2]
 damage = [
-    case for case in wrong if abs(case.gain_error("kV")) < 0.2
+    case for case in wrong if abs(case.compute_gain_error("kV")) < 0.2
 ]  # without mere changes of units
-typical = {gain: float(np.median([abs(case.gain_error(gain)) for case in damage])) for gain in OFF}
+typical = {
+    gain: float(np.median([abs(case.compute_gain_error(gain)) for case in damage])) for gain in OFF
+}
 best = max(wrong, key=lambda case: case.fit.acceleration_r2)
 print(guess_count.reveal("nearly all"))
 print(guess_robust.reveal("kA"))
@@ -718,8 +721,8 @@ print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.
 # %%
 CHECKS = {
     "signs": lambda case: min(case.fit.gains.values()) < 0,
-    "kV": lambda case: abs(case.gain_error("kV")) > 0.10,
-    "kA": lambda case: abs(case.gain_error("kA")) > 0.25,
+    "kV": lambda case: abs(case.compute_gain_error("kV")) > 0.10,
+    "kA": lambda case: abs(case.compute_gain_error("kA")) > 0.25,
     "acceleration R²": lambda case: case.fit.acceleration_r2 < 0.2,
     "looked": lambda case: bool(inspect(case.log).damages),
 }
@@ -751,7 +754,7 @@ print(f"The signs find {by_signs} logs.  No check finds these logs: {'; '.join(e
 # %%
 leaning = by_name["friction differs"].log
 for way in ("forward", "reverse"):
-    run = leaning.runs_of_test(f"quasistatic-{way}")[0]
+    run = leaning.list_runs_of_test(f"quasistatic-{way}")[0]
     moving = np.abs(run.velocity) > 0.1
     _, volts = np.polyfit(np.abs(run.velocity[moving]), np.abs(run.voltage[moving]), 1)
     print(f"{way}: the line of the ramp meets velocity 0 at {volts:.2f} V")

@@ -48,7 +48,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.units import find_unit
-from sim.feedback import allowed_velocity_error, design_velocity_loop
+from sim.feedback import compute_allowed_velocity_error, design_velocity_loop
 from sim.fit import fit
 from sim.fit.sysid_rows import median_filter, prepare_rows
 from sim.plot import (
@@ -124,7 +124,7 @@ def ramp_picture(ramp: float) -> Picture:
     """The line that a ramp of so many volts per second gives, beside the true one."""
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
     lines = {
-        "straight line": line_through(slow.runs_of_test("quasistatic-forward")[0]),
+        "straight line": line_through(slow.list_runs_of_test("quasistatic-forward")[0]),
         "truth": Line(truth["kS"], truth["kV"]),
     }
     return plot_voltage_velocity(slow, lines=lines)
@@ -152,7 +152,7 @@ timescale = truth["kA"] / truth["kV"]
 rows = []
 for ramp in RAMPS:
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
-    read_off = line_through(slow.runs_of_test("quasistatic-forward")[0]).intercept
+    read_off = line_through(slow.list_runs_of_test("quasistatic-forward")[0]).intercept
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
@@ -210,7 +210,10 @@ Table(
 # The acceleration is not in the log. `np.gradient` computes it from neighboring rows.
 
 # %%
-slow, step = log.runs_of_test("quasistatic-forward")[0], log.runs_of_test("dynamic-forward")[0]
+slow, step = (
+    log.list_runs_of_test("quasistatic-forward")[0],
+    log.list_runs_of_test("dynamic-forward")[0],
+)
 slow_a, step_a = np.gradient(slow.velocity, slow.time), np.gradient(step.velocity, step.time)
 
 solutions = []
@@ -704,8 +707,8 @@ unknowns = 3
 adjusted = 1 - (1 - acceleration_r2) * (a.size - 1) / (a.size - unknowns - 1)
 
 forward = ("quasistatic-forward", "dynamic-forward")
-seen = np.concatenate([log.runs_of_test(test)[0].velocity for test in forward])
-said = np.concatenate([model.runs_of_test(test)[0].velocity for test in forward])
+seen = np.concatenate([log.list_runs_of_test(test)[0].velocity for test in forward])
+said = np.concatenate([model.list_runs_of_test(test)[0].velocity for test in forward])
 rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
@@ -956,7 +959,7 @@ show_interactive(
 kp_picture(q=1.5, r=7.0, delay=0)
 
 # %%
-window = allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed
+window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed
 for name, q in (("kP of 0.62", 3.43), ("default in SysId's code", 1.5), ("SysId's window", window)):
     kp = design_velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=0.0).kp
     print(f"{name}: q = {q:.2f} m/s, kP = {kp:.2f} V·s/m")
@@ -1008,7 +1011,13 @@ hand = my_fit(own, threshold=0.02 * top_speed)
 Table(
     ("gain", "SysId's recipe", "one standard error", "my fit", "unit"),
     tuple(
-        (gain, best.gains[gain], best.errors[gain], hand[gain] * scale[gain], best.gain_unit(gain))
+        (
+            gain,
+            best.gains[gain],
+            best.errors[gain],
+            hand[gain] * scale[gain],
+            best.format_gain_unit(gain),
+        )
         for gain in ("kS", "kV", "kA")
     ),
 )

@@ -46,7 +46,7 @@ from IPython.display import display
 import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
-from sim.core.units import gains_per
+from sim.core.units import convert_gains
 from sim.fit import fit
 from sim.physics.motors import find_motor
 from sim.plot import (
@@ -70,8 +70,8 @@ from sim.teaching.profile_loop import (
     PIDController,
     TrapezoidProfile,
     check_loop,
+    compute_phoenix_voltage,
     follow_in_closed_loop,
-    phoenix_volts,
 )
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
@@ -306,7 +306,7 @@ print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 # %%
 TIME = np.arange(0.0, 4.0, LOOP)
 TARGET = np.interp(TIME, [0.0, 0.2, 1.4, 2.6, 3.6, 4.0], [0, 0, 50, 50, 0, 0])  # [rot/s]
-wheel = gains_per(shooter.gains, factor=2 * math.pi)  # the truth, per rotation
+wheel = convert_gains(shooter.gains, factor=2 * math.pi)  # the truth, per rotation
 
 
 def forward(gains: dict[str, float]) -> np.ndarray:
@@ -621,7 +621,7 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 
     def volts(one: LoopInput) -> float:
         held = tube["rate"] * one.now.position + tube["preload"]
-        return mine.volts(ff, pid, one) + with_tube * held
+        return mine.loop(ff, pid, one) + with_tube * held
 
     return follow_in_closed_loop(robot, RISE, volts)
 
@@ -702,8 +702,8 @@ Table(
 
 # %%
 DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
-per_drum = gains_per(SETS["reconciled"], factor=DRUM) | {"kP": 5.0 * DRUM}
-per_rotor = gains_per(SETS["reconciled"], factor=DRUM / robot.ratio) | {
+per_drum = convert_gains(SETS["reconciled"], factor=DRUM) | {"kP": 5.0 * DRUM}
+per_rotor = convert_gains(SETS["reconciled"], factor=DRUM / robot.ratio) | {
     "kP": 5 * DRUM / robot.ratio
 }
 
@@ -713,7 +713,7 @@ def magic(slot0: dict[str, float]) -> FollowedMove:
 
     def volts(one: LoopInput) -> float:
         held = tube["rate"] * one.now.position + tube["preload"]
-        return phoenix_volts(slot0, one, meters_per_rotation=DRUM) + held
+        return compute_phoenix_voltage(slot0, one, meters_per_rotation=DRUM) + held
 
     return follow_in_closed_loop(robot, RISE, volts, period=ONBOARD)
 

@@ -191,7 +191,7 @@ FIRST = {"ramp": ("quasistatic-forward", 3.0), "step": ("dynamic-forward", 1.0)}
 
 def beside_its_model(test: str, seconds: float) -> Scene:
     """The first seconds of a test, and a model that gets the same voltage."""
-    run = log.runs_of_test(test)[0]
+    run = log.list_runs_of_test(test)[0]
     time = run.time - run.time[0]
     shown = time <= seconds
     gains = {name: Gain(name) for name in truth}

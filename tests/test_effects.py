@@ -66,7 +66,7 @@ def test_the_catalogue_holds_every_effect_that_other_programs_call_by_name():
 def test_an_effect_is_written_as_the_contract_asks(name):
     found = EFFECTS[name]
 
-    assert found.contract_breaches() == []
+    assert found.find_contract_breaches() == []
     assert found.name == name
     for said in (found.summary, found.formula, found.fingerprint, found.inspect):
         assert len(said) > 3, said
@@ -448,7 +448,7 @@ def test_starts_survive_a_log_in_which_nothing_moves():
     ids=["kind", "nothing", "hook", "argument", "order"],
 )
 def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
-    assert any(said in line for line in replace(EFFECTS["drag"], **change).contract_breaches())
+    assert any(said in line for line in replace(EFFECTS["drag"], **change).find_contract_breaches())
 
 
 @pytest.mark.parametrize(

@@ -118,7 +118,7 @@ def test_color_never_speaks_alone():
 
 def test_the_table_of_a_log_says_what_the_log_says():
     table = plot_time_series(DRIVE).table
-    run = DRIVE.runs_of_test("dynamic-reverse")[0]
+    run = DRIVE.list_runs_of_test("dynamic-reverse")[0]
     (row,) = (row for row in table.rows if row[0] == "dynamic-reverse")
     assert row[1] == len(run) == 381
     assert row[3:5] == (-3.5, -3.5)
@@ -130,7 +130,7 @@ def test_velocities_are_in_the_unit_of_the_log():
     fastest = table.rows[0][-1]
     assert table.header[-1] == "fastest [rot/s]"
     assert fastest == pytest.approx(
-        SHOOTER.runs_of_test("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
+        SHOOTER.list_runs_of_test("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
     )
 
 

@@ -30,7 +30,9 @@ def some(way):
 
 
 def about(part):
-    return compute_information(part, type="elevator", noise=0.05).information_on_pair("kS", "kG")
+    return compute_information(part, type="elevator", noise=0.05).compute_pair_information(
+        "kS", "kG"
+    )
 
 
 PICTURES = {

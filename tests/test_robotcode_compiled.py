@@ -387,7 +387,7 @@ def test_the_python_of_the_answer_to_practice_runs_in_simulation(tmp_path):
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
 
-    ran = bench.run(tmp_path / "example_subsystem.py", "ExampleSubsystem")
+    ran = bench.run_sysid_routine(tmp_path / "example_subsystem.py", "ExampleSubsystem")
     pressed = bench.press_buttons(tmp_path / "robotcontainer.py", "RobotContainer")
 
     assert ran.outcome is RunOutcome.RAN, ran.said

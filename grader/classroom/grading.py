@@ -102,7 +102,7 @@ def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
 
 
 def make_ungraded_record(job: GradingJob, name: str, reason: str) -> Record:
-    """The record of an exercise whose grading came to no end.
+    """The record of an exercise whose grading did not end.
 
     Args:
         job: the student's.

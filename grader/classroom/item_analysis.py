@@ -25,7 +25,7 @@ class ItemStatistics:
         share: mean share of the points; NaN if nobody tried.
         discrimination: correlation of its points with those of everything else; None where it says
             nothing: too few students, or all alike.
-        misconceptions: code -> how many were told of it, most frequent first.
+        misconceptions: code -> how many students showed it, most frequent first.
         wrong: a wrong answer as it was given -> how often, only what occurred more than once.
     """
 
@@ -86,7 +86,7 @@ def summarize_exercises(students: Sequence[GradedStudent]) -> tuple[ExerciseStat
 
 
 def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, int], ...]:
-    """Code -> how many students were told of it, most frequent first."""
+    """Code -> how many students showed it, most frequent first."""
     return _rank_texts(
         code
         for one in students
@@ -132,7 +132,7 @@ def _analyze_item(
 
 
 def _correlate(one: Sequence[float], other: Sequence[float]) -> float | None:
-    """Pearson's; None where it cannot be told."""
+    """Pearson's correlation; None if it is undefined."""
     if len(one) < FEWEST:
         return None
     mean_one, mean_other = fmean(one), fmean(other)

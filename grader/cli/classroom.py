@@ -166,7 +166,7 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
 
 
 def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
-    """Whether students' code is run: as told, else where it does no harm; says what that means."""
+    """Whether students' code is run: as chosen, else where it is safe; prints what that means."""
     from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
 
     if run is False or not any(one.runs_code for one in asked):
@@ -195,7 +195,7 @@ def _run(
     from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import count_available_cores  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     store = ResultStore(out)
@@ -212,7 +212,8 @@ def _run(
 
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_class(
-                work, left, store, processes=processes or available_cores() + 1, cluster=cluster,
+                work, left, store, cluster=cluster,
+                processes=processes or count_available_cores() + 1,
                 say=say, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:

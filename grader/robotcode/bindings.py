@@ -36,7 +36,7 @@ from grader.robotcode.factories import find_factories, is_private
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Node, SourceSpan
-from grader.robotcode.name_resolution import Method, last_name, method_name
+from grader.robotcode.name_resolution import Method, get_last_name, get_method_name
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.triggers import TriggerKind, TriggerPart, Triggers
@@ -205,15 +205,15 @@ class _Reader:
             return node.items
         if not isinstance(node, Call):
             return ()
-        if last_name(node.target) == "zip":
+        if get_last_name(node.target) == "zip":
             columns = [
                 self._items(resolve_bound(several.with_node(arg), self._names)) for arg in node.args
             ]
             return tuple(Items(row[0].place, row) for row in zip(*columns, strict=False))
-        return node.args if last_name(node.target) in {"of", "asList"} else ()
+        return node.args if get_last_name(node.target) in {"of", "asList"} else ()
 
     def _call(self, seen: BoundNode, call: Call, way: _Way) -> None:
-        name = method_name(call)
+        name = get_method_name(call)
         functions = resolve_call(seen, self._names)
         if not functions and name in CHOOSERS:
             self._chosen(seen, call)
@@ -255,7 +255,7 @@ class _Reader:
         """The method that a node calls while the program starts; empty in a lambda."""
         found = resolve_bound(seen.with_node(owner), self._names).node
         later = any(not one.name for one in seen.scope.functions)
-        return method_name(found) if isinstance(found, Call) and not later else ""
+        return get_method_name(found) if isinstance(found, Call) and not later else ""
 
     def _hinder_all(self, lost: Hindrance) -> None:
         """Every binding that the method which is gone through has made gets a hindrance."""
@@ -275,7 +275,7 @@ class _Reader:
         command = seen.with_node(call.all_args[-1])
         runs = self._commands.find_tests(command)
         line = call.target.place.line
-        said = f"{last_name(call.target)}({command.node.place.text})"
+        said = f"{get_last_name(call.target)}({command.node.place.text})"
         if runs.either or (runs.unclear is not None and not runs.tests):
             self._unread.append(ParseProblem(f"the grader cannot see which test {said} runs", line))
         if runs.either or not runs.tests:
@@ -290,7 +290,7 @@ class _Reader:
         self._bindings.append(
             Binding(
                 runs.tests,
-                Hold.RELEASED if released else HOLDS[method_name(call)],
+                Hold.RELEASED if released else HOLDS[get_method_name(call)],
                 "" if TriggerKind.UNKNOWN in kinds else " + ".join(keys),
                 tuple(dict.fromkeys(controllers)),
                 self._guards(parts, runs, way),

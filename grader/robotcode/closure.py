@@ -22,9 +22,9 @@ from grader.robotcode.name_resolution import (
     find_called_functions,
     find_class,
     find_single_return,
+    get_simple_type_name,
     infer_type,
     infer_type_from,
-    simple_type_name,
 )
 from grader.robotcode.scope import Definition, Scope, find_only_value
 from grader.robotcode.symbol_table import SymbolTable
@@ -47,7 +47,7 @@ class BoundNode:
 
 
 def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
-    """Follow variables, parameters and fields to what they stand for, as far as can be told."""
+    """Resolve variables, parameters and fields to their values, as far as possible."""
     for _ in range(MOST_STEPS):
         node = seen.node
         if isinstance(node, Cast):
@@ -112,11 +112,13 @@ def enter_call(seen: BoundNode, method: Method) -> BoundNode:
 def infer_bound_class(seen: BoundNode, names: SymbolTable) -> str:
     """The class of an object, by its own name; empty if unknown."""
     found = infer_type(seen.node, seen.scope, names)
-    return simple_type_name(found or infer_type_from(tuple(find_definitions(seen, names)), names))
+    return get_simple_type_name(
+        found or infer_type_from(tuple(find_definitions(seen, names)), names)
+    )
 
 
 def is_open_parameter(seen: BoundNode, names: SymbolTable) -> bool:
-    """Whether a name is a parameter that nobody has given anything yet."""
+    """Whether a name is a parameter without an argument so far."""
     if not isinstance(seen.node, Name):
         return False
     found = names.find_local(seen.node.name, seen.scope)
@@ -124,7 +126,7 @@ def is_open_parameter(seen: BoundNode, names: SymbolTable) -> bool:
 
 
 def find_bound_return(inside: BoundNode) -> BoundNode | None:
-    """What the body of a function returns; None if that may be one of several."""
+    """The value that a function's body returns; None if there may be several."""
     function = inside.node
     returned = find_single_return(function) if isinstance(function, Function) else None
     return None if returned is None else inside.with_node(returned)

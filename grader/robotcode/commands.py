@@ -34,12 +34,12 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     find_called_functions,
-    last_name,
+    get_last_name,
+    get_method_name,
     list_returned_nodes,
-    method_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import DIRECTIONS, enum_constant
+from grader.robotcode.vocabulary import DIRECTIONS, normalize_enum_constant
 
 DEEPEST = 12  # methods and compositions one inside the other
 KIND = re.compile(r"(quasi)|(dynamic)", re.IGNORECASE)
@@ -128,7 +128,7 @@ class CommandReader:
         return bool(find_called_functions(call, seen.scope, self._names))
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> TestsRun:
-        name = method_name(call)
+        name = get_method_name(call)
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             inner = enter_call(seen, functions[0])
@@ -186,7 +186,7 @@ class CommandReader:
         condition = args[asked : asked + 1]
         second = asked > 1 and bool(args) and not self.find_tests(args[0], depth=depth).tests
         negated = name in EXCEPT or second
-        truth = self._decorators.constant_truth(condition[0]) if condition else None
+        truth = self._decorators.find_constant_truth(condition[0]) if condition else None
         if condition and truth is not None:  # it guards nothing
             if truth is not negated:
                 return found
@@ -201,7 +201,7 @@ class CommandReader:
         """Where the field of a routine is set to null after its declaration."""
         for one in find_definitions(routine, self._names):
             if isinstance(one.value, Null) and one.scope.functions:
-                text = f"{last_name(routine.node)} = {one.value.place.text}"
+                text = f"{get_last_name(routine.node)} = {one.value.place.text}"
                 yield Hindrance(HindranceKind.EMPTIED, text)
 
     def _by_name(self, seen: BoundNode, name: str, args: tuple[Node, ...]) -> TestsRun:
@@ -226,7 +226,7 @@ class CommandReader:
         if is_open_parameter(seen, self._names):
             return "any"
         if isinstance(node, Name | Member):
-            word = enum_constant(node.name)
+            word = normalize_enum_constant(node.name)
             return word if word in DIRECTIONS else ""
         return ""
 

@@ -28,7 +28,7 @@ from grader.robotcode.ir import (
     Operation,
     Return,
 )
-from grader.robotcode.name_resolution import method_name
+from grader.robotcode.name_resolution import get_method_name
 from grader.robotcode.symbol_table import SymbolTable
 
 DEEPEST = 12  # conditions made of conditions
@@ -95,7 +95,7 @@ class TruthFolder:
         if functions:
             only = len(functions) == 1
             return self._returned(enter_call(seen, functions[0]), depth) if only else None
-        name = method_name(call)
+        name = get_method_name(call)
         args = call.all_args
         if name in WRAPPERS:
             return self.fold(seen.with_node(args[-1]), depth=depth) if args else None

@@ -23,7 +23,7 @@ from grader.robotcode.closure import BoundNode, resolve_bound, resolve_call
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.ir import Call, Function, Member, Node
-from grader.robotcode.name_resolution import method_name
+from grader.robotcode.name_resolution import get_method_name
 from grader.robotcode.symbol_table import SymbolTable
 
 WHOLE = 10.0  # [s] a test's own timeout, in WPILib's defaults and in the exercises
@@ -43,7 +43,7 @@ class Decorators:
         self._measures = measures
         self._truth = TruthFolder(names, measures)
 
-    def constant_truth(self, condition: BoundNode) -> bool | None:
+    def find_constant_truth(self, condition: BoundNode) -> bool | None:
         """The constant value of a condition; None if it may change."""
         return self._truth.fold(condition)
 
@@ -103,14 +103,14 @@ class Decorators:
         return None if lasts >= WHOLE else make_hindrance(HindranceKind.CUT, "", node)
 
     def _duration(self, seen: BoundNode) -> float | None:
-        """How long a command lasts [s]; None if it cannot be told."""
+        """How long a command lasts [s]; None if unknown."""
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Function):  # a function that runs once
             return 0.0
         if not isinstance(node, Call) or resolve_call(seen, self._names):
             return None
-        name, args = method_name(node), node.all_args
+        name, args = get_method_name(node), node.all_args
         if name in INSTANT | ENDLESS:
             return 0.0 if name in INSTANT else math.inf
         if name in WAITING:

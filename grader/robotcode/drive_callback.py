@@ -11,10 +11,10 @@ from grader.robotcode.ir import Call, Element, Member, Name, Node, Self
 from grader.robotcode.motors import list_motor_names
 from grader.robotcode.name_resolution import (
     find_class,
+    get_last_name,
+    get_method_name,
+    get_simple_type_name,
     infer_type,
-    last_name,
-    method_name,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -28,14 +28,14 @@ from grader.robotcode.vocabulary import (
     SILENT,
     STOPS,
     WITHOUT_MODE,
-    enum_constant,
+    find_request_output,
     is_motor,
-    request_output,
+    normalize_enum_constant,
 )
 
 
 class DriveTrace(CallbackInterpreter):
-    """Follows the drive callback and notes every command to a motor.
+    """Interprets the drive callback and records every command to a motor.
 
     Args:
         names: the names of the program.
@@ -51,13 +51,13 @@ class DriveTrace(CallbackInterpreter):
         self.calls: list[DriveCall] = []
 
     def entry_count(self) -> int:
-        """How many commands have been noted."""
+        """How many commands have been recorded."""
         return len(self.calls)
 
-    def note_agreed_call(
+    def note_ambiguous_call(
         self, call: Call, receiver: Value | None, ways: Sequence[Callable[[], Value]], at: Value
     ) -> Value | None:
-        """Note one command where all classes that a call may run in command their motors alike."""
+        """Record one command if all classes that a call may run in command their motors alike."""
         before = [*self.calls], dict(self.stored), dict(self.unread)
         outcomes = []
         for way in ways:
@@ -69,9 +69,9 @@ class DriveTrace(CallbackInterpreter):
             return None
         command = replace(
             next(iter(first.values())),
-            method=last_name(call.target),
+            method=get_last_name(call.target),
             text=call.place.text,
-            line=self.line_of(call),
+            line=self.find_line_of(call),
         )
         self.calls += [replace(command, motor=motor) for motor in self._motors(receiver, at)]
         return at
@@ -79,8 +79,8 @@ class DriveTrace(CallbackInterpreter):
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
-        """Note a command to a motor, or a call that may be one."""
-        method = method_name(call)
+        """Record a command to a motor, or a call that may be one."""
+        method = get_method_name(call)
         of_motor = receiver is not None and self._is_motor(receiver)
         if not of_motor and any(map(self._is_motor, args)):
             self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
@@ -97,7 +97,7 @@ class DriveTrace(CallbackInterpreter):
         self, call: Call, receiver: Value | None, args: list[Value], at: Value, *, of_motor: bool
     ) -> Value | None:
         """Note a command to what is, or may be, a motor; None if it is no command."""
-        method = method_name(call)
+        method = get_method_name(call)
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
         if method in STOPS and of_motor:
@@ -118,8 +118,8 @@ class DriveTrace(CallbackInterpreter):
             mode = next(filter(None, map(_mode, args)), None)
             return WITHOUT_MODE[method] if mode is None else mode
         if method in BY_REQUEST and args:
-            type_ = simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
-            return request_output(type_)
+            type_ = get_simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
+            return find_request_output(type_)
         return COMMANDS.get(method, Output.UNKNOWN)
 
     def _note(self, call: Call, receiver: Value | None, output: Output, sent: Value) -> None:
@@ -129,12 +129,12 @@ class DriveTrace(CallbackInterpreter):
             self.calls.append(
                 DriveCall(
                     motor=motor,
-                    method=last_name(call.target),
+                    method=get_last_name(call.target),
                     output=output,
                     uses_parameter=sent.carries,
                     scaled=sent.is_scaled,
                     text=call.place.text,
-                    line=self.line_of(call),
+                    line=self.find_line_of(call),
                     negative=sent.factor is not None and sent.factor < 0,
                     condition=self.condition,
                 )
@@ -161,7 +161,7 @@ class DriveTrace(CallbackInterpreter):
         if receiver.carries is not False or not self._is_variable(origin, receiver.scope):
             return False
         type_ = infer_type(origin, receiver.scope, self.names)
-        known = is_motor(type_) or simple_type_name(type_) in GROUPS | DRIVES
+        known = is_motor(type_) or get_simple_type_name(type_) in GROUPS | DRIVES
         if known or not type_ or find_class(origin, receiver.scope, self.names) is not None:
             return True
         return named or method in BY_MODE - {"set"}  # much can be set that is no motor
@@ -188,7 +188,7 @@ class DriveTrace(CallbackInterpreter):
                 return bool(self.names.find_local(root.name, scope))
         if isinstance(node, Name) and node.name in brought:
             return bool(self.names.find_local(node.name, scope))
-        named = last_name(node).lstrip("_")  # in any script: most have no capitals
+        named = get_last_name(node).lstrip("_")  # in any script: most have no capitals
         return isinstance(node, Call) or (bool(named) and not named[:1].isupper())
 
 
@@ -200,7 +200,7 @@ def _kind(call: DriveCall) -> tuple[Output, bool | None, bool | None, bool, str]
 def _mode(value: Value) -> Output | None:
     """The control mode that an argument names, if it is one."""
     return (
-        MODES.get(enum_constant(last_name(value.origin)))
+        MODES.get(normalize_enum_constant(get_last_name(value.origin)))
         if isinstance(value.origin, Member)
         else None
     )

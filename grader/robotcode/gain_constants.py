@@ -13,10 +13,15 @@ from grader.robotcode.controller_gains import RATIO, GainSetting, find_gain_sett
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
-from grader.robotcode.name_resolution import MOST_STEPS, Placed, find_constructed_class, last_name
+from grader.robotcode.name_resolution import (
+    MOST_STEPS,
+    Placed,
+    find_constructed_class,
+    get_last_name,
+)
 from grader.robotcode.scope import Scope, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
 # kS, K_S, ks, kSVolts, kvVoltSecondsPerMeter; not kStatic, kAngle.
@@ -37,7 +42,7 @@ class GainConstant:
         gain: ``kS``, ``kV``, ``kA``, ``kG`` or ``kP``.
         name: as written.
         holder: the class it is in; empty at the top of a file.
-        value: the number; None if it cannot be told.
+        value: the number; None if unknown.
         text: what it is given, as written.
         comment: the comments beside it and directly above it.
         line: its line, from 1.
@@ -58,7 +63,7 @@ class Argument:
 
     Args:
         gain: whose constant it is made of; empty if of none, or of several.
-        value: the number; None if it cannot be told.
+        value: the number; None if unknown.
         text: as written.
     """
 
@@ -118,7 +123,7 @@ class DeployFacts:
         return next((one for one in self.constants if one.gain == gain), None)
 
 
-def gain_from_name(name: str) -> str:
+def find_gain_of_name(name: str) -> str:
     """The gain that a name stands for; empty if for none."""
     found = GAIN.fullmatch(name.lstrip("_").removeprefix("m_"))
     return f"k{found[1].upper()}" if found else ""
@@ -181,11 +186,11 @@ class _Reader:
             mine = isinstance(target, Member) and isinstance(target.owner, Self)
             if not (mine or (isinstance(target, Name) and not scope.functions)):
                 continue
-            gain = gain_from_name(last_name(target))
+            gain = find_gain_of_name(get_last_name(target))
             if gain:
                 yield GainConstant(
                     gain,
-                    last_name(target),
+                    get_last_name(target),
                     scope.classes[-1].name if scope.classes else "",
                     self._value(node.value, scope),
                     node.value.place.text,
@@ -205,7 +210,7 @@ class _Reader:
             kind = made.partition("Feedforward")[0] + "Feedforward"
             words = ARGUMENTS[kind]
             given = dict(zip(words, call.args, strict=False))
-            given |= {gain_from_name(java_spelling(word)): node for word, node in call.named}
+            given |= {find_gain_of_name(spell_as_java(word)): node for word, node in call.named}
             arguments = {
                 word: self._argument(node, scope) for word, node in given.items() if word in words
             }
@@ -270,7 +275,7 @@ class _Reader:
                 continue
             if not isinstance(node, Name | Member):
                 break
-            gain = gain_from_name(node.name)
+            gain = find_gain_of_name(node.name)
             if gain:
                 return gain
             one = self._only_value(node, scope)
@@ -292,7 +297,7 @@ class _Reader:
         for call, scope in calls:
             for node in call.all_args:
                 for part in iter_nodes(node, but=(Member,)):
-                    if isinstance(part, Name | Member) and gain_from_name(part.name):
+                    if isinstance(part, Name | Member) and find_gain_of_name(part.name):
                         one = self._only_value(part, scope)
                         if one is not None:
                             yield one[1].module

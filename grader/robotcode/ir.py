@@ -33,7 +33,7 @@ class SourceSpan:
 
     @property
     def last_line(self) -> int:
-        """The line it ends on."""
+        """The line on which it ends."""
         return self.line + self.source.count(b"\n", self.start, self.end)
 
     @property
@@ -171,7 +171,7 @@ class Call(Node):
 
     @property
     def owner(self) -> Node | None:
-        """What a method is called on; None for a bare function."""
+        """The object on which a method is called; None for a bare function."""
         return self.target.owner if isinstance(self.target, Member) else None
 
 
@@ -227,7 +227,7 @@ class Loop(Node):
 
 @dataclass(frozen=True, eq=False)
 class FunctionParameter(Node):
-    """One parameter of a function; ``type`` as written, empty if not; ``default`` if it has one."""
+    """One parameter of a function; ``type`` as written, or empty; ``default`` or None."""
 
     name: str
     type: str

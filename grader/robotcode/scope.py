@@ -38,7 +38,7 @@ class Scope:
         return tuple(Scope(self.module, self.classes[:count]) for count in counts)
 
     def within(self, node: Node) -> "Scope":
-        """The scope of what is inside a node that stands in this one."""
+        """The scope inside a node of this scope."""
         if isinstance(node, Class):
             return Scope(self.module, (*self.classes, node))
         if isinstance(node, Function):

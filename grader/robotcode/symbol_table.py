@@ -112,7 +112,7 @@ class SymbolTable:
         return found[:MOST_CLASSES]
 
     def find_implementations(self, home: Scope) -> tuple[Scope, ...]:
-        """The classes of these files that say they implement or extend a class, themselves."""
+        """The classes of these files that directly implement or extend a class."""
         owner = home.classes[-1]
         if owner not in self._below:
             self._below[owner] = ()

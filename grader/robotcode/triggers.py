@@ -17,7 +17,7 @@ from grader.robotcode.button_vocabulary import (
     TEST_MODE,
     UNCHANGED,
     WRAPPERS,
-    button_name,
+    find_button_name,
 )
 from grader.robotcode.closure import (
     BoundNode,
@@ -43,11 +43,11 @@ from grader.robotcode.ir import (
     Return,
 )
 from grader.robotcode.name_resolution import (
-    last_name,
-    method_name,
+    get_last_name,
+    get_method_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 DEEPEST = 12  # triggers made of triggers
 LONGEST_DEBOUNCE = 0.5  # [s] longer, and whoever holds the button waits in vain
@@ -122,7 +122,7 @@ class Triggers:
         if isinstance(node, Call):
             found = self._call(seen, node, depth + 1)
             kept = node is not before.node and isinstance(before.node, Name | Member)
-            asked = last_name(node.target).lower().startswith("is")
+            asked = get_last_name(node.target).lower().startswith("is")
             return tuple(map(_kept, found)) if kept and asked else found
         if isinstance(node, Function):
             return self._returned(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
@@ -141,7 +141,7 @@ class Triggers:
         node = seen.node
         if isinstance(node, Name) and node.name in seen.given:
             return self.find_controller(seen.given[node.name])
-        if isinstance(node, Call) and method_name(node) == "getHID":
+        if isinstance(node, Call) and get_method_name(node) == "getHID":
             return self.find_controller(seen.with_node(node.owner or node))
         if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(
             infer_bound_class(seen, self._names)
@@ -151,7 +151,7 @@ class Triggers:
         return f"port {port}" if port is not None else node.name
 
     def find_port(self, seen: BoundNode) -> int | None:
-        """The port a controller is made with; None if it cannot be told."""
+        """The port a controller is made with; None if unknown."""
         made = resolve_bound(seen, self._names)
         if not isinstance(made.node, Call):
             return None
@@ -168,7 +168,7 @@ class Triggers:
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[TriggerPart, ...]:
         self.asked.add(call)
-        name, args = method_name(call), call.all_args
+        name, args = get_method_name(call), call.all_args
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             return self._returned(enter_call(seen, functions[0]), call, depth)
@@ -225,7 +225,7 @@ class Triggers:
 
     def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[TriggerPart, ...]:
         controller = self.find_controller(owner)
-        word = button_name(method)
+        word = find_button_name(method)
         if word in {"button", "raw"} and args:
             word = self._numbered(args[0], owner)
             args = []
@@ -249,7 +249,7 @@ class Triggers:
         return text
 
     def _argument(self, seen: BoundNode) -> str:
-        """A button's number, or its name; empty if it cannot be told."""
+        """A button's number, or its name; empty if unknown."""
         found = self._measures.fold(seen.node, seen.scope)
         seen = resolve_bound(seen, self._names)
         node = seen.node
@@ -262,7 +262,7 @@ class Triggers:
         if isinstance(node, Call) and isinstance(node.target, Name | Member):
             node = node.target
         if isinstance(node, Member):
-            return button_name(node.name)
+            return find_button_name(node.name)
         return ""
 
     def _operation(
@@ -331,8 +331,8 @@ class Triggers:
         call = None if text else self._as_call(seen, node)
         if call is not None:
             return self._call(seen.with_node(call), call, depth)
-        word = java_spelling(last_name(node))
-        owner = last_name(node.owner) if isinstance(node, Member) else ""
+        word = spell_as_java(get_last_name(node))
+        owner = get_last_name(node.owner) if isinstance(node, Member) else ""
         if owner in MODES_OF or word.lower().startswith("is"):
             if TEST_MODE.fullmatch(word):
                 by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""

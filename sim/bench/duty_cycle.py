@@ -32,17 +32,17 @@ def simulate_duty_cycle(
     rng: np.random.Generator,
     battery: Battery = HEALTHY,
 ) -> Log:
-    """Run a routine whose drive callback says ``motor.set(volts / 12)``, without any limit.
+    """Run a routine that sets a duty cycle, ``motor.set(volts / 12)``; no current limit.
 
     Args:
         mechanism: what is tested.
-        routine: which voltages are asked for.
+        routine: the commanded voltages.
         rng: the source of noise and jitter.
         battery: what feeds it.
 
     Returns:
         The log with the voltage that really reached the motors, and the battery's as
-        ``bus_voltage``. What was asked for is 12 V times the first over the second. A battery
+        ``bus_voltage``. The command was 12 V times the first over the second. A battery
         that falls below ``LOWEST`` is a doubt: here it goes on.
 
     Raises:

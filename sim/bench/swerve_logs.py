@@ -40,7 +40,7 @@ def record_modules(
     rng: np.random.Generator,
     radii: Mapping[str, float] | None = None,
 ) -> dict[str, Log]:
-    """The log of each module while the robot goes straight, in meters of a new wheel.
+    """The log of each module of a straight drive, in meters by a new wheel's radius.
 
     Args:
         drive: what is tested.
@@ -131,7 +131,7 @@ def _tests(time: Array, test: str) -> list[tuple[float, str]]:
 
 @dataclass(frozen=True)
 class Spin:
-    """What is read after a slow spin on the spot.
+    """Readings of gyro and motors after a slow spin on the spot.
 
     Args:
         turned: [rad] by the robot, as the gyro has it.
@@ -169,7 +169,7 @@ def record_spin(
 
 @dataclass(frozen=True, eq=False)
 class WallPush:
-    """A push at a wall with a voltage that rises slowly.
+    """A recorded push at a wall, with a voltage that rises slowly.
 
     Args:
         time: (n,) [s].

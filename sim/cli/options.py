@@ -36,13 +36,13 @@ def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON for other programs.")
 
 
-def several_options(*options: Option) -> Option:
-    """One decorator that adds several options to a command, in their order."""
+def combine_options(*options: Option) -> Option:
+    """Decorator that adds several options to a command, in their order."""
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
 # How to read a log.
-reading_options = several_options(
+reading_options = combine_options(
     click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
     click.option(
         "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
@@ -54,7 +54,7 @@ reading_options = several_options(
     click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
 )
 # Which mechanism, and how to put a velocity right that was logged wrongly.
-velocity_options = several_options(
+velocity_options = combine_options(
     click.option(
         "--pick",
         type=click.IntRange(min=1),
@@ -125,7 +125,7 @@ def read_logs_together(
 
 @dataclass(frozen=True)
 class PartReader:
-    """Reads the files of one robot as logs of alike parts, by name.
+    """Reads the files of a robot, one log for each mechanism, side or motor.
 
     Args:
         units: of the positions in them; None believes the files.
@@ -144,7 +144,7 @@ class PartReader:
     pick: int | None = None
 
     def read(self, files: Sequence[Path]) -> "Mapping[str, Log]":
-        """The parts of all files together.
+        """The logs in all files, by the name of the mechanism, side or motor.
 
         Raises:
             Refusal: a file cannot be read, or one measures a length and another an angle.
@@ -154,7 +154,7 @@ class PartReader:
         return list_parts([(file, self.read_file(file)) for file in files])
 
     def read_file(self, file: Path) -> "dict[str, Log]":
-        """The parts of one file.
+        """The logs in one file, by the name of the mechanism, side or motor.
 
         Raises:
             Refusal: the file cannot be read.

@@ -31,7 +31,7 @@ _Four: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class GainSchedule:
-    """What a filter does at each sample of some runs.
+    """Kalman gain and innovation scale at each sample of some runs.
 
     Args:
         gains: (n, 4) the gain at each sample, row by row.
@@ -46,7 +46,7 @@ class GainSchedule:
 
 @dataclass(frozen=True, eq=False)
 class KalmanFilter:
-    """A filter in its steady state, and what it needs where a voltage is known less well.
+    """A steady-state Kalman filter, and what it needs where a voltage is uncertain.
 
     Args:
         steady: (2, 2) gain, from innovations to corrections of position and velocity.
@@ -137,7 +137,7 @@ OPEN_LOOP = KalmanFilter(
 """A filter that corrects nothing: its predictions are a simulation."""
 
 
-def steady_state_filter(
+def make_steady_state_filter(
     model: Model, *, noise: SensorNoise, process_noise: float, period: float
 ) -> KalmanFilter:
     """The Kalman filter of position and velocity in its steady state.

@@ -24,10 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, steady_state_filter
+from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, make_steady_state_filter
 from sim.estimation.measurements import SensorNoise, estimate_noise
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.random_friction import friction_prior, friction_sd
+from sim.estimation.random_friction import compute_friction_prior, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
 from sim.physics.engine import RunBatch, Track, filter_runs
@@ -87,9 +87,8 @@ class PredictionErrorProblem:
         noise: of their samples, estimated without a model.
         max_process_noise: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
-        lag_sd: [s] standard deviation of a run's own lag about that of all; 0 where all are alike.
-        backlash_allowance: [unit] by which free play that no model here describes may shift a
-            start.
+        lag_sd: [s] standard deviation of the runs' lags about their mean; 0 if they are equal.
+        backlash_allowance: [unit] how far unmodeled free play may shift a run's start.
         priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
@@ -109,7 +108,7 @@ class PredictionErrorProblem:
         varying_friction: bool = True,
         backlash_allowance: float = 0.0,
     ) -> "PredictionErrorProblem":
-        """The problem of these runs, with the noise that they show."""
+        """The problem of these runs, their noise estimated from their samples."""
         noise = estimate_noise(tuple(record.measurements for record in records))
         return cls(
             tuple(records),
@@ -120,14 +119,14 @@ class PredictionErrorProblem:
 
     @cached_property
     def run_edges(self) -> NDArray[np.intp]:
-        """(runs + 1,) where each run begins among all samples."""
+        """(runs + 1,) index of each run's first sample among all, and their number."""
         return np.concatenate(
             ([0], np.cumsum([record.measurements.time.size for record in self.records]))
         )
 
     @cached_property
     def batch(self) -> RunBatch:
-        """The runs as the engine follows them."""
+        """The runs as contiguous arrays for the engine."""
         seen = [record.measurements for record in self.records]
         return RunBatch(
             self.run_edges.astype(np.float64),
@@ -178,19 +177,19 @@ class PredictionErrorProblem:
 
     @cached_property
     def compared_counts(self) -> tuple[int, int, int]:
-        """How many positions are compared, how many velocities, and how many pairs; at least 1."""
+        """Numbers of compared positions, velocities and pairs; each at least 1."""
         x, v = ~self.ignored_readings.T
         positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
         return max(positions, 1), max(velocities, 1), max(both, 1)
 
     @cached_property
     def moving(self) -> NDArray[np.bool_]:
-        """(n,) samples at which it moved."""
+        """(n,) whether the mechanism moves at each sample."""
         return np.concatenate([record.measurements.moving for record in self.records])
 
     @cached_property
     def sample_count(self) -> int:
-        """How many samples are compared."""
+        """Number of compared samples."""
         return int(np.count_nonzero(~self.ignored_readings.all(axis=1)))
 
     @cached_property
@@ -216,10 +215,10 @@ class PredictionErrorProblem:
 
     @property
     def initial_nuisance(self) -> RunNuisance:
-        """The runs as their first samples show them."""
+        """Nuisance parameters to start from: no offsets."""
         return RunNuisance.at_first_samples(len(self.records))
 
-    def priors_of(self, structure: ModelStructure) -> dict[str, float]:
+    def select_priors(self, structure: ModelStructure) -> dict[str, float]:
         """The priors of those parameters that a search of this structure moves."""
         return {name: sd for name, sd in self.priors.items() if name in structure.searched_names}
 
@@ -228,7 +227,7 @@ class PredictionErrorProblem:
     def simulate(
         self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter = OPEN_LOOP
     ) -> Track:
-        """All runs, one after another.
+        """Simulate all runs, one after another.
 
         Args:
             model: what moves.
@@ -323,16 +322,18 @@ class PredictionErrorProblem:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
-            kalman_filter = steady_state_filter(
+            kalman_filter = make_steady_state_filter(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
             innovations = self.predict_errors(model, nuisance, kalman_filter)
-            cov = self.covariance(innovations)
+            cov = self.compute_covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
-            cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            cost = self._cost(cov) + own + compute_friction_prior(values, nuisance)
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
-            cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
+            cost += sum(
+                (values[name] / sd) ** 2 for name, sd in self.select_priors(structure).items()
+            )
             cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
@@ -342,8 +343,8 @@ class PredictionErrorProblem:
 
     # -- compare ---------------------------------------------------------------------------------
 
-    def covariance(self, innovations: Array) -> Array:
-        """(2, 2) covariance of innovations, never quite zero."""
+    def compute_covariance(self, innovations: Array) -> Array:
+        """(2, 2) covariance of innovations, kept positive definite."""
         x, v = innovations.T.copy()
         positions, velocities, both = self.compared_counts
         xx, vv = float(x @ x) / positions, float(v @ v) / velocities
@@ -371,7 +372,7 @@ class PredictionErrorProblem:
         near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
         return np.asarray((near @ point.whitening.T).ravel())
 
-    def jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
+    def compute_jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
         """(2 n, searched + nuisance) derivatives of the whitened innovations.
 
         With respect to each parameter, then to the start of each run, then, where they vary between
@@ -402,41 +403,43 @@ class PredictionErrorProblem:
     def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
         names = point.structure.searched_names
         if fine:
-            table = self.jacobian(point).copy(order="F")
-            table[:, : len(names)] = self.parameter_jacobian(point, names, known=table)
+            table = self.compute_jacobian(point).copy(order="F")
+            table[:, : len(names)] = self.compute_parameter_jacobian(point, names, known=table)
             return table
         model = point.structure.model(point.values)
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         starts = self.predict_errors(model, moved, point.kalman_filter)
         starts = (starts - point.innovations) / self.noise.position
         parts = [
-            self.parameter_jacobian(point, names),
+            self.compute_parameter_jacobian(point, names),
             self._one_column_per_run(self.whiten(point, starts)),
         ]
         if self.varying_friction:
-            parts.append(self.friction_jacobian(point))
+            parts.append(self.compute_friction_jacobian(point))
         if self.lag_sd:
-            parts.append(self.lag_jacobian(point))
+            parts.append(self.compute_lag_jacobian(point))
         return np.concatenate([part.T for part in parts]).T
 
     def extend_jacobian(self, point: Estimate, known: Array) -> None:
-        """Keep the fine Jacobian of an estimate whose last effects are absent, from that without.
+        """Store the Jacobian of an estimate with absent effects, extended from that without them.
 
         Args:
             point: the estimate.
             known: (2 n, others + nuisance) the fine Jacobian at it in a structure without them.
         """
         every, parameters = point.structure.searched_names, point.structure.parameters
-        nuisance = len(self.records) * len(self.nuisance_priors(point))
+        nuisance = len(self.records) * len(self.list_nuisance_priors(point))
         others = known.shape[1] - nuisance
         # how an effect looks changes nothing as long as there is none of it
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
         table = np.zeros((len(every) + nuisance, len(known)))
         table[:others], table[len(every) :] = known.T[:others], known.T[others:]
-        table[[every.index(name) for name in sizes]] = self.parameter_jacobian(point, sizes).T
+        table[[every.index(name) for name in sizes]] = self.compute_parameter_jacobian(
+            point, sizes
+        ).T
         self._keep_jacobian(point, {True: table.T})
 
-    def parameter_jacobian(
+    def compute_parameter_jacobian(
         self, point: Estimate, names: Sequence[str], *, known: Array | None = None
     ) -> Array:
         """(2 n, names) derivatives of the whitened innovations by some parameters.
@@ -465,16 +468,16 @@ class PredictionErrorProblem:
                     columns[place] = one if value is None else 0.5 * (one + columns[place])
         return columns.T
 
-    def friction_jacobian(self, point: Estimate) -> Array:
+    def compute_friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
-        by = np.full(len(self.records), friction_sd(point.values))
+        by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
             [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
         )
         return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
 
-    def lag_jacobian(self, point: Estimate) -> Array:
+    def compute_lag_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
         by = LAG_STEP * self.lag_sd
         later = point.nuisance.add_lag(np.full(len(self.records), by))
@@ -482,11 +485,11 @@ class PredictionErrorProblem:
         moved = self.predict_errors(model, later, point.kalman_filter)
         return self._one_column_per_run(self.whiten(point, (moved - point.innovations) / by))
 
-    def nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
+    def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
         """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
         priors = [(self.start_sd, point.nuisance.position_offset)]
         if self.varying_friction:
-            priors.append((friction_sd(point.values), point.nuisance.friction_offset))
+            priors.append((get_friction_sd(point.values), point.nuisance.friction_offset))
         if self.lag_sd:
             priors.append((self.lag_sd, point.nuisance.lag_offset))
         return priors
@@ -499,7 +502,7 @@ class PredictionErrorProblem:
         """
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        size = max(structure.parameter_scale(name, value), self.priors.get(name, 0.0))
+        size = max(structure.find_parameter_scale(name, value), self.priors.get(name, 0.0))
         step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
         if structure.clamp_value(name, above) != above:

@@ -25,7 +25,7 @@ UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what
 
 @dataclass(frozen=True, eq=False)
 class JointJacobian:
-    """What of any innovations an estimate's parameters and nuisance parameters can take up.
+    """Projection of innovations onto the Jacobian of parameters and nuisance parameters.
 
     Args:
         columns: (2 n, k) the Jacobian, its prior rows left out.
@@ -43,26 +43,26 @@ class JointJacobian:
         return np.asarray(self.columns @ self.root)
 
     def project(self, white: Array) -> Array:
-        """(k,) what of whitened innovations (2 n,) the parameters take up."""
+        """(k,) coordinates of whitened innovations (2 n,) in the Jacobian's column space."""
         return self._take(white) + self.prior
 
     def _take(self, white: Array) -> Array:
         return np.asarray(self.root.T @ (self.columns.T @ white))
 
-    def residual_square(self, white: Array) -> float:
-        """Sum of squares that is left once they have, up to a constant."""
+    def compute_residual_square(self, white: Array) -> float:
+        """Sum of squares with the Jacobian's columns projected out, up to a constant."""
         taken = self.project(white)
         return float(white @ white - taken @ taken)
 
-    def improvement(self, white: Array, columns: Array, sd: float) -> float:
-        """[of -2 log L] gain of further columns (2 n, m), whose priors have this deviation."""
+    def compute_improvement(self, white: Array, columns: Array, sd: float) -> float:
+        """Decrease of -2 log L by further columns (2 n, m) with priors of deviation ``sd``."""
         taken = self._take(columns)
         square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
         slope = columns.T @ white - taken.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
-    def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
-        """What is left of a change's product with innovations, and with itself."""
+    def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
+        """Products of a change with innovations and itself, the Jacobian projected out."""
         taken = self._take(change)
         product = float(change @ white - taken @ self.project(white))
         return product, float(change @ change - taken @ taken)
@@ -82,16 +82,19 @@ def append_prior_rows(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> tuple[Array, Array]:
     """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
-    table, rest = problem.jacobian(point, fine=fine), problem.whiten(point, point.innovations)
-    rows, own = prior_rows(problem, point)
+    table, rest = (
+        problem.compute_jacobian(point, fine=fine),
+        problem.whiten(point, point.innovations),
+    )
+    rows, own = make_prior_rows(problem, point)
     return np.vstack([table, rows]), np.concatenate([rest, own])
 
 
-def prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
-    """The rows of the priors in Jacobian and innovations, nuisance parameters first."""
+def make_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
+    """The priors' rows of Jacobian and innovations, nuisance parameters first."""
     runs, names = len(problem.records), point.structure.searched_names
-    nuisance = problem.nuisance_priors(point)
-    known = problem.priors_of(point.structure)
+    nuisance = problem.list_nuisance_priors(point)
+    known = problem.select_priors(point.structure)
     count, columns = runs * len(nuisance), len(names)
     rows = np.zeros((count + len(known), columns + count))
     rows[:count, columns:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
@@ -104,7 +107,7 @@ def prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array,
 def levenberg_marquardt(
     problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
 ) -> Estimate:
-    """Levenberg–Marquardt steps until the gain per step is small; the process noise stays.
+    """The estimate after Levenberg–Marquardt steps, with unchanged process noise.
 
     Args:
         problem: the measurements.
@@ -144,8 +147,8 @@ def _gradient_and_information(
     problem: PredictionErrorProblem, point: Estimate
 ) -> tuple[Array, Array]:
     """(k,) half the gradient of -2 log L by all parameters, and (k, k) their information JᵀJ."""
-    table, rest = problem.jacobian(point), problem.whiten(point, point.innovations)
-    rows, own = prior_rows(problem, point)
+    table, rest = problem.compute_jacobian(point), problem.whiten(point, point.innovations)
+    rows, own = make_prior_rows(problem, point)
     with np.errstate(over="ignore"):  # a value that nothing bears to be moved
         return table.T @ rest + rows.T @ own, table.T @ table + rows.T @ rows
 
@@ -156,7 +159,7 @@ def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
     structure = point.structure
     for column, name in enumerate(structure.searched_names):
         value = point.values[name]
-        by = TINY * structure.parameter_scale(name, value) * np.sign(slope[column])
+        by = TINY * structure.find_parameter_scale(name, value) * np.sign(slope[column])
         free[column] = structure.clamp_value(name, value - by) != value
     return free
 
@@ -181,7 +184,7 @@ def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> E
 
 
 def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest process noise: factors of four, then a parabola."""
+    """The estimate with the likeliest process noise: factors of four, then a parabola."""
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(part: float) -> Estimate:
@@ -209,10 +212,10 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     return min(point, other, key=lambda one: one.cost)
 
 
-def parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
 
-    A combination of parameters that the log says nothing about has a huge error, not none.
+    A combination of parameters that the log does not determine has a huge error, not none.
 
     Args:
         problem: the measurements.

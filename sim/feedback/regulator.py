@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.feedback.linear_quadratic import two_state_regulator
+from sim.feedback.linear_quadratic import design_two_state_regulator
 
 MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself for the input
 
@@ -65,7 +65,7 @@ class Feedback:
     kd: float
 
 
-def allowed_velocity_error(*, ks: float, kv: float) -> float:
+def compute_allowed_velocity_error(*, ks: float, kv: float) -> float:
     """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s].
 
     Args:
@@ -141,7 +141,7 @@ def design_position_loop(
     if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
         k, closed = _scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
         return Feedback(kv * k * closed**loops * preset.output, 0.0)
-    per_position, per_velocity = two_state_regulator(
+    per_position, per_velocity = design_two_state_regulator(
         -kv / ka,
         1.0 / ka,
         period=preset.period,

@@ -25,7 +25,7 @@ SPEC = re.compile(
 
 @dataclass(frozen=True)
 class FaultRequest:
-    """A fault as a person asks for it.
+    """A requested fault: its name, severity, test and time.
 
     Args:
         name: of the fault.
@@ -128,7 +128,7 @@ def contaminate(
 def contaminate_all(
     log: Log, asked: Iterable[FaultRequest], *, rng: np.random.Generator
 ) -> tuple[Log, list[tuple[str, float, LogInterval]]]:
-    """The log with several faults, one after another; of each its name, severity and place."""
+    """The log with several faults, and of each fault its name, severity and interval."""
     where = []
     for one in asked:
         spoilt = contaminate(

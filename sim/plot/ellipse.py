@@ -41,7 +41,7 @@ def plot_ellipses(
     truth: tuple[float, float],
     reach: tuple[float, float],
 ) -> Picture:
-    """Where 95 of 100 fits of two gains fall, for several sets of rows.
+    """95 % confidence ellipses of two gains, for several sets of rows.
 
     Args:
         told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see
@@ -74,7 +74,7 @@ def plot_information_map(
     truth: tuple[float, float],
     reach: tuple[float, float],
 ) -> Picture:
-    """Where in velocity and acceleration the rows lie, and how well two gains follow from them.
+    """Velocity and acceleration of the rows, and the confidence ellipse of two gains.
 
     Args:
         rows: one of the four tests -> its rows.

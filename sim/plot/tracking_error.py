@@ -1,4 +1,4 @@
-"""A chase: a velocity that is asked for, what follows it, and its error."""
+"""Tracking: a target velocity, the velocities that follow it, and their errors."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -54,11 +54,11 @@ def plot_tracking_error(
     unit: str = "m/s",
     title: str = "",
 ) -> Picture:
-    """A target and what followed it, and below it the error of each.
+    """A target and the curves that followed it, with the error of each below.
 
     Args:
         time: (n,) [s].
-        target: (n,) what was asked for.
+        target: (n,) the target.
         followers: name -> (n,) what came of it.
         unit: of all values.
         title: above the picture; may be empty.

@@ -1,4 +1,4 @@
-"""Voltage against velocity: what speed costs, and what it costs to begin."""
+"""Voltage against velocity: the line of kS and kV through the quasistatic tests."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -51,7 +51,7 @@ class _Ramps:
 
 
 def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) -> Picture:
-    """Voltage against velocity of the quasistatic tests, all of it and the part near standstill.
+    """Voltage against velocity of the quasistatic tests, as a whole and near standstill.
 
     The second panel shows the slowest eighth of forward motion; of a mechanism with gravity of both
     directions, because there the two meet standstill at different voltages, kG + kS and kG - kS.

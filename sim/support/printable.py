@@ -25,7 +25,7 @@ def make_printable(text: str) -> str:
 
 
 def list_first(names: Sequence[str], *, most: int, separator: str = ", ") -> str:
-    """The first of many names, and how many more there are."""
+    """Text with the first of many names, and how many more there are."""
     more = f" and {len(names) - most} more" if len(names) > most else ""
     return separator.join(names[:most]) + more
 

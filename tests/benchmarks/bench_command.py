@@ -20,7 +20,7 @@ import psutil
 from bench_fit import log
 
 from sim.io import write
-from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.control import Start, make_start_payload
 
 COMMAND = "from sim.cli import main; main()"
 SIZE = 125_000_000  # [bytes]
@@ -43,7 +43,7 @@ def match_log(path: Path, own: bytes) -> None:
     first = 12 + int.from_bytes(own[8:12], "little")
     pieces = [own[:first]]
     for number, kind in enumerate(OTHERS, FIRST_ID):
-        pieces.append(record(0, start_payload(Start(number, f"NT:/x/{number}", kind, ""))))
+        pieces.append(record(0, make_start_payload(Start(number, f"NT:/x/{number}", kind, ""))))
     loop = [record(n, b" " * LENGTH.get(kind, LONG)) for n, kind in enumerate(OTHERS, FIRST_ID)]
     block = b"".join(loop)
     count = SIZE // len(block)

@@ -52,21 +52,21 @@ __all__ = [
     "is_robotpy_installed",
     "press_buttons",
     "refuse_tampering",
-    "run",
+    "run_sysid_routine",
 ]
 
 SECONDS = 10.0  # [s] a run takes 0.5 s alone on a machine, and several on one that is busy
 
 
 def is_robotpy_installed() -> bool:
-    """Whether RobotPy is here to run code with."""
+    """Whether RobotPy is installed."""
     return all(find_spec(name) is not None for name in ("wpilib", "commands2"))
 
 
-def run(
+def run_sysid_routine(
     path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
 ) -> RunFacts:
-    """Run the SysIdRoutine of a RobotPy file.
+    """Run the SysIdRoutine of one subsystem of a RobotPy file.
 
     Args:
         path: the learner's file.
@@ -83,7 +83,7 @@ def run(
 def press_buttons(
     path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
 ) -> RunFacts:
-    """Press every button of a robot in RobotPy, in test mode and out of it.
+    """Press every button of a RobotPy robot, in test mode and out of it.
 
     Args:
         path: the learner's file.

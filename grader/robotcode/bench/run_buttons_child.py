@@ -58,7 +58,7 @@ class Panel:
         return log_state
 
     def observe(self) -> dict[str, object]:
-        """Press every button; what those did that started a test."""
+        """Press every button; the facts about those that started a test."""
         presses = []
         for testing in (True, False):
             self.named(self.sim, "setTest")(testing)

@@ -43,9 +43,9 @@ from grader.robotcode.name_resolution import (
     find_class,
     find_constructed_class,
     find_methods,
+    get_last_name,
+    get_simple_type_name,
     infer_type,
-    last_name,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
@@ -109,7 +109,7 @@ class _JavaFile:
         self.classes = {node.name for node, _ in self.each(Class)}
         self.methods = frozenset(node.name for node, _ in self.each(Function))
         self.called = {node.target for node, _ in self.each(Call)}
-        self.variables = {last_name(one.target) for one in made}
+        self.variables = {get_last_name(one.target) for one in made}
         self.variables |= {one.name for one, _ in self.each(FunctionParameter)}
         all_of = [_static(one) for one in module.imports if one.name == "*"]
         self.any_member, self.any_class = any(all_of), not all(all_of)  # may be imported by a star
@@ -158,7 +158,7 @@ class _JavaFile:
     def _names_of_2027(self) -> Iterator[ParseProblem]:
         """Names that came with WPILib 2027, in a program that imports the packages before it."""
         for node, scope in self.each(Member):
-            of_mode = node.name in MODES_OF_2027 and last_name(node.owner) in MODES_OF
+            of_mode = node.name in MODES_OF_2027 and get_last_name(node.owner) in MODES_OF
             of_motor = node.name in MOTORS_OF_2027 and is_motor(
                 infer_type(node.owner, scope, self.names)
             )
@@ -179,16 +179,16 @@ class _JavaFile:
                     yield ParseProblem(said, line)
             new = self._name_of_2027(node, scope) if isinstance(node, Member) else ""
             if new:
-                said = f"WPILib 2027 has no {last_name(node)} here."
+                said = f"WPILib 2027 has no {get_last_name(node)} here."
                 yield ParseProblem(f"{said} Did you mean {new}?", line, new)
 
     def _name_of_2027(self, node: Member, scope: Scope) -> str:
         """What a member of an older WPILib is called in 2027; empty if it is no such member."""
         if node.name in BEFORE_2027:
-            type_ = simple_type_name(infer_type(node.owner, scope, self.names))
+            type_ = get_simple_type_name(infer_type(node.owner, scope, self.names))
             own = self.names.find_by_name(type_, scope) is not None
             return BEFORE_2027[node.name] if type_ in PWM_MOTORS and not own else ""
-        of_direction = last_name(node.owner) == "Direction"
+        of_direction = get_last_name(node.owner) == "Direction"
         return DIRECTIONS_BEFORE_2027.get(node.name, "") if of_direction else ""
 
     def _file_name(self) -> Iterator[ParseProblem]:
@@ -205,7 +205,7 @@ class _JavaFile:
         if not any(one.path.startswith(COMMANDS_V3) for one in self.imports):
             return
         for node, scope in self.each(Call):
-            if last_name(node.target) != "run" or len(node.args) != 1:
+            if get_last_name(node.target) != "run" or len(node.args) != 1:
                 continue
             owner = node.target.owner if isinstance(node.target, Member) else Self(node.place)
             given = node.args[0]
@@ -348,8 +348,8 @@ class _JavaFile:
     def _closed(self, scope: Scope) -> bool:
         """Whether all that the classes around inherit is known."""
         return all(
-            simple_type_name(base) in PLAIN
-            or self.names.find_by_name(simple_type_name(base), place) is not None
+            get_simple_type_name(base) in PLAIN
+            or self.names.find_by_name(get_simple_type_name(base), place) is not None
             for home in scope.homes
             for place in self.names.list_base_classes(home)
             for base in place.classes[-1].bases

@@ -17,7 +17,7 @@ from grader.robotcode.compiling.season import (
 )
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annotations__"}
 OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
@@ -136,7 +136,7 @@ def _methods(every: list[ast.AST]) -> Iterator[ParseProblem]:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             name, line = node.func.attr, node.func.end_lineno or node.lineno
             meant = suggest_name(name, METHODS)
-            if meant and name not in own and java_spelling(name) not in METHODS:
+            if meant and name not in own and spell_as_java(name) not in METHODS:
                 yield make_spelling_problem("method", name, meant=meant, line=line)
 
 

@@ -51,7 +51,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
             )
         for job in jobs:
             entry = entries.pop(job.fingerprint, None)
-            hashes = {file: file_digest(folder / file) for file in job.files}
+            hashes = {file: compute_file_digest(folder / file) for file in job.files}
             there = {file: found for file, found in hashes.items() if found}
             if entry and hashes == entry["files"]:
                 kept.append(entry)
@@ -70,7 +70,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
     return FolderSurvey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
 
 
-def file_digest(path: Path) -> str:
+def compute_file_digest(path: Path) -> str:
     """SHA-256 of a file; empty if there is none.
 
     Raises:
@@ -96,7 +96,7 @@ def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
 
 
 class DatasetFolder:
-    """Puts files into the folder, each whole or not at all.
+    """The folder that a dataset is written to; each file is written atomically.
 
     Args:
         folder: of the dataset; made when the first file comes.
@@ -143,7 +143,7 @@ class DatasetFolder:
                     part.unlink()
 
     def remove_empty_folders(self) -> None:
-        """Remove folders that were made and stayed empty."""
+        """Remove the folders that were made here and stayed empty."""
         for folder in reversed(self._made):
             with suppress(OSError):  # there is a file in it
                 folder.rmdir()

@@ -33,7 +33,7 @@ class Roster:
     rows: tuple[tuple[int, tuple[str, ...]], ...]
 
     def find_column(self, columns: Sequence[str]) -> int | None:
-        """Where the first of some columns is that there is, in capitals or not."""
+        """Index of the first of these columns that the table has, in any case; else None."""
         plain = [name.strip().casefold() for name in self.header]
         found = (name.casefold() for name in columns if name.casefold() in plain)
         name = next(found, None)
@@ -89,14 +89,14 @@ def read_students(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
         return ()
     if isinstance(given, list):
         texts = table.read_texts("students", example="ann")
-        return distinct_names((f"{table.where}, students", text) for text in texts)
+        return make_distinct_names((f"{table.where}, students", text) for text in texts)
     if isinstance(given, dict):
         found = TomlTable(given, where=f"{table.where}, students", known=("file", "column"))
         file = found.read_text("file", example=EXAMPLE)
         column = found.read_text("column", example=COLUMN) if "column" in found else COLUMN
     else:
         file, column = table.read_text("students", example=EXAMPLE), COLUMN
-    return distinct_names(_cells(folder / file, column=column))
+    return make_distinct_names(_cells(folder / file, column=column))
 
 
 def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
@@ -114,8 +114,8 @@ def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
         yield f"{path}, line {number}", row[place] if place < len(row) else ""
 
 
-def distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-    """Names as they are shown, each of another person.
+def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
+    """The names as they are shown, checked to be different people.
 
     Args:
         found: place and text of each name.

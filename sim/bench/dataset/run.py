@@ -31,7 +31,7 @@ class DatasetPlace:
     key: Path
 
     def check_separation(self, *, spec: Path, secret: Path | None) -> None:
-        """Refuse a folder that would give the truth away with the data.
+        """Refuse a folder of data that would also contain its key, spec or secret.
 
         Args:
             spec: the file that says what is done to the logs.

@@ -11,7 +11,7 @@ import click
 
 from sim.cli.fit.inertia import add_inertia, turning_options
 from sim.cli.fit.parts import fit_parts, join_parts
-from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
+from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, make_paste_text
 from sim.cli.fit.plausibility import (
     check_against_physics,
     compare_directions_alone,
@@ -21,8 +21,8 @@ from sim.cli.options import (
     FILE,
     PartReader,
     as_json,
+    combine_options,
     reading_options,
-    several_options,
     velocity_options,
 )
 from sim.core.vocabulary import METHODS
@@ -41,7 +41,7 @@ LOOPS = ("velocity", "position")
 
 
 # The user's own feedback gains, to be simulated, too, and the files to write.
-feedback_options = several_options(
+feedback_options = combine_options(
     click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
     click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
     click.option("--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"),
@@ -149,7 +149,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     For example: sysid fit drive.wpilog --html drive.html
     """
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
-    from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
+    from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
@@ -166,7 +166,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
         notes = (*more, *notes)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
-    found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
+    found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
     _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
     return told.echo(as_json=as_json, paste=paste, season=int(season))
@@ -188,7 +188,7 @@ class _FitOutput:
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
         """Print what was asked for, robot code, JSON, or text for people; the exit code."""
         if paste:
-            click.echo(paste_code(self.found, paste, season=season), nl=False)
+            click.echo(make_paste_text(self.found, paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:

@@ -49,7 +49,7 @@ def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
 
 
 def join_parts(parts: Parts) -> "Log":
-    """All runs of all parts as one log, to show; what several parts say is said once."""
+    """All runs of all parts as one log for display; what several parts say is said once."""
     first, *others = parts.values()
     for log in others:
         first = _joined(first, log)
@@ -92,7 +92,7 @@ class PooledParts:
 
 
 def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -> PooledParts:
-    """The fit of every part, compared and pooled.
+    """Fit every mechanism or side of a robot, compare the fits and pool them.
 
     Args:
         parts: at least one.

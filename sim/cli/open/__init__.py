@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, several_options
+from sim.cli.options import FILE, combine_options
 from sim.support.command_line import DONE
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 # Of a command that serves the page.
-page_options = several_options(
+page_options = combine_options(
     click.option(
         "--port",
         type=click.IntRange(0, 65535),

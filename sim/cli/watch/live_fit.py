@@ -46,7 +46,7 @@ class WatchUpdate:
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid watch --json`` prints it."""
-        from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - once it is needed
+        from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - once it is needed
 
         log = self.log
         said: dict[str, Any] = {
@@ -60,12 +60,12 @@ class WatchUpdate:
         }
         if self.pooled is not None:
             said["fit"] = self.pooled.found.to_json()
-            said["verdict"] = gain_verdict(self.pooled.found, log)
+            said["verdict"] = write_gain_verdict(self.pooled.found, log)
         return said
 
 
 class LiveFit:
-    """Follows a source, and fits what it has whenever a test ends.
+    """Follows a source of recordings, and fits them whenever a test ends.
 
     Args:
         source: where the recordings come from.
@@ -80,7 +80,7 @@ class LiveFit:
         self._renewed: dict[Recording, None] = {}
 
     def take_changed(self) -> tuple[Recording, ...]:
-        """The recordings whose logs were read anew since this was last asked."""
+        """The recordings whose logs were read again since the last call."""
         renewed = tuple(self._renewed)
         self._renewed.clear()
         return renewed

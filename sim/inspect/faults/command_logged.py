@@ -1,4 +1,4 @@
-"""Command logged: the log holds the voltage that was asked for, not the one that arrived.
+"""Command logged: the log holds the commanded voltage, not the applied one.
 
 On a robot: the program logs its own request. A current limit clips what the motor gets while the
 mechanism starts, or the battery sags under it, and the log knows nothing of either.
@@ -55,7 +55,7 @@ TRUE = 1.25  # [times] the baseline model's own speed is still the one it was fo
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
-    """Clip the current while each dynamic test starts, and log the step as it was asked for."""
+    """Limit the current at the start of each dynamic test, but log the commanded voltage."""
     features, where = LogFeatures(log), []
     for index, run in enumerate(features.log.runs):
         if run.kind == log.runs[strike.run].kind:
@@ -67,7 +67,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find perfect steps that the mechanism starts as if it did not get all of them.
+    """Find exact voltage steps under which the mechanism starts too slowly.
 
     A limit knows no direction: where only one of several steps starts like that, it had an accident
     of its own.
@@ -178,7 +178,7 @@ def _rise(
     step, speed, speeds, most = fine[1], 0.0, [], np.inf
     for volts in (way * np.interp(fine, since, voltage)).tolist():
         speeds.append(speed)
-        steady = baseline.ks + way * float(baseline.gravity(np.array(place)))
+        steady = baseline.ks + way * float(baseline.compute_gravity(np.array(place)))
         if most == np.inf and keeps < 1.0:
             most = steady + keeps * (volts - steady)
         most = max(most, steady)
@@ -220,7 +220,7 @@ def _start(features: LogFeatures, index: int, first: int) -> _Start | None:
         time,
         way * (run.position[picked] - run.position[picked].mean()),
         abs(float(run.voltage[first])),
-        baseline.ks + way * baseline.gravity(place),
+        baseline.ks + way * baseline.compute_gravity(place),
         step,
         baseline,
     )

@@ -49,7 +49,7 @@ GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is 
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Put a stop in the way, and let the voltage push on for a while."""
+    """Add a stop to the travel, with the voltage still on for a while after it."""
     pressed = PRESSED * strike.severity * rng.uniform(0.9, 1.1)
     run = log.runs[strike.run]
     longer = _pushed_on(run, until=float(run.time[0]) + strike.start + pressed)
@@ -141,7 +141,7 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
             continue
         off = find_first_motion(run, still=features.still_speed)
         way, volts = np.sign(run.voltage[off]), abs(float(run.voltage[off]))
-        pressed = float(way * baseline.gravity(run.position[:1])[0])
+        pressed = float(way * baseline.compute_gravity(run.position[:1])[0])
         given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)
         end = lowest if way > 0.0 else highest
         gone = np.abs(run.position[: off + 1] - run.position[0])

@@ -38,7 +38,7 @@ HARMLESS = 0.01  # [share of the run's time] 5 % of such gaps make kA 9 % too la
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Lose the samples of a few stalls."""
+    """Remove the samples of a few stalls of the robot program."""
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
     end = min(start + SPREAD * strike.severity, float(run.time[-1]))
@@ -63,7 +63,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find steps in time that no jitter explains."""
+    """Find gaps between samples that jitter does not explain."""
     for index, run in enumerate(features.log.runs):
         step = np.diff(run.time)
         if step.size < 2:  # noqa: PLR2004 - of one step nobody can say that it is unusual

@@ -24,7 +24,7 @@ CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the struck run change names with another one; from severity 2 on, all of them move on."""
+    """Exchange the names of two runs; from severity 2 on, shift the names of all runs."""
     runs = list(log.runs)
     names = [run.test for run in runs]
     others = [i for i, run in enumerate(runs) if run.test in FOUR_TESTS and i != strike.run]
@@ -40,7 +40,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Compare every run's name with what its voltage does."""
+    """Find runs whose name does not match their voltage."""
     if _turned_round(features):
         return
     for index, (run, seems) in enumerate(

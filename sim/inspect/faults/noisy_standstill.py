@@ -30,7 +30,7 @@ SURE = 3.0  # [times LOUD] at which the confidence is 0.95
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
+    """Add noise to the velocity at rest, in every quasistatic test."""
     ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
     still = LogFeatures(log).rest_lengths
     if all(still[i] < FEWEST for i in ramps):
@@ -51,7 +51,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Measure the velocity at the beginning of every ramp, while the position stands."""
+    """Find velocity noise at the start of ramps, while the position does not change."""
     top = features.log.top_speed
     rests = {}
     for index, run in enumerate(features.log.runs):

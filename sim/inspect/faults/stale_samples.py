@@ -32,7 +32,7 @@ STALE = 2  # [samples] that the usual reading is held; a clean log repeats one o
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let every reading of the sensor stand until the next frame arrives."""
+    """Hold every reading of the sensor until its next frame."""
     held = max(STALE, 1 + round(ORDINARY * strike.severity))
     phases = rng.integers(held, size=len(log.runs))
     runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
@@ -43,7 +43,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find runs whose usual reading is held for several samples while they move."""
+    """Find runs in which most readings are repeated for several samples during motion."""
     steps = {"velocity": features.velocity_step, "position": features.position_step}
     held = {
         name: [

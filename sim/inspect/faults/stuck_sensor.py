@@ -51,7 +51,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find long stretches in which neither reading changes although it moves."""
+    """Find long intervals of motion in which neither reading changes."""
     for index, run in enumerate(features.log.runs):
         together = np.stack((run.position, run.velocity))
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)

@@ -49,7 +49,7 @@ MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # b
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Count velocity in another unit, in every run; a harder strike takes a larger factor."""
+    """Scale the velocity to another unit in every run; a higher severity takes a larger factor."""
     factors = MILD if strike.severity < 0.7 else ORDINARY if strike.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
     runs = tuple(replace(run, velocity=run.velocity * factor) for run in log.runs)
@@ -60,7 +60,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Compare the velocity with the position, and a drivetrain's speed with what there can be."""
+    """Compare velocity with the slope of position, and a drivetrain with plausible speeds."""
     usual = features.usual_distance_ratio
     for index, (run, ratio) in enumerate(
         zip(features.log.runs, features.distance_ratios, strict=True)

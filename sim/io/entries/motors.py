@@ -67,7 +67,7 @@ class _Search:
 
     entries: Sequence[Entry]
     state: StateEntry
-    asked: ReadOptions
+    options: ReadOptions
     where: str
 
     @cached_property
@@ -83,10 +83,10 @@ class _Search:
             signal: find_requested_entry(
                 name, role=signal, kinds=NUMBERS, entries=self.entries, where=self.where
             )
-            for signal, name in self.asked.entries.items()
+            for signal, name in self.options.entries.items()
             if signal in NEEDED + OPTIONAL
         }
-        if self.asked.ignore_velocity and "position" in given:
+        if self.options.ignore_velocity and "position" in given:
             given["velocity"] = given["position"]  # its slope is taken later
         return given
 
@@ -96,16 +96,16 @@ def find_motors(
     entries: Sequence[Entry],
     tests: Sequence[RunInterval],
     *,
-    asked: ReadOptions,
+    options: ReadOptions,
     where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
-    """The motors of a mechanism whose signals are to be used, all of them whole.
+    """The motors of a mechanism whose signals are used, each of them complete.
 
     Args:
         state: where its tests are named.
         entries: all entries of the file.
         tests: when its tests ran.
-        asked: which motor, and which entries, where a person has said so.
+        options: which motor, and which entries, where a person has said so.
         where: the file, for messages.
 
     Returns:
@@ -113,10 +113,10 @@ def find_motors(
 
     Raises:
         MissingSignal: no motor has all signals; the message names what is missing.
-        BadRequest: the motor asked for is not there, or a name is ambiguous.
+        BadRequest: the chosen motor is not there, or a name is ambiguous.
     """
-    search = _Search(entries, state, asked, where)
-    by_hand = MotorEntries(asked.motor or "", search.given)
+    search = _Search(entries, state, options, where)
+    by_hand = MotorEntries(options.motor or "", search.given)
     if by_hand.is_complete:
         return (by_hand,), (), tuple(tests)
     found = _by_motor(search)
@@ -124,7 +124,7 @@ def find_motors(
     if not search.given and not any(motor.is_complete for motor in found):
         other, tests = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
-    if asked.motor is not None:
+    if options.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
     if not whole:
@@ -141,12 +141,12 @@ def _of_other_loggers(
         BadRequest: the tests drove one mechanism after another, and none was chosen.
     """
     devices = find_devices(search.entries)
-    if search.asked.ignore_velocity:
-        devices = [one.without_velocity() for one in devices]
+    if search.options.ignore_velocity:
+        devices = [one.use_position_as_velocity() for one in devices]
     driven = select_driven_devices(devices, tests)
     words = set(split_words(search.state.mechanism))
     some = [one for one in driven if words & set(split_words(one.name))] or driven
-    if search.asked.motor is None and some:
+    if search.options.motor is None and some:
         groups = group_by_tests(some, tests)
         some, tests = groups[0] if len(groups) == 1 else _picked(groups, search)
     return [MotorEntries(one.name, one.signals) for one in some], tests
@@ -154,7 +154,7 @@ def _of_other_loggers(
 
 def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
     """The mechanism that a person chose."""
-    pick = search.asked.pick
+    pick = search.options.pick
     if pick is not None and 1 <= pick <= len(groups):
         return groups[pick - 1]
     names = [" and ".join(one.name for one in devices) for devices, _ in groups]
@@ -166,7 +166,7 @@ def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
 
 
 def _without_velocity(motor: MotorEntries) -> MotorEntries:
-    """A motor whose position stands where its velocity would, so that none is asked for."""
+    """A motor whose velocity entry is replaced by its position entry."""
     if "position" not in motor.signals:
         return motor
     return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
@@ -209,7 +209,7 @@ def _by_motor(search: _Search) -> list[MotorEntries]:
         usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
         motors.setdefault(motor, {})[signal] = usable[0]
     found = [MotorEntries(name, signals | search.given) for name, signals in motors.items()]
-    return [_without_velocity(one) if search.asked.ignore_velocity else one for one in found]
+    return [_without_velocity(one) if search.options.ignore_velocity else one for one in found]
 
 
 def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
@@ -224,13 +224,13 @@ def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
 
 
 def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
-    """The motor that was asked for, by its name or by an ending that only it has."""
-    wanted = (search.asked.motor or "").lower()
+    """The chosen motor, by its name or by an ending that only it has."""
+    wanted = (search.options.motor or "").lower()
     same = [motor for motor in found if motor.name.lower() == wanted]
     same = same or [motor for motor in found if motor.name.lower().endswith(wanted)]
     if len(same) == 1:
         return same[0]
-    name, mechanism = search.asked.motor, search.state.mechanism or search.state.entry.name
+    name, mechanism = search.options.motor, search.state.mechanism or search.state.entry.name
     names = [motor.name for motor in same or found]
     raise BadRequest(
         f"{name!r} matches several motors of {mechanism!r}"
@@ -256,7 +256,9 @@ def _missing(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
     """The refusal when no motor is whole: what is missing, and what there is instead."""
     none = MotorEntries("", search.given)
     if not (search.given or found or split_name(search.state.entry.name, WORD)):
-        return no_motor(search.entries, where=search.where, mechanism=search.state.mechanism)
+        return make_no_motor_error(
+            search.entries, where=search.where, mechanism=search.state.mechanism
+        )
     motor = max(found, key=lambda one: len(one.signals), default=none)
     lacking = [signal for signal in NEEDED if signal not in motor.signals]
     signal = lacking[0]
@@ -280,8 +282,10 @@ def _missing(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
     )
 
 
-def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> MissingSignal:
-    """The refusal of a log in which no device was recorded whole.
+def make_no_motor_error(
+    entries: Sequence[Entry], *, where: str, mechanism: str = ""
+) -> MissingSignal:
+    """The error for a log in which no device was recorded completely.
 
     Args:
         entries: all of the log.

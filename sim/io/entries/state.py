@@ -22,7 +22,7 @@ FOREVER = 2**62  # [µs] the end of a run that the file does not see end
 
 @dataclass(frozen=True, eq=False)
 class StateEntry:
-    """Where the tests of one mechanism are named.
+    """The entry that names the tests of one mechanism.
 
     Args:
         mechanism: its name; empty if the entry is not named as SysId's are.
@@ -52,7 +52,7 @@ class RunInterval:
 
 
 def find_state_entries(
-    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    entries: Sequence[Entry], *, options: ReadOptions, where: str
 ) -> tuple[StateEntry, ...]:
     """The entries that name tests, one for each mechanism.
 
@@ -60,9 +60,9 @@ def find_state_entries(
         MissingSignal: there is none; the advice names an entry that might be meant.
         BadRequest: one mechanism has several.
     """
-    if "state" in asked.entries:
+    if "state" in options.entries:
         entry = find_requested_entry(
-            asked.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
+            options.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
         )
         if not names_tests(entry):
             raise _no_test([entry], where=where)

@@ -13,14 +13,14 @@ EFFECTS: dict[str, Effect] = {
 }
 
 
-def motion_class(name: str) -> str:
-    """The name that effects share which are the same wherever the mechanism moves.
+def find_motion_class(name: str) -> str:
+    """The common name of effects that look alike while the mechanism moves.
 
     Args:
         name: of an effect; any other name, as that of a fault, stands for itself.
 
     Examples:
-        >>> motion_class("asymmetric-friction")
+        >>> find_motion_class("asymmetric-friction")
         'constant-load'
     """
     known = EFFECTS.get(name)

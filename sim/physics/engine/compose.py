@@ -28,7 +28,7 @@ from sim.physics.engine import (
     two_body_modes,
 )
 from sim.physics.engine.two_body_modes import WAYS
-from sim.support.work.cache import cache_folder
+from sim.support.work.cache import find_cache_folder
 
 if TYPE_CHECKING:
     from sim.physics.engine.kernel import Kernel
@@ -80,8 +80,8 @@ RUNNING = {
 }  # a chain: each effect changes what the last one left
 
 
-def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
-    """Where the parameters of each effect stand in the engine's one array of parameters."""
+def make_parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
+    """Slice of each effect's parameters in the engine's parameter array."""
     found, at = {}, 0
     for name, effect in effects.items():
         found[name] = slice(at, at + len(effect.parameters))
@@ -103,7 +103,7 @@ def compose_engine(
         ImportError: it has to be compiled, and Numba or llvmlite (extra ``fast``) is missing.
     """
     for name, effect in effects.items():
-        if wrong := effect.contract_breaches():
+        if wrong := effect.find_contract_breaches():
             raise BadRequest(
                 wrong[0],
                 where=f"effect {name}",
@@ -112,9 +112,9 @@ def compose_engine(
             )
     text = "\n".join(_engine_lines(effects, compiled=compiled))
     if compiled:
-        from sim.physics.engine.kernel import kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
+        from sim.physics.engine.kernel import find_kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
 
-        return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
+        return load_kernel(text, find_kernel_file(find_cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
     module.__dict__["move"] = np.errstate(all="ignore")(module.move)  # as compiled code is: quiet
@@ -133,10 +133,10 @@ def is_compiled(effects: Mapping[str, Effect]) -> bool:
     Raises:
         ImportError: llvmlite (extra ``fast``) is missing.
     """
-    from sim.physics.engine.kernel import kernel_file  # noqa: PLC0415 - needs llvmlite
+    from sim.physics.engine.kernel import find_kernel_file  # noqa: PLC0415 - needs llvmlite
 
     text = "\n".join(_engine_lines(effects, compiled=True))
-    return kernel_file(cache_folder(), _engine_hash(effects, text)).is_file()
+    return find_kernel_file(find_cache_folder(), _engine_hash(effects, text)).is_file()
 
 
 def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
@@ -167,7 +167,7 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
             yield f"import {act.__module__}"
             makes = "step" if compiled else "use_ieee_math"
             yield f"{_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
-    at = parameter_slices(effects)
+    at = make_parameter_slices(effects)
     for hook in HOOKS:
         yield from _hook_lines(hook, effects, at)
     yield from _memory_lines(effects, at)

@@ -24,7 +24,7 @@ from sim.core.log import Array
 from sim.physics.engine.machine_code import ObjectCode, extract_code, identify_machine, link_code
 from sim.support.work import cache
 
-__all__ = ["Kernel", "kernel_file", "load_kernel", "try_kernel_file"]
+__all__ = ["Kernel", "find_kernel_file", "load_kernel", "try_kernel_file"]
 
 KEPT = 4  # engines of other versions that stay in the cache
 NUMBER = np.dtype(np.float64)
@@ -99,7 +99,7 @@ def _place(array: Array) -> int:
     return place
 
 
-def kernel_file(folder: Path, seal: str) -> Path:
+def find_kernel_file(folder: Path, seal: str) -> Path:
     """The file in which the machine code of an engine is kept for this processor.
 
     Args:

@@ -24,7 +24,15 @@ from sim.physics.engine.hooks import (
     update_memory,
 )
 from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bound_travel, step_one_body
-from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_voltage, limit_voltage
+from sim.physics.engine.power_path import (
+    CUT,
+    EMF,
+    OHM,
+    REST,
+    STOP,
+    compute_bus_voltage,
+    limit_voltage,
+)
 from sim.physics.engine.slipping_wheels import step_slipping_wheels
 from sim.physics.engine.two_bodies import step_two_bodies
 
@@ -55,7 +63,7 @@ def advance_step(
     off = clock < state[OFF_UNTIL]
     if w[REST] != 0.0 and not off:
         u = limit_voltage(w, asked, state[V])
-        bus = bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
+        bus = compute_bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
         if bus < w[STOP]:  # noticed now, acted on from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
     if grip_limit(on, p) < math.inf:
@@ -77,7 +85,7 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
     current, bus = 0.0, 0.0
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
-        bus = bus_voltage(w, u, current)
+        bus = compute_bus_voltage(w, u, current)
     out[k, APPLIED], out[k, BUS], out[k, CURRENT] = u, bus, current
 
 
@@ -99,7 +107,7 @@ def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> No
 
 
 def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
-    """[s] at which steps must end: ``after``, or before it where something happens."""
+    """[s] time at which steps must end: ``after``, or the next change of an effect."""
     when = now + next_change(on, p, clock) - clock
     return when if now + NONE < when < after else after
 
@@ -122,8 +130,8 @@ def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -
     return float(max(math.ceil(span / longest - 1e-9), 1))
 
 
-def voltage_slope(time: Array, slides: Array, command: int) -> float:
-    """[V/s] of a command; 0 where it is held."""
+def compute_voltage_slope(time: Array, slides: Array, command: int) -> float:
+    """[V/s] slope of a command's voltage; 0 where it is held."""
     if command < 0 or command + 1 >= time.size or slides[command] == 0.0:
         return 0.0
     return float(slides[command] / (time[command + 1] - time[command]))
@@ -134,16 +142,16 @@ def step_run(
     p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
     measured: Array, trust: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
-    """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
+    """Simulate one run into ``out``; ``state`` and ``memory`` hold its end.
 
-    A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
-    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
-    where it rests, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that
-    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4), or
-    (1, 4) for all; by how much they are off goes into ``errors`` (n, 2). Without rows it goes its
-    way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that
-    even that does not shorten, and [unit/s] by which the speed changes. ``ways`` is room for the
-    tables of ``two_body_modes.py``: of one model only, and empty at first.
+    A command holds from its sample until the next, or changes linearly by ``slides`` [V]. It comes
+    ``late`` [s] later than the effects delay it; until the first has come, a mechanism at rest is
+    held there, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that correct
+    the motion by the Kalman gains ``trust`` (n, 4), or (1, 4) for all, nan where there is none;
+    the innovations go into ``errors`` (n, 2). Without rows the simulation is open loop. ``steps``
+    limits a step: longest [s], longest way [unit], shortest [s], and largest change of speed
+    [unit/s]. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
+    at first.
     """
     lag = command_delay(on, p) + late
     n = time.size
@@ -172,7 +180,7 @@ def step_run(
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:
                 volts = asked[command] if command >= 0 else 0.0
-                slope = voltage_slope(time, slides, command)
+                slope = compute_voltage_slope(time, slides, command)
                 if slope != 0.0:
                     volts += slope * (now - time[command] - lag)
                 count = count_steps(after - now, steps, state[V], volts, c)
@@ -193,12 +201,13 @@ def step_runs(
     p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
     measured: Array, trust: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
-    """Move through runs that lie one behind the other, ``run`` by ``run``.
+    """Simulate runs that are stored one after another.
 
-    A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
-    when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
-    ``rubs`` [V] beyond kS, and it is late by ``run_lags`` [s] beyond the effects' delay. What
-    effects remember goes on through runs of the same number in ``sessions``.
+    Run k has the samples from ``edges[k]`` to ``edges[k + 1]``. It begins in the state
+    ``bodies[k]``, at ``began[k]`` [s] of the clock, and its travel ends at ``low[k]`` and
+    ``high[k]``. Its dry friction is ``rubs[k]`` [V] larger than kS, and its commands are
+    ``run_lags[k]`` [s] later than the effects delay them. The memory of effects is kept between
+    runs with the same number in ``sessions``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])
