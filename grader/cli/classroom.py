@@ -71,7 +71,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     FOLDER contains a folder or zip file for each student. In it, each answer is in a folder with
     the name of its exercise (exercise4/answers.toml). Downloads of Canvas, Moodle, Google Classroom
     and GitHub Classroom can be graded as they are. The command writes index.html (overview), a page
-    for each student, gradebook.csv and the files of --export. Run it again to continue after a stop.
+    for each student, gradebook.csv and the files of --export. If it was stopped, run it again.
 
     Exit codes: 0 all answers were graded, 1 some could not be graded, 2 could not do it.
     """
