@@ -143,7 +143,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     """Find kS, kV, kA (and kG) in the logs of one mechanism.
 
     FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. If there are
-    several sides of a drivetrain, modules or recordings, each is fitted, and their gains are compared
+    several sides of a drivetrain, modules or recordings, each is fitted, and the gains are compared
     and averaged. Forward and reverse are compared, too, but not with --json or --paste.
 
     For example: sysid fit drive.wpilog --html drive.html
