@@ -9,8 +9,6 @@ import click
 from sim.support.command_line import run_command
 from sim.support.completion import explain_completion
 
-__all__ = ["main", "sysid"]
-
 
 class Commands(click.Group):
     """The modules of this folder, each the command of its own name; imported when asked for."""

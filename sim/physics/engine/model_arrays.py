@@ -10,19 +10,6 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine.compose import HOOKS, parameter_slices
 from sim.physics.model import Model, Part
 
-__all__ = [
-    "COARSEST",
-    "EXACT",
-    "ORDER",
-    "effect_arrays",
-    "find_finest_step",
-    "is_pure_delay",
-    "model_constants",
-    "search_step_limits",
-    "step_limits",
-    "total_backlash",
-]  # fmt: skip
-
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
 SEARCHED = 0.005  # [s] the same while a search looks for an effect
