@@ -9,8 +9,6 @@ import click
 from sim.support.command_line import run_command
 from sim.support.completion import explain_completion
 
-__all__ = ["main", "sysid"]
-
 
 class Commands(click.Group):
     """The commands of ``sysid``: one per module of this folder, imported on first use."""

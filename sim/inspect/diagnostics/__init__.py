@@ -24,8 +24,6 @@ from sim.inspect.diagnostics.sensor import (
 )
 from sim.inspect.log_features import LogFeatures
 
-__all__ = ["diagnose_log"]
-
 LOOKS = (
     check_velocity_lag,
     check_velocity_scale,

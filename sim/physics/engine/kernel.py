@@ -24,8 +24,6 @@ from sim.core.log import Array
 from sim.physics.engine.machine_code import ObjectCode, extract_code, identify_machine, link_code
 from sim.support.work import cache
 
-__all__ = ["Kernel", "find_kernel_file", "load_kernel", "try_kernel_file"]
-
 KEPT = 4  # engines of other versions that stay in the cache
 NUMBER = np.dtype(np.float64)
 INTEGER, PLACE = ctypes.c_int64, ctypes.c_void_p

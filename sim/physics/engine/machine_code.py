@@ -13,8 +13,6 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-__all__ = ["ObjectCode", "extract_code", "identify_machine", "link_code"]
-
 OF_NUMBA = ("NRT_", "numba_")  # what only a function that raises would call, and ours never does
 
 

@@ -10,19 +10,6 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine.compose import DELAY_HOOKS, HOOKS, make_parameter_slices
 from sim.physics.model import Model, Part
 
-__all__ = [
-    "COARSEST",
-    "EXACT",
-    "ORDER",
-    "compute_search_step_limits",
-    "compute_step_limits",
-    "find_finest_step",
-    "is_pure_delay",
-    "make_effect_arrays",
-    "make_model_constants",
-    "sum_backlash",
-]  # fmt: skip
-
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
 # middle rule is then far below a thousandth for anything slower than 10 ms
 SEARCHED = 0.005  # [s] the same while a search looks for an effect

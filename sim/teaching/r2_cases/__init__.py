@@ -14,8 +14,6 @@ from sim.core.log import Log
 from sim.fit import Fit, fit
 from sim.teaching.r2_cases import drivetrains, harm
 
-__all__ = ["GOOD", "Case", "make_cases"]
-
 GOOD = 0.9  # [1] simulated velocity R² above which WPILib's docs call a fit good
 MEDIAN = 5  # [samples] the window that repairs single spikes
 
