@@ -178,7 +178,7 @@ def _install(*, testing: bool) -> tuple[str, str] | None:
             "Use Python {}.{}, then run the same command again.".format(*NEWEST),
         )
     return (
-        "pip could not install the course; its last words are above",
+        "pip could not install the course; the last lines of its output are above",
         "Is this machine online, and is there room on the disk? Then run the same command again.",
     )
 

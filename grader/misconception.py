@@ -63,9 +63,9 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="The virtual robot: one mistake at a time",
     ),
     "M-KS-INTERCEPT": Misconception(
-        "If you draw a straight line through the data of a quasistatic test, its voltage at v = "
-        "0 is larger than kS. The reason is that the mechanism accelerates during the whole "
-        "test, and this needs the voltage kA·a in addition.",
+        "If you draw a straight line through the data of a quasistatic test, the line meets v = "
+        "0 at a voltage that is larger than kS. The reason is that the mechanism accelerates "
+        "during the whole test, and the acceleration needs the voltage kA·a.",
         lesson="03_test_design",
         section="Reading the ramp: is the intercept kS?",
     ),
@@ -107,7 +107,7 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     ),
     "M-BIG-STEP": Misconception(
         "With a big voltage step the wheels can slip, the current can reach its limit, and the "
-        "battery gets empty. A smaller step shows kA just as well, if the motion is clearly "
+        "battery voltage drops. A smaller step shows kA just as well, if the motion is clearly "
         "larger than the noise: 2 V is enough, 0.6 V is not.",
         lesson="03_test_design",
         section="Choose the step: hard enough, not too hard",
@@ -119,9 +119,9 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Choose the ramp: how far will it go?",
     ),
     "M-LONG-DYN": Misconception(
-        "A dynamic test shows kA only at its start, during a few times kA/kV. After that the "
-        "speed is almost steady: the test needs more room, but only shows kV. SysId ignores this "
-        "part. If you do not trim it, another fit can become worse.",
+        "A dynamic test shows kA only at its start, for a few times kA/kV. After that the speed "
+        "is almost steady: this part of the test needs room, but only shows kV. SysId ignores "
+        "this part. Other fits can become worse if you do not trim it.",
         lesson="03_test_design",
         section="Choose when to stop: mark and timeout",
     ),
@@ -207,10 +207,10 @@ MISCONCEPTIONS: dict[str, Misconception] = {
         section="Your own robot",
     ),
     "M-LEVER": Misconception(
-        "The lever of a wheel is how far its push passes from the middle. For a tank drive the "
-        "lever is half the trackwidth. The modules of a square swerve drive are at the corners "
-        "and push at a right angle to the diagonal, so the lever is half the diagonal: the "
-        "trackwidth divided by √2.",
+        "The lever of a wheel is the distance from the middle of the robot to the line along "
+        "which the wheel pushes. For a tank drive the lever is half the trackwidth. The modules "
+        "of a square swerve drive are at the corners and push at a right angle to the diagonal, "
+        "so the lever is half the diagonal: the trackwidth divided by √2.",
         lesson="10_swerve",
         section="Turning on the spot: the moment of inertia",
     ),

@@ -170,5 +170,5 @@ def _explain_unwritable(folder: Path) -> Iterator[None]:
         raise BadRequest(
             f"the mystery cannot be written: {error.strerror or error}",
             where=str(folder),
-            advice="Make room there, or allow writing.",
+            advice="Make room on this disk, or allow yourself to write into this folder.",
         ) from error

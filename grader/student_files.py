@@ -72,7 +72,7 @@ def write_student_files(
         raise BadRequest(
             f"your {what} cannot be written: {error.strerror}",
             where=str(folder),
-            advice="Make room there, or allow writing.",
+            advice="Make room on this disk, or allow yourself to write into this folder.",
         ) from error
     number = exercise.name.removeprefix("exercise")
     if any(news) and there:

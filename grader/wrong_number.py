@@ -117,14 +117,15 @@ def _explain_by_factors(
         says = "the size is right, the sign is not"
         if scene.ramp and unit.startswith("V"):
             says += (
-                ". Positive volts have to give a positive velocity: does the column of the "
-                "voltage or of the velocity have the wrong sign?"
+                ". Positive volts have to give a positive velocity: does the voltage column or "
+                "the velocity column have the wrong sign?"
             )
         yield WrongNumber("sign", says)
     factors = [*_list_factors(scene, velocity=name in {"kV", "kA"}, unit=unit)]
     if name == "kA" and scene.period:
         says = (
-            f"samples are {scene.period:g} s apart. Did you divide the change of velocity by that?"
+            f"the time between two samples is {scene.period:g} s. Did you divide the change of "
+            "velocity by this time?"
         )
         factors.append(_Factor(1.0 / scene.period, WrongNumber("period", says)))
     for factor in factors:

@@ -16,7 +16,7 @@ def size(answers):
         raise KeyError("boom")
     if answers.get("size") != 3:
         raise WrongAnswer(
-            str(answers.get("size")), hint="Count again ≈ ±1.", misconception="M-UNITS"
+            str(answers.get("size")), hint="Measure again: ≈ ±1 is enough.", misconception="M-UNITS"
         )
 
 @check(points=1, after=size)
@@ -25,7 +25,7 @@ def color(answers):
     if answers.get("color") != "green":
         raise WrongAnswer(str(answers.get("color")), hint="Look again.", earned=0.5)
 '''
-HINTS = 'concept = "Sizes are counted."\npointer = "Look at the ruler."\nstep = "One, two, …"\n'
+HINTS = 'concept = "The size is a length."\npointer = "Look at the ruler."\nstep = "One, two, …"\n'
 
 RIGHT, HALF = 'size = 3\ncolor = "green"\n', 'size = 3\ncolor = "blue"\n'  # 3 and 2.5 of 3 points
 

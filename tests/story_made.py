@@ -86,7 +86,9 @@ SAG = replace(
     inspect="An old battery.",
 )
 UNSURE = replace(
-    DRAG, ambiguous_with=("stribeck",), separating_test="Record a coast: only drag is felt there."
+    DRAG,
+    ambiguous_with=("stribeck",),
+    separating_test="Record a coast: only drag grows with the speed.",
 )
 TRIED = (
     TriedCandidate("drag", 812.0, 0.03, admitted=True, why=""),
@@ -116,7 +118,7 @@ def story(*findings, verdict="explained", chapters=2, **changes):
         where=(PLACE,),
         chapters=told,
         shown=log,
-        how="The gap is shown on a log that nothing was fitted to.",
+        how="The gap is shown on the held-out log, which was not used for any fit.",
         notes=("One run was too short.",),
     )
     return replace(made, **changes)
@@ -130,7 +132,7 @@ def complete(**changes):
     return replace(made, chapters=(right,), gap_before=right.gap, gap_after=right.gap, where=())
 
 
-REMAINS = {"remainder": True, "remains": "In dynamic-reverse, 1.0 to 1.2 s, nobody knows."}
+REMAINS = {"remainder": True, "remains": "In dynamic-reverse, 1.0 to 1.2 s, an error remains."}
 STORIES = {
     "nothing missing": complete(),
     "a little missing": story(SAG, verdict="nothing-missing"),

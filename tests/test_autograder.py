@@ -124,7 +124,7 @@ def test_a_roster_names_the_student_and_a_secret_draws_the_numbers(root, export,
         (place / "submission" / file).write_text(text, encoding="utf-8")
     _, results = grade(place)
 
-    assert "holds your class's secret. Code of students runs in Gradescope's container" in warned
+    assert "contains your class's secret. Code of students runs in Gradescope's container" in warned
     assert {one["status"] for one in results["tests"]} == {"passed"}
     metadata = place / "submission_metadata.json"
     metadata.write_text('{"users": [{"email": "who@b.c"}]}', encoding="utf-8")
@@ -190,7 +190,7 @@ def test_the_autograder_holds_no_solutions_and_no_secret(root, tmp_path, monkeyp
     assert "click>=8.1.7" in wanted
     assert not any(one.startswith(("jupyter", "ipywidgets")) for one in wanted)
     assert "wpilib==2026.*" in robot
-    assert "without --secret, numbers depend on the student's name alone" in said
+    assert "without --secret, numbers depend only on the student's name" in said
     assert "14 exercises in one autograder: students have to hand in a zip file" in said
 
 

@@ -123,6 +123,21 @@ def test_an_effect_at_its_neutral_values_is_not_there(name):
     assert with_it.position == pytest.approx(there.position, abs=2e-3 * np.ptp(there.position))
 
 
+@pytest.mark.parametrize("name", [name for name in EFFECTS if EFFECTS[name].same_in_motion])
+@pytest.mark.parametrize("step", [6.0, -6.0])
+def test_effects_that_are_the_same_in_motion_move_alike(name, step):
+    base = replace(MECHANISMS["drivetrain"].model, travel=None)
+
+    def speeds(effect):
+        part = Part(effect, dict.fromkeys(EFFECTS[effect].names, 0.1))
+        volts = np.full(TIME.size, step)
+        return simulate_run(base + part, time=TIME, voltage=volts, state=State()).velocity
+
+    plain = simulate_run(base, time=TIME, voltage=np.full(TIME.size, step), state=State()).velocity
+    assert speeds(name) == pytest.approx(speeds(EFFECTS[name].same_in_motion), rel=1e-9)
+    assert np.abs(speeds(name) - plain).max() > 0.01 * np.abs(plain).max()
+
+
 @pytest.mark.parametrize("name", ["backlash", "compliance"])
 def test_a_joint_that_is_stiff_or_tight_moves_as_one_body(name):
     base = MECHANISMS["drivetrain"].model

@@ -146,7 +146,7 @@ def test_what_is_no_unit_of_kv_is_told_why(copy, written, points, reads):
     found = graded(copy, f"kV_unit = {written}", "kv-unit")
 
     assert (found.status, found.points) == ("failed", points)
-    reads(f"{found.seen} {found.hint}")
+    reads(f"got {found.seen}\ntry {found.hint}")
 
 
 @pytest.mark.parametrize("written", ["{}", "{}·{}", "{} * {}", "{}·({})", " {} "])

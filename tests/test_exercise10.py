@@ -231,7 +231,7 @@ def test_another_rotation_than_the_mechanisms_is_named(checked, kind, factor, re
 
     assert check.status == "failed"
     assert check.misconception == ("M-GEARING" if factor in {"rotor", "geared"} else "M-UNITS")
-    reads(f"{check.seen} {check.hint}")
+    reads(f"got {check.seen}\ntry {check.hint}")
 
 
 def test_the_diameter_in_place_of_the_radius_is_named(checked, reads):
@@ -272,7 +272,7 @@ def test_gravity_and_the_sign_of_ks_are_settings_too(checked, kind, place, old, 
     found = checked(text.replace(old, new), student=student)["feedforward"]
 
     assert found.status == "failed"
-    reads(f"{found.seen} {found.hint}")
+    reads(f"got {found.seen}\ntry {found.hint}")
 
 
 def test_the_ratio_itself_may_stand_in_the_code(checked):
@@ -492,7 +492,7 @@ def test_what_is_not_right_is_told(checked, turret, old, new, check, points, rea
     found = checked(text, student=student)[check]
 
     assert (found.status, found.points, found.misconception) == ("failed", points, code)
-    reads(f"{found.seen} {found.hint}")
+    reads(f"got {found.seen}\ntry {found.hint}")
 
 
 @pytest.mark.parametrize(

@@ -178,7 +178,7 @@ def test_a_velocity_logged_faster_than_it_is_sent_is_doubted_by_what_it_costs(he
     found = fit(replace(log, runs=runs))
 
     (doubt,) = [doubt for doubt in found.doubts if doubt.code == "stale-velocity"]
-    said = int(doubt.message.partition("kA comes out at about ")[2].partition("%")[0]) / 100
+    said = int(doubt.message.partition("kA becomes about ")[2].partition("%")[0]) / 100
     assert said == pytest.approx(of_its_size, abs=0.06)
     assert found.gains["kA"] / truth.gains["kA"] == pytest.approx(said, abs=0.08)
 

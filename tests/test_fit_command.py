@@ -67,7 +67,7 @@ def test_suggested_gains_come_with_what_they_do(fit, drive):
 
     assert code == 0
     assert "  velocity kP 2.7" in said
-    assert "after a step of 2 m/s it reaches 90% of the target after" in said
+    assert "after a step of 2 m/s the mechanism reaches 90% of the target after" in said
     assert "warning:" not in said
 
 

@@ -23,7 +23,7 @@ def followed(kind, *, wanted=UP, **changes):
     plant, believed = Plant(kind, PLANTS[kind]), Plant(kind, {**PLANTS[kind], **changes})
     place = {"simple": "way", "elevator": "height", "arm": "angle"}[kind]
     return follow_profile(
-        plant, believed, wanted, name="thing", symbol="m", place=place, stops=(0.0, 1.3)
+        plant, believed, wanted, name="mechanism", symbol="m", place=place, stops=(0.0, 1.3)
     )
 
 
@@ -53,7 +53,7 @@ def test_the_steady_speed_is_in_proportion_to_kv(factor):
 
     free = follow_profile(
         Plant("simple", DRIVE), Plant("simple", {**DRIVE, "kV": factor * DRIVE["kV"]}), one.target,
-        name="thing", symbol="m",
+        name="mechanism", symbol="m",
     )  # fmt: skip
     assert free.velocity[place] == pytest.approx(factor * one.target.velocity[place], rel=1e-3)
 

@@ -64,7 +64,7 @@ def since_jump(at):
         ),
         (
             lambda at: -6.0 * np.sign(at.u) * (since_jump(at) < 0.19),
-            "after-steps", "the voltage jumps up, 0.00 to 0.20 s after it", -1.0,
+            "after-steps", "0.00 to 0.20 s after the voltage jumps up", -1.0,
         ),
         (
             lambda at: 3.0 * ((at.v == 0.0) & (at.u > 0.0)),
@@ -97,7 +97,7 @@ def test_a_place_says_how_much_and_how_sure():
     # 380 samples move: 2 noises, known to one noise/√380
     assert place.error == pytest.approx(-2.0, abs=0.2)
     assert place.sure == pytest.approx(2.0 * np.sqrt(380), rel=0.15)
-    assert "the robot is slower than the model says, by 2" in place.sentence
+    assert "the robot is slower than in the model, by 2" in place.sentence
 
 
 def test_slower_is_slower_in_both_directions():

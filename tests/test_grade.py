@@ -48,7 +48,7 @@ def test_a_wrong_answer_is_told_what_was_seen_why_and_what_to_try(course, capsys
     out = capsys.readouterr().out
 
     assert "got  1" in out
-    assert "try  Count again ≈ ±1." in out
+    assert "try  Measure again: ≈ ±1 is enough." in out
     reads(out)
     assert max(map(len, out.splitlines())) <= 80
     assert "\x1b" not in out
@@ -194,7 +194,7 @@ def test_hints_come_one_by_one_and_then_all_again(capsys, reads):
     assert shown[2].startswith("Hint 3 of 3: One, two")
     assert shown[3] == shown[4]
     assert "no more hints" in shown[3]
-    assert all(hint in shown[3] for hint in ("Sizes", "ruler", "One"))
+    assert all(hint in shown[3] for hint in ("length", "ruler", "One"))
 
 
 @pytest.mark.usefixtures("course")

@@ -185,7 +185,7 @@ def test_advice_counts_with_what_the_log_shows():
     log = bench()
     missing = inspect(replace(log, runs=log.runs[:3])).faults[0]
 
-    assert missing.advice.startswith("Run dynamic-reverse with up to 3.5 V, as the other")
+    assert missing.advice.startswith("Run dynamic-reverse with up to 3.5 V, like the other")
 
 
 def test_a_velocity_that_is_the_position_is_said_to_be_one():

@@ -142,7 +142,7 @@ def test_a_wrong_unit_in_the_log_is_named(kind, factor, reads):
         ("drivetrain", {"radius": 0.1016}, "kv-above-theory", "a diameter given as the radius"),
         ("drivetrain", {"radius": 0.0508 * TURN}, "kv-above-theory", "a circumference given"),
         ("drivetrain", {"ratio": 1 / 6.75}, "kv-above-theory", "upside down"),
-        ("drivetrain", {"ratio": 8.14}, "kv-below-theory", "a ratio of 6.75"),
+        ("drivetrain", {"ratio": 8.14}, "kv-below-theory", "a gear ratio of 6.75"),
         ("drivetrain", {"ratio": 6.12}, "kv-drag", "10% above"),
         ("drivetrain", {"ratio": 6.12}, "ka-below-theory", "the ratio and the radius"),
         ("drivetrain", {"radius": 0.0475}, "kv-below-theory", "50.8 mm"),  # worn by 3 mm

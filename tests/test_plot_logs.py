@@ -58,8 +58,10 @@ def test_damage_is_named_with_its_run_and_its_time():
     picture = plot_time_series(
         FOUR, damages=[_damage("encoder-slip", 0, 2.0, 2.3), _damage("brownout", 3, 0.1, 0.4)]
     )
-    assert "fault encoder-slip. quasistatic-forward is damaged from 2.00 to 2.30 s." in picture.alt
-    assert "fault brownout. dynamic-reverse is damaged from 0.10 to 0.40 s." in picture.alt
+    assert (
+        "fault “encoder-slip”. quasistatic-forward is damaged from 2.00 to 2.30 s." in picture.alt
+    )
+    assert "fault “brownout”. dynamic-reverse is damaged from 0.10 to 0.40 s." in picture.alt
     (legend,) = picture.figure.legends
     assert [text.get_text() for text in legend.get_texts()][-2:] == [
         "A: encoder-slip",
@@ -187,7 +189,7 @@ def test_a_zoom_that_shows_nothing_is_refused(zoom):
     "draw", [plot_time_series, plot_voltage_velocity, plot_timesteps], ids=lambda d: d.__name__
 )
 def test_an_empty_run_is_refused_with_advice(draw):
-    with pytest.raises(BadRequest, match=r"Give a log"):
+    with pytest.raises(BadRequest, match=r"Use a log"):
         draw(Log((Run("quasistatic-forward", *np.zeros((4, 0))),)))
 
 

@@ -15,7 +15,7 @@ from sim.reconcile.probability import (
     FEATURES,
     FILE,
     Evidence,
-    log_gap_ratio,
+    log_ratio,
     log_size,
     probability_of,
     rival_share,
@@ -88,6 +88,14 @@ def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
     assert share == pytest.approx(min(max(max(lasting, default=0.0) / own, 0.0), 1.0))
 
 
+def test_what_is_the_same_in_motion_is_no_rival():
+    tried = {"constant-load": 90.0, "asymmetric-friction": 90.0, "drag": 30.0}
+
+    for name in ("constant-load", "asymmetric-friction"):
+        assert rival_share(name, 90.0, tried) == pytest.approx(30.0 / 90.0)
+    assert rival_share("drag", 30.0, tried) == 1.0
+
+
 @pytest.mark.parametrize(
     ("with_", "without", "ratio"),
     [
@@ -100,7 +108,7 @@ def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
     ],
 )
 def test_gaps_that_are_no_numbers_say_nothing(with_, without, ratio):
-    assert log_gap_ratio(with_, without) == pytest.approx(ratio)
+    assert log_ratio(with_, without) == pytest.approx(ratio)
 
 
 def test_no_other_effect_of_the_last_model_is_a_rival():

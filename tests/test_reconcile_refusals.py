@@ -90,7 +90,7 @@ ALONE = {
     ),
 }
 SAME = "Give logs of one mechanism, in the same units."
-FOUR = "Give a log with the four tests, recorded with another step."
+FOUR = "Use a log with the four tests, recorded with another step."
 BESIDE = {
     "of a shooter": (
         replace(session(bench("shooter"), "validation"), units="meters", source="other.csv"),
@@ -239,7 +239,7 @@ def files(tmp_path_factory):
         (["nan.csv"], "nan.csv, line 101: velocity is nan. Write a number there, or remove the l"),
         (["good.csv", "--held-out", "inf.csv"], "inf.csv, line 101: velocity is inf. Write a n"),
         (["good.csv", "--validation", "none.csv"], "none.csv: there is no such file."),
-        (["good.csv", "--held-out", "ten.csv"], "the mechanism hardly moves in this log. Give a"),
+        (["good.csv", "--held-out", "ten.csv"], "the mechanism hardly moves in this log. Use a"),
         (["good.csv", "--travel", "0"], "and the travel is 0. Give the distance from stop to stop"),
     ],
 )

@@ -24,7 +24,7 @@ from sim.reconcile.story_text import list_inspections, list_next_tests, write_he
 from sim.report.story_terminal import show_story
 from sim.support.command_line import run_command
 
-NUMBER = re.compile(r"\d[\d.,]*(?:e[+-]?\d+)?")
+NUMBER = re.compile(r"\d+(?:[.,]\d+)*(?:e[+-]?\d+)?")
 
 
 def told(one):

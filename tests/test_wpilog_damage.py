@@ -61,7 +61,7 @@ def refusal(path: Path) -> UnreadableFile:
         ),
         pytest.param(
             HEADER + record(5, 1, bytes(8)) + record(5, 2, bytes(8)),
-            "entry 5, which was never started",
+            "a record of the unknown entry 5",
             12,
             "Copy it",
             id="values of no entry",

@@ -136,7 +136,9 @@ def _voltage(name: str, answers: Answers) -> None:
 def kv_unit(answers: Answers) -> None:
     """The unit of kV."""
     raw, symbol = answers.given.get("kv_unit"), answers.variant.symbol
-    letters = f"Write it with V, s and {symbol}, and with · or *, / and parentheses."
+    letters = (
+        f"Write the unit with V, s and {symbol}. Use · or * for times, / for per, and parentheses."
+    )
     if not isinstance(raw, str) or not raw.strip():
         empty = raw is None or isinstance(raw, str)
         seen = "nothing yet" if empty else f"{raw}, which is not a unit"

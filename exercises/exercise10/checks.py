@@ -333,7 +333,7 @@ def kp(code: Code) -> None:
             f'"{constant.comment[:50]}" next to kP'
             if constant.comment
             else "no comment next to kP",
-            hint="The number fits. Write in a comment how far to trust it: the analyzer has "
+            hint="The number is right. Write in a comment how far to trust it: the analyzer has "
             "never seen your loop run. Is this the final value?",
             earned=0.5,
         )

@@ -74,8 +74,8 @@ def check_choices(one: Feedforward, variant: Variant) -> None:
     if ratio is not None and ratio.value is not None and not near(ratio.value, variant.ratio):
         raise WrongAnswer(
             f"SensorToMechanismRatio is {ratio.text}",
-            hint="It is how often the motor turns for one turn of the mechanism: the gear_ratio of "
-            "given.toml, neither 1 nor its inverse.",
+            hint="The right value is the number of turns of the motor for one turn of the "
+            "mechanism: the gear_ratio of given.toml, not 1 and not its inverse.",
             misconception="M-UNITS",
         )
     gravity = one.choices.get("GravityType", "elevatorstatic")  # Phoenix 6's default
@@ -95,8 +95,8 @@ def check_choices(one: Feedforward, variant: Variant) -> None:
     if one.choices.get("StaticFeedforwardSign", "usevelocitysign") != "usevelocitysign":
         raise WrongAnswer(
             f"StaticFeedforwardSign is UseClosedLoopSign in {SLOT0}, line {one.line}",
-            hint="Then kS follows the sign of the error and may shake around the target. Your "
-            "mechanism follows a velocity: use UseVelocitySign, which is the default.",
+            hint="Then kS follows the sign of the error, and the mechanism may shake around the "
+            "target. Your mechanism follows a velocity: use UseVelocitySign, which is the default.",
         )
 
 
@@ -120,8 +120,8 @@ def _check_spark(one: Feedforward, *, arm: bool, variant: Variant) -> None:
     if ratio is None or ratio.value is None or not near(ratio.value, wanted):
         raise WrongAnswer(
             f"{at} has {'no kCosRatio' if ratio is None else f'kCosRatio = {ratio.text}'}",
-            hint="kCosRatio turns the encoder's position into rotations of the arm, of which the "
-            "Spark takes the cosine. How many rotations is one of your units?",
+            hint="kCosRatio converts the encoder's position into rotations of the arm, and the "
+            "Spark takes the cosine of this angle. How many rotations is one of your units?",
             misconception="" if ratio is None else "M-UNITS",
         )
 

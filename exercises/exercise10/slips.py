@@ -46,11 +46,11 @@ def _in_rotations(gain: str, variant: Variant) -> list[Way]:
         return []
     needed, ratio = variant.needed(gain), variant.ratio
     rotor = (
-        "per rotation of the motor's rotor. SensorToMechanismRatio is set, so "
+        "this value is per rotation of the motor's rotor. SensorToMechanismRatio is set, so "
         f"{variant.counting}, and this is {ratio:g} times too small"
     )
-    turned = f"multiplied by the gear ratio, but {variant.counting} already"
-    radians = f"per radian. {variant.counting}, and one rotation is 2π radians"
+    turned = f"this value is multiplied by the gear ratio, but {variant.counting} already"
+    radians = f"this value is per radian. {variant.counting}, and one rotation is 2π radians"
     diameter = (
         "twice what it should be: did you use the diameter of the wheel or drum as the radius?"
     )
@@ -115,14 +115,14 @@ def handed_slip(value: float, gain: str, variant: Variant) -> WrongNumber:
     shown, times = variant.shown[gain], variant.times
     given = variant.symbol(used=False)
     if variant.place == SLOT0 and near(value, variant.coded(gain)) and not near(value, shown):
-        says = f"in the unit of your code, {variant.coded_symbol}. {variant.counting}: convert it"
+        says = f"this value is per {variant.coded_symbol}, but {variant.counting}: convert it"
         return WrongNumber("coded", says, "M-UNITS")
     if near(value, shown):
         factor = max(times, 1 / times)
         way = "large" if times < 1 else "small"
         says = (
-            f"as the analyzer shows it, for {given}. {variant.counting}: its voltage will be "
-            f"{factor:.3g} times too {way}"
+            f"this value is per {given}, as the analyzer shows it. {variant.counting}: the voltage "
+            f"will be {factor:.3g} times too {way}"
         )
         return WrongNumber("unconverted", says, "M-UNITS")
     if near(value, shown * times * times):
@@ -138,8 +138,8 @@ def feedback_slip(value: float, variant: Variant, *, text: str) -> WrongNumber:
     given, code = variant.symbol(used=False), variant.counting
     output = "a duty cycle, where 1 is 12 V" if variant.duty else "volts"
     also = f", and your loop outputs {output}" if variant.duty else ""
-    unmodified = f"as the analyzer shows it, for {given}. {code}{also}"
-    right, still = "the unit is right, the output is not", f"still for {given}"
+    unmodified = f"this value is per {given}, as the analyzer shows it. {code}{also}"
+    right, still = "the unit is right, the output is not", f"this value is still per {given}"
     ways = [
         ((shown,), WrongNumber("unmodified", unmodified, "M-UNITS")),
         (

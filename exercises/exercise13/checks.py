@@ -155,7 +155,9 @@ worn_radius = number_check(
     "worn_radius", "The radius of the worn wheel, from the slow spin.", points=2
 )
 lever = number_check(
-    "lever", "The lever: how far the push of a wheel passes from the middle.", points=1
+    "lever",
+    "The lever: from the middle of the robot to the line along which a wheel pushes.",
+    points=1,
 )
 
 

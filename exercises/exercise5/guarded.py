@@ -46,8 +46,8 @@ def check_guard(facts: BindingFacts, *, points: float) -> str | None:
                 f"the guard of {first.text} in line {first.line} checks for another mode than test "
                 "mode"
             ),
-            hint="Then the test can start in a match, and in test mode it cannot. Check for "
-            "test mode itself, without negate(), ! or not.",
+            hint="Then the test can start in a match, but not in test mode. Check for test mode "
+            "directly: remove negate(), the ! or the word not.",
         )
     if first.trigger.startswith("or("):
         raise WrongAnswer(

@@ -90,8 +90,8 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
     """What to keep of one test; None for all of it."""
     name = test.replace("-", "_")
     ask = (
-        'Write which part to keep, from and to, in seconds since the start of the test: "0.4 '
-        'to 5.2", or "all".'
+        "Write the first and the last second to keep, counted from the start of the test: "
+        '"0.4 to 5.2". Or write "all".'
     )
     if raw is None or raw == "":
         raise WrongAnswer(f"{name}: nothing yet", hint=ask)
@@ -105,7 +105,7 @@ def _window(test: str, raw: object) -> tuple[float, float] | None:
     if COMMAS.search(raw):
         raise WrongAnswer(
             f'{name}: "{raw[:40]}"',
-            hint=f"Three numbers with commas can be read as two times in two ways. {ask}",
+            hint=f"With these commas, it is not clear which two times you mean. {ask}",
         )
     if len(times) != 2 or not BETWEEN.fullmatch(NUMBER.sub(" ", raw.lower())):
         raise WrongAnswer(f'{name}: "{raw[:40]}", but two times are needed', hint=ask)

@@ -42,9 +42,9 @@ def _check_identity(one: Submission, secret: bytes | None) -> Submission:
     one = _by_name(one, found.student)
     if secret is None:
         raise BadRequest(
-            f"{one.student} worked on numbers that {found.name} issued with a secret",
+            f"the numbers of {one.student} come from the class {found.name}, which has a secret",
             where=str(one.place),
-            advice="Name the file that grade release made: --secret class.secret",
+            advice="Give the secret file that grade release made: --secret class.secret",
         )
     return replace(one, problem=_explain_foreign_package(one, found, secret))
 

@@ -44,9 +44,9 @@ def read_class_roster(path: Path) -> Roster:
     place = roster.find_column(columns)
     if place is None:
         raise BadRequest(
-            "no column with the students in its first line",
+            "the first line names no column for the students",
             where=str(path),
-            advice="Write student above the column with their names.",
+            advice='Write "student" above the column with the names of the students.',
         )
     cells = [
         (f"{path}, line {number}", row[place].strip() if place < len(row) else "")

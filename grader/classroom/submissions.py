@@ -167,7 +167,7 @@ def _identify(
     likely = roster.propose(first.name)
     perhaps = f". Perhaps it is {' or '.join(likely)}" if likely else ""
     problem = (
-        f"{_format_name(first.path.name)} fits no name on the roster{perhaps}. "
+        f"{_format_name(first.path.name)} does not match any name on the roster{perhaps}. "
         "Give it the student's name, or add the student to the roster."
     )
     return Submission(_make_legible(first.name.student), first.path, problem=problem)

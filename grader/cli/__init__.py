@@ -79,7 +79,7 @@ class ExerciseOrCommand(click.Group):
 )
 @click.version_option(package_name="sysid-course")
 def grade() -> None:
-    """Grade an exercise. Without a name: how far you are, and the next step.
+    """Grade an exercise. Without EXERCISE, show your progress and the next step.
 
     EXERCISE is a name such as exercise4, or its number. FILE is your answer; without it, the
     exercise's own file is graded.
@@ -125,7 +125,7 @@ def complete_exercise(
 @click.argument("file", required=False, type=click.Path(path_type=Path))
 @click.option("--student", metavar="NAME", help="Who you are; your numbers depend on it.")
 @click.option("--json", "as_json", is_flag=True, help="Write the result as JSON.")
-@click.option("--hint", is_flag=True, help="Show the next of three hints; it costs nothing.")
+@click.option("--hint", is_flag=True, help="Show the next of three hints. You lose no points.")
 @click.option(
     "--picture",
     metavar="FILE",
@@ -145,7 +145,7 @@ def exercise(
     picture: Path | None,
     plain: bool,
 ) -> int:
-    """Grade an exercise, or say how far you are."""
+    """Grade an exercise, or show your progress."""
     from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - --help has to start at once
 
     folder, progress, who = locate_course(student)
@@ -186,7 +186,7 @@ def _show_next_step(folder: Path, who: str) -> None:
 @click.option("--no-lab", is_flag=True, help="Do not open JupyterLab.")
 @click.option("--student", metavar="NAME", help="Who you are, from now on.")
 def start(folder: Path | None, student: str | None, *, no_lab: bool) -> int:
-    """Show where you stand, make your data, open the first lesson.
+    """Show your progress, make your data, and open the first lesson.
 
     With FOLDER, lessons and exercises are first unpacked into it, if they are not there yet.
 

@@ -36,7 +36,7 @@ SHOWN = 5  # names in one line
 @click.option(
     "--processes",
     type=click.IntRange(min=1),
-    help="Number of processes that grade.  [default: cores, and one]",
+    help="Number of processes that grade.  [default: one more than cores]",
 )
 @click.option("--cluster", metavar="ADDRESS", help="Grade on a Dask cluster: tcp://host:8786.")
 @click.option(
@@ -45,7 +45,7 @@ SHOWN = 5  # names in one line
     help="Run students' code (robot code, fit.py).  [default: if this machine can isolate it]",
 )
 @click.option("--in", "engine", type=click.Choice(["docker", "podman"]),
-              help="Grade in a container without network.")  # fmt: skip
+              help="Grade in a container that has no network access.")  # fmt: skip
 @click.option("--image", default="sysid-course", show_default=True, help="Image of that container.")
 @click.option("--again", is_flag=True, help="Grade everything again.")
 def class_(  # noqa: PLR0917 - click passes options by name
@@ -65,14 +65,15 @@ def class_(  # noqa: PLR0917 - click passes options by name
     run: bool | None,
     again: bool,
 ) -> int:
-    """Grade what a class handed in: FOLDER holds a folder or zip file for each student.
+    """Grade what a class handed in.
 
-    Inside, each answer is in a folder with the name of its exercise (exercise4/answers.toml).
-    Downloads of Canvas, Moodle, Google Classroom and GitHub Classroom can be graded as they are.
-    Writes an overview (index.html), a page for each student, gradebook.csv and the files of
-    --export. Results are kept: if the command was stopped, run it again to continue.
+    FOLDER contains a folder or zip file for each student. In it, each answer is in a folder with
+    the name of its exercise (exercise4/answers.toml). Downloads of Canvas, Moodle, Google Classroom
+    and GitHub Classroom can be graded as they are. The command writes an overview (index.html), a
+    page for each student, gradebook.csv and the files of --export. Results are kept: if the command
+    was stopped, run it again to continue.
 
-    Exit codes: 0 all graded, 1 some could not be, 2 could not do it.
+    Exit codes: 0 all answers were graded, 1 some could not be graded, 2 could not do it.
     """
     from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it

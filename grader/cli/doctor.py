@@ -10,7 +10,9 @@ from sim.support.command_line import DONE, NOT_RIGHT
 
 @click.command()
 def doctor() -> int:
-    """Check this computer: what is installed, and what is missing for which part of the course.
+    """Check what is installed on this computer, and what is missing.
+
+    It also says which parts of the course need the missing programs.
 
     Exit codes: 0 everything needed is there, 1 something needed is missing.
     """

@@ -9,10 +9,17 @@ from sim.support.command_line import DONE
 
 
 @click.command()
-@click.option("-o", "--output", type=click.Path(path_type=Path), required=True, help="Folder.")
-@click.option("--lesson", "only", multiple=True, metavar="NN", help="Only this; may be repeated.")
+@click.option(
+    "-o", "--output", type=click.Path(path_type=Path), required=True, help="Folder of the pages."
+)
+@click.option(
+    "--lesson", "only", multiple=True, metavar="NN", help="Only this lesson; may be repeated."
+)
 def edition(output: Path, only: tuple[str, ...]) -> int:
-    """Run all lessons and write them as pages: to read without installing, as slides, to print."""
+    """Run all lessons, and write each as a page and as slides.
+
+    They can be read without installing anything.
+    """
     from grader.course import find_course  # noqa: PLC0415 - --help must not wait for it
     from grader.edition import build_pages  # noqa: PLC0415 - the same
 

@@ -21,7 +21,7 @@ ONLY = click.option(
 
 @click.group()
 def export() -> None:
-    """Make what another system needs to grade: Gradescope, GitHub Classroom."""
+    """Make an autograder for Gradescope or GitHub Classroom."""
 
 
 COMMAND = export
@@ -37,15 +37,19 @@ COMMAND = export
     show_default=True,
     help="Which field of Gradescope identifies a student.",
 )
-@click.option("--roster", type=PATH, help="CSV file; the row with that value is the student.")
-@click.option("--secret", type=PATH, help="File of the class's secret. It travels in the zip file.")
+@click.option(
+    "--roster",
+    type=PATH,
+    help="CSV file with all students. The row with this field is the student.",
+)
+@click.option("--secret", type=PATH, help="File of the class's secret. The zip file contains it.")
 def gradescope(
     output: Path, only: tuple[str, ...], student_from: str, roster: Path | None, secret: Path | None
 ) -> int:
-    """Make Gradescope's autograder: a zip file to be uploaded there.
+    """Make an autograder for Gradescope: a zip file that you upload there.
 
-    It holds the course without solutions. Make one for each assignment: Gradescope puts uploaded
-    files beside one another, and an answers.toml can only belong to one exercise.
+    It contains the course without solutions. Make one for each assignment: Gradescope puts all
+    uploaded files into one folder, and each exercise has its own answers.toml.
     """
     from grader.autograder import AutograderContents, pack_gradescope  # noqa: PLC0415 - --help must not wait
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
@@ -77,14 +81,15 @@ def gradescope(
 def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret: bool) -> None:
     if with_secret:
         print_error(
-            f"{output} holds your class's secret. Code of students runs in Gradescope's "
-            "container; if it cannot be isolated there (the autograder's output says so), it "
-            "can read the secret, and then anybody's numbers. Upload it nowhere else"
+            f"{output} contains your class's secret. Code of students runs in Gradescope's "
+            "container. If the code cannot be isolated there (the autograder's output says so), "
+            "it can read the secret and compute the numbers of all students. Upload this file "
+            "nowhere else"
         )
     elif any(one.is_personal for one in asked):
         print_error(
-            "without --secret, numbers depend on the student's name alone; if you released with a "
-            "roster, students have others, and right answers would be marked wrong"
+            "without --secret, numbers depend only on the student's name. If you made packages "
+            "with a roster, students have other numbers, and right answers would be marked wrong"
         )
     if len(asked) > 1:
         print_error(
@@ -98,10 +103,10 @@ def _tell_gradescope(asked: "tuple[Exercise, ...]", output: Path, *, with_secret
 @click.option("-o", "--output", type=PATH, required=True, help=".github/workflows/grade.yml")
 @ONLY
 def github(output: Path, only: tuple[str, ...]) -> int:
-    """Make a workflow for GitHub Classroom: it grades at each push, and shows the points.
+    """Make a workflow for GitHub Classroom: it grades each push, and shows the points.
 
-    It belongs into the repository that students start from, beside an unpacked course.zip. Numbers
-    there depend on the GitHub name alone: grade start --student GITHUB-NAME.
+    Put it into the repository that students start from, next to the unpacked course.zip. The
+    numbers of a student depend only on their GitHub name: grade start --student GITHUB-NAME.
     """
     from grader.autograder import make_workflow  # noqa: PLC0415 - --help must not wait for it
 

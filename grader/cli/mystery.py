@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
 )
 def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plain: bool) -> int:
-    """Make a new log with a hidden fault or effect, or grade your ANSWER to it.
+    """Make a log with a hidden problem, or grade your ANSWER to it.
 
-    Each mystery that you solve makes the next one harder.
+    The problem is a fault or an effect. Each mystery that you solve makes the next one harder.
 
     For example: grade mystery "hard-stop, dynamic-forward, 1.20 to 1.66, trim"
     """

@@ -22,8 +22,14 @@ WORTH = 3  # [students] that a further process has to save, to be worth its star
 
 @click.command()
 @click.option("-o", "--output", type=PATH, help="Folder for the packages.")
-@click.option("--roster", type=PATH, help="CSV file with a column student: each gets numbers.")
-@click.option("--secret", type=PATH, help="File of the class's secret; made if it is not there.")
+@click.option(
+    "--roster",
+    type=PATH,
+    help="CSV file with a column student. Each student gets numbers of their own.",
+)
+@click.option(
+    "--secret", type=PATH, help="File of the class's secret. The command makes it if there is none."
+)
 @click.option("--name", default="our class", show_default=True, help="Name of the class.")
 @click.option(
     "--processes", type=click.IntRange(min=1), help="Number of processes.  [default: every core]"
@@ -39,10 +45,11 @@ def release(  # noqa: PLR0917 - click passes options by name
     processes: int | None,
     check: Path | None,
 ) -> int:
-    """Make the students' package: the course without solutions, keys and secret.
+    """Make the students' package.
 
-    With a roster, each student also gets numbers and logs of their own. Only the owner of the
-    secret can make them again, and grade them: grade class FOLDER --secret FILE.
+    It is the course without solutions, keys and secret. With a roster, each student also gets
+    numbers and logs of their own. Only the owner of the secret can make them again, and grade them:
+    grade class FOLDER --secret FILE.
     """
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - --help must not wait for it
 

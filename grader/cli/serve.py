@@ -31,11 +31,11 @@ EVERYWHERE = "0.0.0.0"  # noqa: S104 - a class's browsers are on other machines;
 def serve(
     folder: Path, roster: Path, packages: Path | None, host: str, port: int, *, unprotected: bool
 ) -> int:
-    """Serve the course to browsers on this network: Chromebooks need nothing installed.
+    """Serve the course to browsers on this network.
 
-    FOLDER keeps the work of each student from day to day, and codes.csv with the login code of
-    each. Everything runs on this machine; two students take about 1 GB of memory. If root runs it
-    on Linux or macOS, each student has a separate system user.
+    Chromebooks need nothing installed. FOLDER contains the work of each student, and codes.csv with
+    their login codes. Everything runs on this machine; two students take about 1 GB of memory. If
+    root runs it on Linux or macOS, each student has a separate system user.
     """
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - --help must not wait for it
     from grader.course import find_course  # noqa: PLC0415 - the same

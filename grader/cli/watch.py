@@ -24,9 +24,10 @@ def _complete(
     "--plain", is_flag=True, help="For screen readers: words instead of symbols, no columns."
 )
 def watch(exercise: str | None, student: str | None, *, plain: bool) -> int:
-    """Grade an exercise each time you save its file, until all is right.
+    """Grade an exercise each time you save its file.
 
-    Without EXERCISE: the first one that is not done yet.
+    The command ends when all is right. Without EXERCISE, it takes the first exercise that is not
+    done yet.
     """
     from grader.cli import grade_file, locate_course  # noqa: PLC0415 - --help has to start at once
     from grader.exercise import find_exercise, list_exercises  # noqa: PLC0415 - the same

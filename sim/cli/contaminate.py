@@ -32,7 +32,7 @@ def contaminate(
     motor: str | None,
     **entries: str | None,
 ) -> None:
-    """Damage the log FILE on purpose and write it as another.
+    """Write a copy of the log FILE with a fault added to it.
 
     For example: sysid contaminate drive.csv --fault encoder-slip:0.5@dynamic-forward+0.4 -o bad.csv
     """

@@ -28,12 +28,12 @@ WORTH = 50  # [logs] that a further process has to save, to be worth its start
     type=click.IntRange(min=1),
     help="Number of processes that make logs.  [default: every core]",
 )
-@click.option("--cluster", metavar="ADDRESS", help="Make them on a Dask cluster: tcp://host:8786.")
+@click.option("--cluster", metavar="ADDRESS", help="Dask cluster that makes logs: tcp://host:8786.")
 @click.option("--overwrite", is_flag=True, help="Replace files that do not belong to this dataset.")
 @click.option(
     "--check",
     is_flag=True,
-    help="Make nothing; report the logs that have changed or are missing.",
+    help="Make no logs; report which logs have changed or are missing.",
 )
 @click.option("--example", is_flag=True, help="Write an example of a SPEC, with every key.")
 def dataset(  # noqa: PLR0917 - click passes options by name
@@ -46,9 +46,10 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     check: bool,  # noqa: FBT001 - the same
     example: bool,  # noqa: FBT001 - the same
 ) -> int:
-    """Make many damaged logs as the file SPEC describes, and a sealed key with the truth.
+    """Make many damaged logs, as the file SPEC describes them.
 
-    The key is next to the folder, never in it. If the command was stopped, run it again to
+    The command also makes a sealed key with the true values. The key is next to the folder, never
+    in it. If the command was stopped, run it again to
     continue.
 
     For example: sysid dataset week3.toml -o week3

@@ -8,7 +8,10 @@ from sim.cli.options import as_json, list_catalogue
 @click.command()
 @as_json
 def effects(*, as_json: bool) -> None:
-    """List the effects that a mechanism can hide, and that a model may need."""
+    """List the effects that a mechanism can have.
+
+    You can hide an effect in a simulated mechanism, and add it to a model.
+    """
     from sim.physics.effects import EFFECTS  # noqa: PLC0415 - --help must not wait for it
 
     list_catalogue(

@@ -16,11 +16,13 @@ if TYPE_CHECKING:
 @click.argument("file", type=FILE)
 @as_json
 def entries(file: Path, *, as_json: bool) -> None:
-    """List the entries of a robot's log, and the motor signals they seem to be.
+    """List the entries of a robot's log.
+
+    The command also says which motor signal an entry seems to be.
 
     For example: sysid entries robot.wpilog
 
-    Give the names of the right ones to `sysid fit` with --voltage, --position and --velocity.
+    Pass the right entries to `sysid fit` with --voltage, --position and --velocity.
     """
     from sim.io import list_entries  # noqa: PLC0415 - --help must not wait for it
 

@@ -8,7 +8,10 @@ from sim.cli.options import as_json, list_catalogue
 @click.command()
 @as_json
 def faults(*, as_json: bool) -> None:
-    """List the faults that a log can have, and that `sysid inspect` looks for."""
+    """List the faults that a log can have.
+
+    `sysid inspect` looks for these faults.
+    """
     from sim.inspect.faults import FAULTS  # noqa: PLC0415 - --help must not wait for it
 
     list_catalogue(

@@ -37,7 +37,9 @@ def inspect(
     as_json: bool,
     **entries: str | None,
 ) -> int:
-    """Look for faults in the logs of one mechanism: which fault, where, and what to do.
+    """Look for faults in the logs of one mechanism.
+
+    The command says which fault the log has, where it is, and what to do.
 
     For example: sysid inspect drive.wpilog
 

@@ -66,11 +66,11 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     as_json: bool,  # noqa: FBT001 - click passes it by name
     **entries: str | None,
 ) -> int:
-    """Find which effects the model of a mechanism lacks, and show how much they reduce the gap.
+    """Find effects that the model of a mechanism does not contain.
 
-    FILES contain the four tests of one mechanism. An effect is accepted only if the model with it
-    predicts the runs of --validation better; without --validation, each run is predicted from the
-    others.
+    The command also shows how much these effects reduce the gap. FILES contain the four tests of
+    one mechanism. An effect is accepted only if the model with it predicts the runs of --validation
+    better; without --validation, each run is predicted from the others.
 
     For example: sysid reconcile arm.wpilog --validation faster.wpilog --html arm.html
 

@@ -101,7 +101,9 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     seed: int | None,
     truth: Path | None,
 ) -> None:
-    """Run the four tests on a simulated MECHANISM and write the log a robot would.
+    """Run the four tests on a simulated MECHANISM.
+
+    The command writes a log like that of a robot.
 
     For example: sysid simulate drivetrain --hide drag --fault encoder-slip --seed 1 -o drive.wpilog
     """

@@ -64,7 +64,7 @@ class FollowedProfile:
         way = "sinks" if drift < 0.0 else "climbs"
         told = f"When it should stand still, it {way} {self._size(drift)}"
         if self.position[end] in self.stops:
-            return f"{told}, to its stop."
+            return f"{told} and reaches its stop."
         return f"{told} in {self.target.time[end]:.1g} s."
 
     def _went(self) -> str:
@@ -73,7 +73,7 @@ class FollowedProfile:
         wanted, found = self.target.velocity[place], self.velocity[place]
         told = f"When it should move at {wanted:.2g} {self.symbol}/s, it"
         if self.position[place] in self.stops:
-            return f"{told} is at its stop."
+            return f"{told} is already at its stop."
         if abs(found) <= STANDS * abs(wanted):
             return f"{told} hardly moves."
         if found * wanted < 0.0:

@@ -38,8 +38,7 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
                 "velocity-lag",
                 f"The velocity is averaged over {window * 1000:.0f} ms, so it is "
                 f"{window * 500:.0f} ms late. The gains account for this delay. Your feedback "
-                "controller will also have to live with it: shorten the filter of the motor "
-                "controller.",
+                "controller gets the same delay: shorten the filter of the motor controller.",
             )
         )
     if lag > SOON:
@@ -47,8 +46,7 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
             Doubt(
                 "late-answer",
                 f"The mechanism reacts {lag * 1000:.0f} ms after the logged voltage. The gains "
-                "account for this delay. Your feedback controller will also have to live with "
-                "it.",
+                "account for this delay. Your feedback controller gets the same delay.",
             )
         )
     return tuple(said)

@@ -77,10 +77,11 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     return [
         Doubt(
             "stale-velocity",
-            f"{share:.0%} of the samples that speed up repeat the velocity before them: it was "
-            "logged faster than the motor controller sends it. SysId's recipe takes the jumps "
-            f"between them for acceleration, so kA comes out at about {2 * (1 - share):.0%} of its "
-            "size. Log at the controller's own rate, or raise that rate.",
+            f"While the mechanism speeds up, {share:.0%} of the samples repeat the velocity of the "
+            "sample before: the log is faster than the motor controller sends. SysId's recipe "
+            "computes the acceleration from these velocities, so kA becomes about "
+            f"{2 * (1 - share):.0%} of its true value. Log at the controller's own rate, or raise "
+            "that rate.",
         )
     ]
 
@@ -151,8 +152,8 @@ def _doubt_uncertain_gains(r2: float, simulated: tuple[SimulationScore, ...]) ->
         doubts.append(
             Doubt(
                 "low-acceleration-r2",
-                f"The acceleration R² is {r2:.2f}; below {DUBIOUS_R2} WPILib's documentation calls "
-                "kA dubious. Look for noise in the velocity, and try --median 5.",
+                f"The acceleration R² is {r2:.2f}. WPILib's documentation calls kA dubious if "
+                f"it is below {DUBIOUS_R2}. Look for noise in the velocity, and try --median 5.",
             )
         )
     return doubts

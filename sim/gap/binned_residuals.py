@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.gap.place import SIGNALS, Place
+from sim.gap.place import SIGNALS, STEPS, Place
 
 FEWEST = 4  # samples of which a cell's mean says anything
 STICKIEST = 0.98  # ρ, beyond which nothing could be told at all
@@ -78,13 +78,15 @@ class BinnedResiduals:
         edges = self.edges[row]
         low, high = float(edges[part.start]), float(edges[part.stop])
         if not self.edges_as_shares:
+            if self.what == STEPS:
+                return f"{_pair(low, high)} s after {self.rows[row]}"
             return f"{self.rows[row]}, {_pair(low, high)} {_UNITS[self.what]}"
         least, most = float(self.edges.min()), float(self.edges.max())
         low, high = (100.0 * (edge - least) / ((most - least) or 1.0) for edge in (low, high))
         return f"{self.rows[row]}, {low:.0f} to {high:.0f}% of {_WHOLES[self.what]}"
 
 
-_UNITS = {"run": "s", "after-steps": "s after it", "at-rest": "V"}
+_UNITS = {"run": "s", "at-rest": "V"}
 _WHOLES = {"direction-speed": "the top speed", "direction-position": "the way"}
 
 

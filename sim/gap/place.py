@@ -7,8 +7,8 @@ STEPS, REST = "after-steps", "at-rest"
 SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
 MANY = 99.5  # [noises] from which on no digit is left out
 FASTER = {
-    "position": ("ahead of where", "behind where"),
-    "velocity": ("faster than", "slower than"),
+    "position": ("ahead of the position in the model", "behind the position in the model"),
+    "velocity": ("faster than in the model", "slower than in the model"),
 }
 
 
@@ -37,8 +37,8 @@ class Place:
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
         return (
-            f"{self.where}: the robot is {way} the model says, "
-            f"by {format_noises(abs(self.error))} times the noise of its {self.signal}"
+            f"{self.where}: the robot is {way}, by {format_noises(abs(self.error))} times the "
+            f"noise of its {self.signal}"
         )
 
 

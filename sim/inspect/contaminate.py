@@ -102,13 +102,13 @@ def contaminate(
     if not 0.0 <= severity <= MOST:
         raise BadRequest(
             f"{name} of severity {severity:g}",
-            advice=f"Choose 0 (nothing) to {MOST:g}; 1 is {fault.ordinary}.",
+            advice=f"Choose 0 (no fault) to {MOST:g}. Severity 1 means: {fault.ordinary}.",
         )
     if log.type and log.type not in fault.types:
         raise BadRequest(
             f"{name} cannot happen to a mechanism of type {log.type}",
             where=log.source,
-            advice=f"It takes one of type {' or '.join(fault.types)}.",
+            advice=f"This fault needs a mechanism of type {' or '.join(fault.types)}.",
         )
     run = _choose_run(log, fault, test=test, rng=rng)
     start = _choose_start(log.runs[run], fault, at=at, rng=rng)

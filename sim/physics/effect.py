@@ -141,6 +141,7 @@ class Effect:
         order: where it stands along the path from command to motor, for a path.
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         simpler: the effect with fewer parameters that does about the same; empty if there is none.
+        same_in_motion: the effect that is the same wherever the mechanism moves; empty if none is.
         simplify: its parameters, from this one's and what a log shows.
         is_ordinary: whether it is as small, with these parameters, as on any robot in good order.
     """
@@ -164,6 +165,7 @@ class Effect:
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     simpler: str = ""
+    same_in_motion: str = ""
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
         default=lambda _values, _seen: {}
     )

@@ -150,10 +150,10 @@ def _words(table: Table, gains: Mapping[str, float] | None, per: Unit) -> str:
         said += f" {test} has {samples} samples from {to_text(slowest)} to {to_text(fastest)} "
         said += f"{per.symbol}/s"
         if gains is not None:
-            said += (
-                f". They are {to_text(second)} {square} (RMS) away from the line, and their mean "
-            )
-            said += f"is {to_text(first)} {square} away."
+            mean = float(first)
+            side = "above" if mean > 0.0 else "below"
+            said += f". Their distance from the line is {to_text(second)} {square} (RMS). Their "
+            said += f"mean is {to_text(abs(mean))} {square} {side} the line."
         elif isinstance(second, str):
             said += ", too few for a line."
         else:

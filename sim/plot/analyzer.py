@@ -153,6 +153,7 @@ def _words(
         said += f"lasts {run.time[-1] - run.time[0]:.2f} s"
         miss = _miss(run, beside)
         if miss is not None:
-            said += f", and the {name} is {miss / per.si:.3f} {per.symbol}/s (RMS) away from it"
+            said += f", and the velocity of the {name} is off by {miss / per.si:.3f} "
+            said += f"{per.symbol}/s (RMS)"
         said += "."
     return said

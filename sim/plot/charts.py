@@ -174,9 +174,9 @@ def plot_misses(
     total = f"{to_text(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
     _corner(axes, f"sum of squared errors: {total}")
     alt = (
-        f"{across.size} samples of {ylabel} over {xlabel}. The line is {to_text(intercept)} + "
-        f"{to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show its errors. The sum of "
-        f"their squares is {total}."
+        f"The picture shows {across.size} samples: {ylabel} over {xlabel}. The line is "
+        f"{to_text(intercept)} + {to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show "
+        f"its errors. The sum of their squares is {total}."
     )
     rows = tuple(
         (to_text(float(a)), float(b), float(c), float(b - c))

@@ -182,12 +182,15 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     if math.isinf(half[0]):
         along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
         return (
-            f"a straight band without end. Along it, {names[1]} changes by "
-            f"{to_text(float(along[1]))} where {names[0]} changes by 1. The true gains can be "
+            f"a straight band that never ends. Along the band, {names[1]} changes by "
+            f"{to_text(float(along[1]))} when {names[0]} changes by 1. The true gains can be "
             "anywhere in the band."
         )
     first, second = _errors(information)
-    return f"an ellipse. One standard error is {to_text(first)} and {to_text(second)}."
+    return (
+        f"an ellipse. The standard error of {names[0]} is {to_text(first)}, and that of "
+        f"{names[1]} is {to_text(second)}."
+    )
 
 
 def _table(told: Mapping[str, Array], names: tuple[str, str]) -> Table:

@@ -125,7 +125,7 @@ def describe_faults(log: Log, damage: Sequence[FaultMark], *, drawn: Iterable[in
         told = [_place(log, mark.where, there) for mark in parts[:NAMED]]
         if len(parts) > NAMED:
             told.append(f"The fault is in {len(parts) - NAMED} more parts.")
-        said += f" The letter {parts[0].letter} and hatching mark the fault {fault}. "
+        said += f" Hatching and the letter {parts[0].letter} mark the fault “{fault}”. "
         said += " ".join(told)
     return said
 
@@ -133,7 +133,7 @@ def describe_faults(log: Log, damage: Sequence[FaultMark], *, drawn: Iterable[in
 def _check(log: Log, fault: str, where: LogInterval) -> None:
     if where.run is None:
         return
-    advice = "Give damages that were found in this very log."
+    advice = "Give only faults that were found in this log."
     if not 0 <= where.run < len(log.runs):
         raise BadRequest(
             f"{fault} in run {where.run} of a log whose runs are 0 to {len(log.runs) - 1}",

@@ -146,10 +146,10 @@ def plot_hold_angles(
     add_legend(figure, (axes,))
     alt = (
         "A band shows which voltages hold an arm at each angle. The band is "
-        f"{to_text(2 * ks)} V wide everywhere. Its middle is a cosine of {to_text(kg)} V, which is "
-        f"largest at {to_text(level)} degrees: there {words.level}. Each of the {len(holds)} "
-        "measured angles has two marks. They are the lowest and the highest voltage that hold the "
-        "arm there."
+        f"{to_text(2 * ks)} V wide everywhere. Its middle follows a cosine curve of up to "
+        f"{to_text(kg)} V. The highest point is at {to_text(level)} degrees: there {words.level}. "
+        f"Each of the {len(holds)} measured angles has two marks. They are the lowest and the "
+        "highest voltage that hold the arm there."
     )
     if here is not None:
         alt += f" A star marks {to_text(at)} V at {to_text(here)} degrees."

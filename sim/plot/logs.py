@@ -110,7 +110,7 @@ def _first_runs(log: Log) -> dict[int, Run]:
         raise BadRequest(
             "this log has none of SysId's four tests",
             where=log.source,
-            advice="Give a log of a SysIdRoutine.",
+            advice="Use a log that a SysIdRoutine recorded.",
         )
     return first
 
@@ -164,7 +164,7 @@ def _tests_table(runs: Mapping[int, Run], per: Unit) -> Table:
 
 
 def _two(value: Cell) -> str:
-    return f"{value:.2f}".replace("-", "−")
+    return f"{round(float(value), 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
 def _time_words(table: Table, per: Unit, names: Sequence[str]) -> str:

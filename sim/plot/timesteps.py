@@ -62,7 +62,7 @@ def plot_timesteps(log: Log) -> Picture:
         raise BadRequest(
             "no run of this log has two samples, so there is no time between them",
             where=log.source,
-            advice="Give a log in which a test lasted a while.",
+            advice="Use a log in which a test has two samples or more.",
         )
     all_steps = [_steps(run, median=median) for run in log.runs if len(run) > 1]
     kinds = [kind for kind in KINDS if any(steps.run.kind == kind for steps in all_steps)]
@@ -176,9 +176,11 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
             f"None of the {total} times is above the dotted line. The longest is "
             f"{to_text(longest)} ms."
         )
+    verb, mark = (
+        ("is", "a diamond marks this gap") if gaps == 1 else ("are", "diamonds mark these gaps")
+    )
     said += (
-        f"{gaps} of the {total} times {'is' if gaps == 1 else 'are'} above it "
-        f"({_share(gaps, total)}): diamonds mark these gaps."
+        f"{gaps} of the {total} times {verb} above the dotted line ({_share(gaps, total)}): {mark}."
     )
     for one in all_steps:
         where = np.flatnonzero(one.gaps)

@@ -72,7 +72,7 @@ def plot_voltage_velocity(
         raise BadRequest(
             "this log has no quasistatic test",
             where=log.source,
-            advice="Give a log with a slow ramp in it.",
+            advice="Use a log with a slow ramp in it.",
         )
     if zoom is not None and not zoom > 0.0:
         raise BadRequest(f"a zoom of {zoom:g} {per.symbol}/s", advice="Choose one above 0.")
@@ -185,7 +185,7 @@ def _stray(one: _Ramps, *, top: float) -> float | None:
 
 
 def _two(value: float) -> str:
-    return f"{value:.2f}".replace("-", "−")
+    return f"{round(value, 2) + 0.0:.2f}".replace("-", "−")  # never −0.00
 
 
 def _way(way: str) -> str:
@@ -205,7 +205,7 @@ def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
         said += f"{_two(one.velocity[index])} {per.symbol}/s at {_two(one.voltage[index])} V"
         fast = f"{_way(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
         said += (
-            f". The mechanism moves {fast} from {_two(one.voltage[moving][0])} V on"
+            f". The mechanism first moves {fast} at {_two(one.voltage[moving][0])} V"
             if moving.any()
             else f". The mechanism never moves {fast}"
         )

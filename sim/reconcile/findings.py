@@ -19,7 +19,7 @@ from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
     Evidence,
     JudgedEffect,
-    log_gap_ratio,
+    log_ratio,
     log_size,
     log_strays,
     probability_of,
@@ -94,8 +94,8 @@ def make_findings(
         effects = [
             one for one in effects if one.size == "major" or _narrows(rounds[one.effect], done[-1])
         ]
-    alone = {one.effect: one.gap for one in done[0].tried}
-    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect], alone))
+    closed = _shares_closed(done)
+    effects.sort(key=lambda one: -one.probability * closed[one.effect])
     return tuple(sorted((*faults, *effects), key=_sort_key)), judged
 
 
@@ -127,7 +127,8 @@ def judge_effects(
         added = before.candidate.score - now.candidate.score
         evidence = Evidence(
             likelihood=math.log(max(_removal_cost(before, now), 1.0)),
-            gap=log_gap_ratio(with_.velocity, bare.velocity),
+            gap=0.5
+            * (log_ratio(with_.velocity, bare.velocity) + log_ratio(with_.position, bare.position)),
             size=log_size(name, last.values),
             rival=rival_share(name, added, rival_scores(before, last.structure.effects, name)),
             strays=log_strays(noises),
@@ -173,20 +174,25 @@ def _removal_cost(before: SelectionRound, now: SelectionRound) -> float:
     return now.removal_cost
 
 
-def _expected_share_closed(one: JudgedEffect, alone: Mapping[str, float]) -> float:
-    """[1] of the gap that an effect is expected to close: the largest is the most important.
+def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
+    """Effect -> [1] of the velocity gap that it closes: the largest is the most important.
 
     What it closes as the first effect and as the last one differs, so the geometric mean of both
-    counts, as in the Shapley value of two effects.
+    counts, as in the Shapley value of two effects. For an effect that was not tried alone, what it
+    closes as the last one counts.
 
     Args:
-        one: the effect.
-        alone: effect -> [1] of the base model's gap that it leaves alone. For one that was not
-            tried alone, what it closes as the last one counts.
+        done: the base and the rounds.
     """
-    last = one.evidence.gap
-    first = log_gap_ratio(alone[one.effect], 1.0) if one.effect in alone else last
-    return one.probability * (1.0 - math.exp(0.5 * (first + last)))
+    alone = {one.effect: one.gap for one in done[0].tried}
+    found = {}
+    for one in done[1:]:
+        name = one.candidate.effect
+        with_, bare = gaps_with_and_without(one, done[-1])
+        last = log_ratio(with_.velocity, bare.velocity)
+        first = log_ratio(alone[name], 1.0) if name in alone else last
+        found[name] = 1.0 - math.exp(0.5 * (first + last))
+    return found
 
 
 def _classify_size(

@@ -25,7 +25,7 @@ from sim.reconcile.thresholds import OTHER_MATTER
 TOLD = 5  # places
 LOOKS = 3  # at where in its free play a run began, each nearer
 HOW: Mapping[str, str] = {
-    "held_out": "The gap is shown on a log that nothing was fitted to.",
+    "held_out": "The gap is shown on the held-out log, which was not used for any fit.",
     "validation": (
         "No held-out log was given: the gap is shown on the validation log, which was also used "
         "to choose the effects."

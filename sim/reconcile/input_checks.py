@@ -109,7 +109,7 @@ def _check_moves(log: Log, *, than: float) -> None:
         raise NotIdentifiable(
             "the mechanism hardly moves in this log",
             where=log.source,
-            advice="Give a log with the four tests, recorded with another step.",
+            advice="Use a log with the four tests, recorded with another step.",
         )
 
 
@@ -126,7 +126,7 @@ def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) 
         raise NotIdentifiable(
             "no run is long enough to be compared",
             where=other.source,
-            advice="Give a log with the four tests, recorded with another step.",
+            advice="Use a log with the four tests, recorded with another step.",
         )
     costs = guess["kV"] + float(seen.missing @ seen.velocity) / square
     factor = costs / guess["kV"]

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 
-from sim.physics.effects import EFFECTS
+from sim.physics.effects import EFFECTS, motion_class
 from sim.reconcile.thresholds import FEWEST_NOISES, MOST_NOISES, NARROWEST, SIZES
 
 FILE = Path(__file__).with_name("probability.json")
@@ -24,9 +24,11 @@ class Evidence:
 
     Args:
         likelihood: ln of the -2 log L that the last model loses without it, at least 0.
-        gap: ln of the validation's velocity gap with it over that without it.
+        gap: ln of the validation's gap with it over that without it, geometric mean of velocity's
+            and position's.
         size: ln of its size over the largest that is everyday.
-        rival: score of the best other effect that lasts, over its own, in its round, 0 to 1.
+        rival: score of the best other effect that lasts, over its own, in its round, 0 to 1. What
+            is the same wherever the mechanism moves is no other effect.
         strays: ln of the last model's gap in noises of a velocity.
         structure: 1 if the last model leaves more than noise, else 0.
         once: 1 if it begins at a moment, else 0.
@@ -81,7 +83,7 @@ def probability_of(evidence: Evidence) -> float:
     return 1.0 / (1.0 + math.exp(-odds))
 
 
-def log_gap_ratio(with_: float, without: float) -> float:
+def log_ratio(with_: float, without: float) -> float:
     """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
@@ -137,7 +139,8 @@ def rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
     others = [
         other
         for name, other in tried.items()
-        if name != effect and (EFFECTS[effect].has_onset or not EFFECTS[name].has_onset)
+        if motion_class(name) != motion_class(effect)
+        and (EFFECTS[effect].has_onset or not EFFECTS[name].has_onset)
     ]
     return min(max(max(others, default=0.0) / max(own, 1.0), 0.0), 1.0)
 

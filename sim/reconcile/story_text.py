@@ -117,7 +117,10 @@ def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
     if one.kind == FAULT:
         return (("What to do", one.inspect),)
     rivals = [(name, EFFECTS[name].inspect) for name in one.ambiguous_with if name in EFFECTS]
-    return (("Look at", one.inspect), *((f"If it is {name}", text) for name, text in rivals))
+    return (
+        ("What to check", one.inspect),
+        *((f"What to check if it is {name}", text) for name, text in rivals),
+    )
 
 
 def list_next_tests(story: Story) -> tuple[str, ...]:
@@ -131,8 +134,8 @@ def list_remarks(story: Story) -> tuple[str, ...]:
     said = [story.remains] if story.remains else []
     if list_effect_names(story, MAJOR) and not is_gap_narrower(story.gap_before, story.gap_after):
         said.append(
-            "The finding does not make the simulation error of the shown log smaller. Do not trust "
-            "the finding before another log confirms it."
+            "The finding does not make the gap smaller. Do not trust the finding before another "
+            "log confirms it."
         )
     return (*said, *story.notes)
 
@@ -160,7 +163,7 @@ def _gap(story: Story) -> str:
     all_ = {1: added[0], 2: "both"}.get(len(added), "all of them")
     with_ = f"With {all_} added, the simulation error"
     if len(added) > 1 and list_effect_names(story, MINOR):
-        with_ = "With everything that was found, the simulation error"
+        with_ = "With all found effects added, the simulation error"
     if is_gap_narrower(story.gap_before, story.gap_after):
         return f"{with_} drops from {before} to {after} times the sensor noise{_in_speed(story)}."
     return f"{with_} does not drop: {before} times the sensor noise before, {after} times after."

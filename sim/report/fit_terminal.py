@@ -61,7 +61,8 @@ def show_fit(
     )
     if tried:
         console.print(
-            f"feedback gains to start with, as SysId suggests them ({preset.name}), simulated:"
+            f"feedback gains to start with, as SysId suggests them ({preset.name}), in a "
+            "simulation:"
         )
     _show_trials(tried, per, console)
     for note in notes:
@@ -95,8 +96,8 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) ->
         own = "your own " if trial.owner == OWN else ""
         bad = "" if trial.is_good else " (no good start)"
         console.print(
-            f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} it "
-            f"{trial.verdict.description}"
+            f"  {own}{trial.loop} {format_gain_pair(trial.gains)}{bad}: after a step of {step} the "
+            f"mechanism {trial.verdict.description}"
         )
 
 

@@ -292,7 +292,7 @@ MISTAKES = (
         JAVA,
         replace_text(("the analyzer's suggestion: start here, then tune", "proportional gain")),
         "kp",
-        "The number fits. Write in a comment",
+        "The number is right. Write in a comment",
     ),
     Mistake(
         "a kP that only running the code could tell",

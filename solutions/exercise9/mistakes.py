@@ -182,7 +182,7 @@ MISTAKES = (
         FUNCTION,
         replace_text(("np.gradient(v, time[rows])", "np.gradient(v)")),
         "function",
-        "divide the change of velocity by that",
+        "divide the change of velocity by this time",
     ),
     Mistake(
         "samples always 0.02 s apart",

@@ -40,12 +40,15 @@ def picture(figures: Measured) -> Picture:
     if figures.real:
         said.append(real(axes[-1], figures.real))
         some = ratios(figures)
-        said[-1] += f" in the middle × {np.median(some):.2f}, at most × {some.max():.2f}."
+        said[-1] += (
+            f" It is {np.median(some):.2f} times the recipe's error in the median run, and "
+            f"{some.max():.2f} times in the worst run."
+        )
     else:
         axes[-1].remove()
     alt = (
-        "kA found by two methods over the true kA, and the velocity error in runs of real robots "
-        "that were held out. " + " ".join(said)
+        "The kA that two methods find, divided by the true kA, and the velocity error in runs of "
+        "real robots that were held out. " + " ".join(said)
     )
     return Picture(figure, alt)
 
@@ -66,8 +69,17 @@ def simulated(axes: Axes, section: Section, figures: Measured) -> str:
     axes.set_ylabel("kA found / true kA", color=INK)
     axes.set_title(section.title, fontsize=10, color=INK, loc="left")
     row = told(section, figures)
-    off = {w: share(float(np.median(figures.rows[row][w].gains["kA"] / row.ka))) for w in WAYS}
-    return f"{section.title}, {row.name}: {WAYS[RECIPE]} {off[RECIPE]}, ours {off[OURS]}."
+    medians = {w: _compared(np.median(figures.rows[row][w].gains["kA"]) / row.ka) for w in WAYS}
+    return (
+        f"{section.title} ({row.name}): the median kA of {WAYS[RECIPE]} is {medians[RECIPE]}, and "
+        f"{WAYS[OURS]} is {medians[OURS]}."
+    )
+
+
+def _compared(value: float) -> str:
+    """How far a share of the truth is from it, as the end of a sentence."""
+    text = share(float(value))
+    return f"{text} off" if text.endswith("%") else f"{text} the true kA"
 
 
 def points(
@@ -115,7 +127,7 @@ def real(axes: Axes, runs: Sequence[HeldOutScore]) -> str:
     )  # fmt: skip
     axes.set_title("Real robots: a run held out, predicted", fontsize=10, color=INK, loc="left")
     better = sum(one.ours <= one.recipe for one in runs)
-    return f"Real robots: our error is no larger in {better} of {len(runs)} runs,"
+    return f"Real robots: our error is no larger in {better} of {len(runs)} runs."
 
 
 def tick(name: str) -> str:

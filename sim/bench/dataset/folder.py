@@ -135,7 +135,7 @@ class DatasetFolder:
             self._folder(path.parent)
             if self.mine is not None and file not in self.mine and path.exists():
                 raise BadRequest(
-                    "another program wrote this file meanwhile",
+                    "another program wrote this file in the meantime",
                     where=str(path),
                     advice="Let the other program finish, then run the same command again.",
                 )

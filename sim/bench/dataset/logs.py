@@ -114,7 +114,8 @@ def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
     period = found.read_number("period", default=default.period)
     if not FASTEST <= period <= SLOWEST:
         found.refuse_value(
-            "period", advice=f"Give {FASTEST:g} to {SLOWEST:g} s; a robot's is 0.02."
+            "period",
+            advice=f"Give a time from {FASTEST:g} to {SLOWEST:g} s. Robot programs use 0.02 s.",
         )
     return LogSettings(
         routine=routine,

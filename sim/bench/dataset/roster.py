@@ -69,9 +69,10 @@ def distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
             raise BadRequest(refusal.what, where=where, advice=refusal.advice) from None
         if normalize_name(name) in names:
             raise BadRequest(
-                f"{name!r} and {names[normalize_name(name)]!r} are one student",
+                f"{name!r} and {names[normalize_name(name)]!r} are the same student",
                 where=where,
-                advice="List each student once, or tell them apart by more than capitals.",
+                advice="List each student only once. Two students need names that differ in more "
+                "than upper and lower case.",
             )
         names[normalize_name(name)] = name
     return tuple(names.values())

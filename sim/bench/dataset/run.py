@@ -88,8 +88,8 @@ def check_folder(
             f"these files belonged to this dataset, but the spec no longer contains them: "
             f"{name_files(files)}",
             where=str(place.folder),
-            advice="Move them away, name another folder with -o, or remove them from the key with "
-            "--overwrite.",
+            advice="Move these files away, name another folder with -o, or add --overwrite: it "
+            "removes these files from the key.",
         )
     return found
 

@@ -69,7 +69,8 @@ def read_spec(path: Path) -> Spec:
     total = max(len(spec.students), 1) * sum(one.count * len(one.mechanisms) for one in logs)
     if total > MOST_LOGS:
         top.refuse(
-            f"{total} logs are requested", advice=f"Split it: one dataset has at most {MOST_LOGS}."
+            f"{total} logs are requested",
+            advice=f"Make several datasets: one has at most {MOST_LOGS} logs.",
         )
     return spec
 
@@ -106,6 +107,7 @@ def _secret(top: TomlTable, *, folder: Path) -> Path | None:
     if not name.endswith(ENDING) or len(name) == len(ENDING):
         top.refuse(
             f"secret is not the name of a file that ends in {ENDING}",
-            advice=f'Write secret = "class{ENDING}", a file made for you: a spec gets shared.',
+            advice=f'Write secret = "class{ENDING}": this command makes the file. Others may read '
+            "the spec, so the secret itself must not be in it.",
         )
     return folder / name

@@ -137,9 +137,10 @@ class TomlTable:
         value = self.content.get(key, default)
         ends = [_number(end) for end in (value if isinstance(value, list) else [value, value])]
         advice = (
-            f"Give a number from {least:g} to {most:g}, or the two to draw between: [1.0, 2.0]."
+            f"Give a number from {least:g} to {most:g}, or a range for random numbers: "
+            f"[{least:.1f}, {most:.1f}]."
             if math.isfinite(least)
-            else "Give a number, or the two to draw between: [1.0, 2.0]."
+            else "Give a number, or a range for random numbers: [1.0, 2.0]."
         )
         numbers = [end for end in ends if end is not None and least <= end <= most]
         if len(ends) != 2 or numbers != sorted(numbers) or len(numbers) != len(ends):  # noqa: PLR2004 - the least and the most

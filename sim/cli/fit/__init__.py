@@ -37,18 +37,20 @@ LOOPS = ("velocity", "position")
 def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options for the user's own feedback gains, to be simulated, too."""
     options = (
-        click.option("--own-kp", type=float, help="Try your own kP in simulation …"),
-        click.option("--own-kd", type=float, help="… and your own kD (0 if left out) …"),
+        click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
+        click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
         click.option(
-            "--loop", type=click.Choice(LOOPS), help="… of this loop.  [default: velocity]"
+            "--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"
         ),
         click.option("--html", type=FILE, help="Write a page with every figure and number."),
-        click.option("--plot", type=FILE, help="Write all figures as one: .png, .svg or .pdf."),
+        click.option(
+            "--plot", type=FILE, help="Write all figures into one file: .png, .svg or .pdf."
+        ),
         click.option(
             "--wpilog",
             type=FILE,
-            help="Write measured, simulated, residual and innovation as a log, and a layout file "
-            "for AdvantageScope.",
+            help="Write a log with the measured and simulated signals, residual and innovation, "
+            "and a layout file for AdvantageScope.",
         ),
     )
     for option in reversed(options):
@@ -89,14 +91,16 @@ def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
     "--radius",
     type=float,
     default=1.0,
-    help="Of wheel or drum [m], for --driven-by and --paste.",
+    help="Radius of wheel or drum [m], for --driven-by and --paste.",
 )
-@click.option("--load", type=float, help="Moved mass [kg] or inertia [kg·m²], for --driven-by.")
+@click.option(
+    "--load", type=float, help="Moved mass [kg] or moment of inertia [kg·m²], for --driven-by."
+)
 @turning_options
 @click.option(
     "--paste",
     type=click.Choice((*LANGUAGES, *CONTROLLERS)),
-    help="Only the code to paste: WPILib's feedforward, or gains inside a motor controller.",
+    help="Print only code: WPILib's feedforward, or the settings of a motor controller.",
 )
 @click.option(
     "--season",
@@ -138,11 +142,12 @@ def fit(  # noqa: PLR0917 - click passes options by name
     as_json: bool,  # noqa: FBT001 - click passes it by name
     **entries: str | None,
 ) -> int:
-    """Find kS, kV, kA (and kG) in the logs of one mechanism: .wpilog, .csv, or SysId's old .json.
+    """Find kS, kV, kA (and kG) in the logs of one mechanism.
 
-    Files with one test each are joined. Of several sides of a drivetrain, modules or recordings,
-    each is fitted alone; then they are compared, and their gains averaged. Forward and reverse are
-    compared, too, except with --json and --paste. --straight adds the moment of inertia.
+    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. If there are
+    several sides of a drivetrain, several modules or several recordings, the command fits each of
+    them, compares them, and averages their gains. It also compares forward and reverse, but not
+    with --json or --paste.
 
     For example: sysid fit drive.wpilog --html drive.html
     """

@@ -41,14 +41,16 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
         click.option(
             "--straight",
             type=FILE,
-            help="Log of the same robot going straight; FILES are of turning on the spot …",
+            help="If FILES show a robot turning on the spot: a log of this robot driving straight. "
+            "The command then prints the moment of inertia.",
         ),
-        click.option("--mass", type=float, help="… the mass of the robot [kg] …"),
+        click.option("--mass", type=float, help="Mass of the robot [kg], for --straight."),
         click.option(
             "--lever",
             type=float,
-            help="… and how far a wheel's push passes from the middle [m]: trackwidth/√2 of a "
-            "square swerve, half of it of a tank.  [default: computed from the speeds]",
+            help="Distance from the middle of the robot to the line along which a wheel pushes "
+            "[m], for --straight: trackwidth/√2 for a square swerve drive, trackwidth/2 for a "
+            "tank drive.  [default: computed from the speeds]",
         ),
     )
 

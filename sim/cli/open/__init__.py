@@ -36,13 +36,14 @@ def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
 @click.command(name="open")
 @click.argument("files", nargs=-1, type=FILE)
-@click.option("--raw", is_flag=True, help="Show the data alone: no faults, no fit.")
+@click.option("--raw", is_flag=True, help="Show only the data: no faults, no fit.")
 @page_options
 def open(files: tuple[Path, ...], *, raw: bool, port: int, no_browser: bool) -> int:  # noqa: A001 - the command's own name
-    """Open logs in your browser: see faults and runs, and move the gains until the curves match.
+    """Open logs in your browser.
 
-    Drop logs on the page, or name them here. Nothing leaves this machine, and it works offline.
-    Ctrl-C ends it.
+    See their runs and faults, and move the gains until the curves match. Drag logs onto the page,
+    or name them here. The page works offline, and sends nothing to other computers. Ctrl-C stops
+    the command.
 
     For example: sysid open drive.wpilog
     """

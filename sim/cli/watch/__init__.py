@@ -32,12 +32,13 @@ PAUSE = 0.2  # [s] between looks; a program of WPILib writes its log out four ti
 @click.option(
     "--nt",
     metavar="ADDRESS",
-    help="Follow NetworkTables instead: of localhost, of 10.12.34.2, or of team 1234.",
+    help="Follow NetworkTables instead of a file. ADDRESS is localhost, an address such as "
+    "10.12.34.2, or a team number such as 1234.",
 )
 @click.option(
     "--save", type=FILE, metavar="FOLDER", help="Keep what NetworkTables sent, as .wpilog files."
 )
-@click.option("--page", is_flag=True, help="Show the same live on the page of `sysid open`.")
+@click.option("--page", is_flag=True, help="Also show the runs live, on the page of `sysid open`.")
 @page_options
 @reading_options
 @velocity_options
@@ -59,10 +60,10 @@ def watch(
     as_json: bool,
     **entries: str | None,
 ) -> int:
-    """Follow a robot's log during the tests: fit it after each test, and say what to do next.
+    """Fit a robot's log after each test, and say what to do next.
 
     Name the .wpilog that a robot or a simulation is writing, or the folder in which it will
-    appear, or give --nt ADDRESS to follow NetworkTables. Ctrl-C ends it and prints the gains.
+    appear, or give --nt ADDRESS to follow NetworkTables. Ctrl-C stops it and prints the gains.
 
     For example: sysid watch logs
     """

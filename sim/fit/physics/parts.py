@@ -67,7 +67,7 @@ def check_radius_unit(parts: Parts, found: Fit) -> None:
     if angular and parts.radius != 1.0:
         raise BadRequest(
             f"there is a radius of {parts.radius:g} m, but the position is an angle",
-            advice="Leave the radius out, and give the inertia for the load.",
+            advice="Leave out the radius, and give the moment of inertia as the load.",
         )
     if not angular and parts.radius == 1.0:
         raise BadRequest(

@@ -29,7 +29,7 @@ FACTORS = (
     (360.0, "rotations read as degrees"),
     (1.0 / 360.0, "degrees read as rotations"),
     (2.0, "a diameter given as the radius"),
-    (0.5, "a diameter taken for the radius where the robot's code makes the position"),
+    (0.5, "a diameter used as the radius in the robot's code"),
     (12.0, "feet read as inches"),
     (1.0 / 12.0, "a duty cycle logged as the voltage, or inches read as feet"),
     (1.0 / 0.3048, "meters read as feet"),
@@ -56,7 +56,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
         return []
     share, unsure = kv / parts.kv, SURELY * error / parts.kv
     said = _describe_difference(found, "kV", parts.kv)
-    said = f"{said} that 12 V over the free speed of {parts.count} × {parts.motor.name} gives"
+    said += f" from theory (12 V divided by the free speed of {parts.count} × {parts.motor.name})"
     named = [*_explain_ratio(share, parts)]
     if share + unsure < BELOW:
         why = " or ".join(named) or f"a wrong unit, {_parts_instead(kv, parts)}"
@@ -106,10 +106,10 @@ def _explain_ratio(share: float, parts: Parts) -> list[str]:
     geared = (
         (
             1.0 / parts.ratio,
-            f"a ratio of {parts.ratio:g} that the log leaves out (it counts the motor's turns)",
+            f"a gear ratio of {parts.ratio:g} that is missing, so the log counts motor turns",
         ),
-        (parts.ratio, f"a ratio of {parts.ratio:g} applied twice in the log"),
-        (parts.ratio**-2, f"a ratio of {parts.ratio:g} that is upside down"),
+        (parts.ratio, f"a gear ratio of {parts.ratio:g} applied twice in the log"),
+        (parts.ratio**-2, f"a gear ratio of {parts.ratio:g} that is upside down"),
     )
     known = (*FACTORS, *(pair for pair in geared if not 1.0 / TIGHT < pair[0] < TIGHT))
     near = [
@@ -123,7 +123,7 @@ def _explain_ratio(share: float, parts: Parts) -> list[str]:
 def _parts_instead(kv: float, parts: Parts) -> str:
     """The ratio, the radius and the motors whose own kV would be the one found."""
     share = kv / (parts.motor.back_emf * parts.ratio / parts.radius)
-    would = [f"a ratio of {parts.ratio * share:.3g}"]
+    would = [f"a gear ratio of {parts.ratio * share:.3g}"]
     if parts.radius != 1.0:
         would.append(f"a radius of {parts.radius / share * 1000:.3g} mm")
     off = {
@@ -146,7 +146,7 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
     size = f"{parts.load:g} {'kg·m²' if find_unit(found.units).angular else 'kg'}"
     motors = f"{parts.count} × {parts.motor.name}"
     difference = _describe_difference(found, "kA", theory)
-    said = f"{difference} that {size} on {motors} take without their rotors"
+    said = f"{difference} from theory ({size} on {motors}, without their rotors)"
     where = _place_to_look(found.gains["kV"] / parts.kv, share)
     if _kv_fits(found.gains["kV"] / parts.kv):
         where = f"{where} ({_load_instead(share, parts, size.rpartition(' ')[2])} would fit)"
@@ -154,7 +154,7 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
         return [
             Doubt(
                 "ka-below-theory",
-                f"{said}, and rotors can only make kA larger: {where}.",
+                f"{said}. Rotors can only make kA larger: {where}.",
                 grave=True,
             )
         ]
@@ -162,7 +162,7 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
         return [
             Doubt(
                 "ka-above-theory",
-                f"{said}, and rotors and wheels add 3 to 10 %: {where}, or for a late or averaged "
+                f"{said}. Rotors and wheels add only 3 to 10 %: {where}, or at a late or averaged "
                 "velocity.",
             )
         ]

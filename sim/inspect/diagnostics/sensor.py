@@ -75,9 +75,9 @@ def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "too-fast",
-            f"At {FULL:g} V it would move at {FULL / features.baseline.kv:.3g} m/s: its position"
-            f" is hardly in {per.name}. Add --units radians, rotations or degrees, whichever is "
-            "right.",
+            f"At {FULL:g} V the mechanism would move at {FULL / features.baseline.kv:.3g} m/s, so "
+            f"its position is probably not in {per.name}. Add --units radians, rotations or "
+            "degrees, whichever is right.",
         )
     ]
 
@@ -98,8 +98,8 @@ def check_rest_noise(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "standstill-counted",
-            f"SysId thinks the mechanism moves in {counted} quasistatic samples. In {passed} of "
-            f"them it stands still: their noise is above its threshold of {threshold:.2g}. Set the "
-            "threshold by hand, above the noise.",
+            f"SysId thinks that the mechanism moves in {counted} quasistatic samples. In {passed} "
+            "of them it stands still, but the noise of the velocity is above SysId's threshold of "
+            f"{threshold:.2g}. Set the threshold by hand, above the noise.",
         )
     ]

@@ -284,8 +284,8 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
         where=_whole(index, run),
         confidence=1.0 - left,
         evidence=f"The log shows exactly {np.median(run.voltage):.3g} V, but at first the "
-        f"mechanism accelerates with only {1.0 - shape.lacks:.0%} of what this voltage "
-        "causes later. A current limit reduced the voltage, and the log contains the "
+        f"mechanism has only {1.0 - shape.lacks:.0%} of the acceleration that this voltage "
+        "gives later. A current limit reduced the voltage, and the log contains the "
         "commanded one.",
         advice="Log the applied voltage, which the motor controller measures, or use a step "
         f"smaller than {abs(float(np.median(run.voltage))):.1f} V. Until then, do not trust kA.",

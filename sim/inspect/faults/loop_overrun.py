@@ -95,7 +95,7 @@ def _times(count: int) -> str:
 
 FAULT = Fault(
     name="loop-overrun",
-    summary="the robot program is too slow: gaps in time, samples lost",
+    summary="the robot program is too slow: samples are missing",
     ordinary="about five stalls of 80 to 225 ms within 1.5 s",
     spoil=spoil,
     detect=detect,

@@ -89,8 +89,8 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="mislabelled-test",
-    summary="a run is filed under the name of another test",
-    ordinary="two runs have changed names; from severity 2 on, all of them",
+    summary="a run has the name of another test",
+    ordinary="two runs have each other's names; from severity 2 on, all runs have wrong names",
     spoil=spoil,
     detect=detect,
     whole=True,

@@ -63,7 +63,7 @@ def _like(log: Log, kind: str) -> str:
     volts = [float(np.abs(run.voltage).max(initial=0.0)) for run in log.runs if run.kind == kind]
     if not volts or not max(volts):
         return ""
-    return f" with up to {max(volts):.1f} V, as the other direction had"
+    return f" with up to {max(volts):.1f} V, like the other direction"
 
 
 def _nowhere(test: str) -> LogInterval:

@@ -102,8 +102,9 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
         where=_stretch(index, run, rest.size),
         confidence=confidence,
         evidence=f"The position does not change for {rest.size} samples, but the velocity reads "
-        f"about ±{noise:.3g} per second. That is above SysId's own threshold for this test, "
-        f"{threshold:.3g}, in {passed} of them: SysId thinks the mechanism moves there.",
+        f"about ±{noise:.3g} per second. In {passed} of these samples the velocity is above "
+        f"{threshold:.3g}, SysId's own threshold for this test, so SysId thinks that the "
+        "mechanism moves.",
         advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
         "comes before the motion.",
     )

@@ -127,7 +127,7 @@ def _whole(index: int, run: Run) -> LogInterval:
 FAULT = Fault(
     name="sign-flip",
     summary="voltage, position and velocity do not have the same positive direction",
-    ordinary="one signal is turned round in all tests of one direction; at severity 2 in all tests",
+    ordinary="one signal has the wrong sign in one direction; at severity 2 in both",
     spoil=spoil,
     detect=detect,
     whole=True,

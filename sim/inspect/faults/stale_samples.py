@@ -79,7 +79,9 @@ def _stale(runs: list[Counts], index: int) -> bool:
 
 def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     period = float(np.median(np.diff(run.time)))
-    repeated = " and ".join(f"each {name} for {held.mean():.1f}" for name, held in stale.items())
+    repeated = " and ".join(
+        f"each {name} for {held.mean():.1f} samples" for name, held in stale.items()
+    )
     longest = {name: float(np.median(held)) * period for name, held in stale.items()}
     usual = max(float(held.mean()) for held in stale.values()) * period
     readings = max(held.size for held in stale.values())
@@ -95,8 +97,8 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
         fault="stale-samples",
         where=_whole(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
-        evidence=f"The log repeats {repeated} samples. It is written every {period * 1000.0:.3g}"
-        f" ms, but the sensor updates only every {usual * 1000.0:.0f} ms.",
+        evidence=f"The log repeats {repeated}. It has a sample every {period * 1000.0:.3g} ms, but "
+        f"the sensor updates only every {usual * 1000.0:.0f} ms.",
         advice=advice,
         ordinary=ordinary,
     )

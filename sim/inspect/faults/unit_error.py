@@ -33,17 +33,17 @@ FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes spa
 FAR = 2.5  # [times] a factor that is none of the known ones but too large to be a bent measurement
 
 KNOWN: Mapping[str, float] = {
-    "2π, radians for rotations": TURN,
-    "60, minutes for seconds": 60.0,
-    "60/2π, rpm for radians per second": 60.0 / TURN,
-    "360, degrees for rotations": 360.0,
-    "57.3, degrees for radians": 360.0 / TURN,
-    "6, degrees per second for rpm": 6.0,
-    "2π·60, radians per minute for rotations per second": TURN * 60.0,
-    "39.4, inches for meters": 1.0 / 0.0254,
-    "3.28, feet for meters": 1.0 / 0.3048,
-    "12, inches for feet": 12.0,
-    "10, units per 100 ms for units per second": 10.0,
+    "2π, the factor between rotations and radians": TURN,
+    "60, the factor between seconds and minutes": 60.0,
+    "60/2π, the factor between radians per second and rpm": 60.0 / TURN,
+    "360, the factor between rotations and degrees": 360.0,
+    "57.3, the factor between radians and degrees": 360.0 / TURN,
+    "6, the factor between rpm and degrees per second": 6.0,
+    "2π·60, the factor between rotations per second and radians per minute": TURN * 60.0,
+    "39.4, the factor between meters and inches": 1.0 / 0.0254,
+    "3.28, the factor between meters and feet": 1.0 / 0.3048,
+    "12, the factor between feet and inches": 12.0,
+    "10, the factor between units per 100 ms and units per second": 10.0,
 }
 MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # by severity
 
@@ -81,7 +81,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="unit-error",
                 where=_whole(index, run),
                 confidence=0.95,
-                evidence=f"The velocity is {ratio:.4g} times the slope of the position: {said}.",
+                evidence=f"The velocity is {ratio:.4g} times the slope of the position. {said}.",
                 advice="Make the conversion factors of position and velocity agree, and "
                 f"divide the recorded velocity by {ratio:.4g}.",
             )
@@ -123,14 +123,14 @@ def _named(ratio: float) -> str:
     """What a ratio is; empty if nothing is wrong."""
     if 1.0 / FAR < ratio < FAR or not ratio > 0.0:
         return ""
-    sought = {f"a factor of {name}": factor for name, factor in KNOWN.items()}
-    sought |= {f"one over {name}": 1.0 / factor for name, factor in KNOWN.items()}
+    sought = {f"This is {name}": factor for name, factor in KNOWN.items()}
+    sought |= {f"This is 1 over {name}": 1.0 / factor for name, factor in KNOWN.items()}
     nearest = min(sought, key=lambda said: abs(np.log(ratio / sought[said])))
     if abs(ratio / sought[nearest] - 1.0) < NEAR:
         return nearest
     return (
-        "this factor belongs to no unit: probably only one of the two contains a gear ratio "
-        "or a circumference"
+        "This factor belongs to no unit: probably only one of the two signals contains a gear "
+        "ratio or a circumference"
     )
 
 
@@ -140,8 +140,9 @@ def _whole(index: int, run: Run) -> LogInterval:
 
 FAULT = Fault(
     name="unit-error",
-    summary="the velocity has another unit than the position",
-    ordinary="velocity is off by 60 or 57.3, up or down; by 2π below, by 360 and more above",
+    summary="the unit of the velocity does not match the unit of the position",
+    ordinary="the velocity is wrong by a factor of 60 or 57.3; at severity 0.5 by 2π, at "
+    "severity 2 by 360 or 377",
     spoil=spoil,
     detect=detect,
     whole=True,

@@ -188,14 +188,15 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
         where=where,
         confidence=1.0 - 0.3 / len(story),
         evidence=f"{said}. {echo}.",
-        advice="Look for one motor of several that loses its command, for missing CAN frames, and "
-        "for a second loop that writes the voltage. Then record again.",
+        advice="If there are several motors, check whether one of them loses its command. Look "
+        "also for missing CAN frames, and for a second loop that writes the voltage. Then record "
+        "again.",
     )
 
 
 FAULT = Fault(
     name="voltage-dropout",
-    summary="the voltage in the log is too small for moments, and the motion does not react",
+    summary="for moments the voltage in the log is too small, but the motion does not change",
     ordinary="zero for 15 ms, every 0.22 s to the end of the run",
     spoil=spoil,
     detect=detect,

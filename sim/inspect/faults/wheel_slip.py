@@ -178,7 +178,7 @@ def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
         where=LogInterval(index, run.test, start, min(start + grips, float(run.time[-1]))),
         confidence=share,
         evidence=f"The speed jumps to {1.0 - held:.0%} of its top and stops rising for about "
-        f"{grips:.2f} s. Only then does it rise like the speed of a heavy robot. So the wheels "
+        f"{grips:.2f} s. After that it rises like the speed of a heavy robot. So the wheels "
         "spin first, and grip later.",
         advice=f"Run the dynamic tests again with a smaller step, at most {most:.1f} V, on the "
         "carpet it will drive on.",

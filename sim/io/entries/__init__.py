@@ -161,8 +161,8 @@ def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> State
     raise BadRequest(
         f"it contains the tests of several mechanisms: {number_names(names)}",
         where=where,
-        advice=f"Choose one with --pick 1 to --pick {len(found)}, or with --state "
-        f"{found[0].entry.name}, and record one routine per log.",
+        advice="Choose one by its number, such as --pick 1, or by its name, such as --state "
+        f"{found[0].entry.name}. Next time, record one routine per log.",
     )
 
 

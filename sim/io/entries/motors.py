@@ -154,7 +154,7 @@ def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
     raise BadRequest(
         f"its tests drive several mechanisms, one after another: {number_names(names)}",
         where=search.where,
-        advice=f"Choose one with --pick 1 to --pick {len(groups)}.",
+        advice="Choose one by its number, such as --pick 1.",
     )
 
 
@@ -222,10 +222,12 @@ def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
     same = same or [motor for motor in found if motor.name.lower().endswith(wanted)]
     if len(same) == 1:
         return same[0]
-    which = "fits several motors" if same else "is not a motor here"
+    name, mechanism = search.asked.motor, search.state.mechanism or search.state.entry.name
     names = [motor.name for motor in same or found]
     raise BadRequest(
-        f"{search.asked.motor!r} {which} of {search.state.mechanism or search.state.entry.name!r}",
+        f"{name!r} matches several motors of {mechanism!r}"
+        if same
+        else f"{mechanism!r} has no motor {name!r}",
         where=search.where,
         advice=f"Choose one with --motor: {', '.join(names)}." if names else f"Name {FLAGS}.",
     )
@@ -262,7 +264,7 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     return MissingSignal(
         "; ".join(said),
         where=search.where,
-        advice=f"{_advice(signal)}, or name another logger's entries: {FLAGS}. {EXPORT}",
+        advice=f"{_advice(signal)}. Or name another logger's entries: {FLAGS}. {EXPORT}",
     )
 
 
@@ -277,15 +279,17 @@ def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> Mi
     devices = find_devices(entries)
     lacking = [s for s in NEEDED if not any(s in device.signals for device in devices)]
     what = (
-        f"no {' and no '.join(lacking)} changes" if lacking else "no motor has all three, changing"
+        f"no {' or '.join(filter(None, (', '.join(lacking[:-1]), lacking[-1])))} changes"
+        if lacking
+        else "no motor has a voltage, a position and a velocity that all change"
     )
     near = [name for signal in NEEDED for name in _near(signal, entries, mechanism)]
     said = f". Entries with similar names: {quote_names(list(dict.fromkeys(near)))}" if near else ""
     arrays = [one.name for one in entries if one.type.endswith("[]") and identify_signal(one)]
     said += f". Arrays cannot be used: {quote_names(arrays)}" if arrays else ""
     return MissingSignal(
-        f"{what} during the tests. A motor needs an entry each for voltage, position "
-        f"and velocity{said}",
+        f"{what} during the tests. Each motor needs three entries: voltage, position and "
+        f"velocity{said}",
         where=where,
         advice=f"Log all three of each motor, or name the entries: {FLAGS}. {EXPORT}",
     )
@@ -293,7 +297,7 @@ def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> Mi
 
 def _advice(signal: str) -> str:
     what = "the applied voltage" if signal == "voltage" else f"the {signal}"
-    return f"Log {what} in the routine's log callback, log.motor(NAME).{CALLS[signal]}"
+    return f"Log {what} in the routine's log callback: call log.motor(NAME).{CALLS[signal]}"
 
 
 def _near(signal: str, entries: Sequence[Entry], mechanism: str) -> list[str]:

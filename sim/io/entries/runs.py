@@ -203,19 +203,19 @@ def _doubt_sparse_signals(
     needed = [(name, series) for name in NEEDED for series in signals[name]]
     parts = [[series.between(*span) for span in spans] for _, series in needed]
     counts = {name: sum(map(len, row)) for (name, _), row in zip(needed, parts, strict=True)}
-    many = ", ".join(f"{count} of {name}" for name, count in counts.items())
+    many = ", ".join(f"{count} samples of {name}" for name, count in counts.items())
     if held:
         yield Doubt(
             "change-only",
-            f"{where}: only changes were logged ({many}). The times of all signals were joined, "
-            "and a value was held until its next change. SysId itself uses only the times at "
-            "which the voltage changed, and fails on such a log: a step has one voltage. Log "
-            "every value in every loop.",
+            f"{where}: only changes were logged ({many}). So each value was repeated until its "
+            "next change. SysId itself uses only the times at which the voltage changed. It fails "
+            "on such a log, because the voltage of a step does not change. Log every value in "
+            "every loop.",
         )
     elif any(find_sparse_signals(parts)):
         yield Doubt(
             "uneven-rates",
-            f"{where}: the signals were logged at different rates ({many} samples). As in "
+            f"{where}: the signals were logged at different rates ({many}). As in "
             "SysId, the other signals were interpolated to the times of the voltage. Log "
             "every signal in every loop.",
         )
@@ -238,8 +238,8 @@ def _doubt_combined_motors(
         for i, j in combinations(range(len(names)), 2):
             if rows[i] @ rows[j] < OPPOSED * length[i] * length[j]:
                 raise BadRequest(
-                    f"motors {names[i]!r} and {names[j]!r} have a {signal} of opposite sign, so "
-                    "their mean says nothing",
+                    f"the {signal} has opposite signs for the motors {names[i]!r} and "
+                    f"{names[j]!r}, so their mean says nothing",
                     where=where,
                     advice=f"Choose one with --motor {names[i]}, or invert one in the robot code.",
                 )

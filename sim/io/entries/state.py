@@ -156,7 +156,7 @@ def _no_test(entries: Sequence[Entry], *, where: str) -> MissingSignal:
     return MissingSignal(
         f"no test was recorded: {quote_names([entry.name for entry in entries])} {words}",
         where=where,
-        advice="Run the four tests with the robot enabled, and give the log of that.",
+        advice="Run the four tests with the robot enabled, and use the log of these tests.",
     )
 
 
@@ -172,8 +172,7 @@ def _no_state(*, where: str) -> MissingSignal:
         f"no entry says which test runs: expected '{WORD}-<mechanism>' (string)",
         where=where,
         advice="SysIdRoutine writes this entry while a test runs. Run the tests with the robot "
-        "enabled, "
-        "and give the log of that. If the file holds one test, say which in its name: "
-        "dynamic-forward.wpilog. Or name another logger's entries with --state ENTRY --voltage "
-        "ENTRY --position ENTRY --velocity ENTRY.",
+        "enabled, and use the log of these tests. If the file contains only one test, put the "
+        "name of the test into the file name: dynamic-forward.wpilog. Or name another logger's "
+        "entries with --state ENTRY --voltage ENTRY --position ENTRY --velocity ENTRY.",
     )

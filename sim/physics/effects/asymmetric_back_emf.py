@@ -45,8 +45,14 @@ EFFECT = Effect(
     fingerprint="The voltage-velocity lines of forward and reverse have different slopes.",
     inspect="A brushed motor with advanced timing, a roller or belt that folds one way.",
     apart={
-        "asymmetric-friction": "Compare two speeds: back-EMF's difference grows with speed.",
-        "constant-load": "Compare two speeds: a load's difference does not grow with speed.",
+        "asymmetric-friction": (
+            "Run at two speeds: a difference in back-EMF grows with the speed, a difference in "
+            "friction does not."
+        ),
+        "constant-load": (
+            "Run at two speeds: a difference in back-EMF grows with the speed, a difference from "
+            "a constant load does not."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -49,13 +49,19 @@ EFFECT = Effect(
     fingerprint="Forward needs more voltage than reverse by the same amount at every speed.",
     inspect="A worm gear or ratchet, a bearing loaded on one side, a brake that drags.",
     apart={
-        "constant-load": "Let it go at rest: a load moves it, friction does not. While it moves "
-        "the two are the same.",
-        "asymmetric-back-emf": "Compare two speeds: friction's difference stays, back-EMF's grows.",
+        "constant-load": (
+            "Let the mechanism go at rest: a load moves it, friction does not. While the "
+            "mechanism moves, the two look the same."
+        ),
+        "asymmetric-back-emf": (
+            "Run at two speeds: a difference in back-EMF grows with the speed, a difference in "
+            "friction does not."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,
     is_ordinary=is_ordinary,
     hooks={"coulomb_friction": coulomb_friction},
+    same_in_motion="constant-load",
     symmetric=False,
 )

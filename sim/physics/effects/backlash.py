@@ -46,16 +46,17 @@ EFFECT = Effect(
         Parameter("slack", "play from tooth to tooth", "{u}", power=-1, most=1e3),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.25),
     ),
-    fingerprint="After every start and turn the velocity jumps up, drops, and goes on as usual.",
-    inspect="Gears, hex shafts and chains: turn the mechanism by hand with the motor held.",
+    fingerprint="After every start or change of direction the velocity jumps up, drops, and is "
+    "then normal.",
+    inspect="Gears, hex shafts and chains: hold the motor, and turn the mechanism by hand.",
     apart={
         "compliance": (
-            "Change direction with two sizes of step, logged at 5 ms: free play stays the "
-            "same, a spring bends further."
+            "Change direction with two sizes of step, and log every 5 ms: free play stays the "
+            "same, but a spring bends further with the larger step."
         ),
         "stribeck": (
-            "A triangle: free play shows at each change of direction, Stribeck friction at each "
-            "start."
+            "Run a triangle test: free play shows at each change of direction, Stribeck friction "
+            "shows at each start."
         ),
     },
     example=ordinary_parameters,

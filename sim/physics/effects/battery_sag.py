@@ -55,8 +55,14 @@ EFFECT = Effect(
     fingerprint="Steps start more slowly than kA says, and larger steps even more so.",
     inspect="An old battery, a loose Anderson connector, a log of commanded voltage.",
     apart={
-        "drag": "Add a second step level, or log the applied voltage: sag grows with the step.",
-        "current-limit": "Add a second step level: a limit cuts at one current, sag bends.",
+        "drag": (
+            "Run a step with another voltage, or log the applied voltage: battery sag grows with "
+            "the step."
+        ),
+        "current-limit": (
+            "Run a step with another voltage: a limit cuts off at one current, battery sag grows "
+            "gradually."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

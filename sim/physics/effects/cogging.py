@@ -100,9 +100,12 @@ EFFECT = Effect(
     ),
     apart={
         "compliance": (
-            "Run at another speed: cogging stays at its positions, a vibration keeps its frequency."
+            "Run at another speed: cogging stays at the same positions, a vibration keeps its "
+            "frequency."
         ),
-        "gravity-cosine": "Use the full travel: gravity has one wave per turn of the arm.",
+        "gravity-cosine": (
+            "Use the full travel: the force of gravity repeats only once per turn of the arm."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -55,14 +55,16 @@ EFFECT = Effect(
     fingerprint=(
         "After every change of voltage the velocity oscillates, always at the same frequency."
     ),
-    inspect="Belts, chains and long shafts: push the load with the motor held and watch it spring.",
+    inspect="Belts, chains and long shafts: hold the motor, push the load, and watch it spring "
+    "back.",
     apart={
         "backlash": (
-            "Change direction with two sizes of step, logged at 5 ms: a spring bends further, "
-            "free play stays the same."
+            "Change direction with two sizes of step, and log every 5 ms: free play stays the "
+            "same, but a spring bends further with the larger step."
         ),
         "cogging": (
-            "Run at another speed: a vibration keeps its frequency, cogging keeps its positions."
+            "Run at another speed: cogging stays at the same positions, a vibration keeps its "
+            "frequency."
         ),
     },
     example=ordinary_parameters,

@@ -50,10 +50,18 @@ EFFECT = Effect(
     fingerprint="The missing voltage is the same at every speed and position, and has one sign.",
     inspect="Weight on an elevator fitted as simple, a constant-force spring, a field that slopes.",
     apart={
-        "asymmetric-friction": "Let it go at rest: a load moves it, friction does not. While it "
-        "moves the two are the same.",
-        "spring": "Use the full travel: a spring's force changes with position.",
-        "gravity-cosine": "Use the full travel: gravity on an arm changes with its angle.",
+        "asymmetric-friction": (
+            "Let the mechanism go at rest: a load moves it, friction does not. While the "
+            "mechanism moves, the two look the same."
+        ),
+        "spring": (
+            "Use the full travel: the force of a spring changes with the position, a constant "
+            "load does not."
+        ),
+        "gravity-cosine": (
+            "Use the full travel: gravity on an arm changes with the angle, a constant load does "
+            "not."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

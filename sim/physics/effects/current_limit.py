@@ -49,8 +49,14 @@ EFFECT = Effect(
     "from the start.",
     inspect="Stator and supply limits in the motor controller's configuration.",
     apart={
-        "battery-sag": "Add a second step level: a limit cuts at one current, sag bends.",
-        "delay": "Log at 5 ms, or add a second step level: a delay is the same for both.",
+        "battery-sag": (
+            "Run a step with another voltage: a limit cuts off at one current, battery sag grows "
+            "gradually."
+        ),
+        "delay": (
+            "Log every 5 ms, or run a step with another voltage: a delay is the same for both "
+            "steps."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -50,8 +50,14 @@ EFFECT = Effect(
     fingerprint="Ramps start late and then jump to their speed; below one voltage it coasts.",
     inspect="The neutral deadband in the motor controller's configuration.",
     apart={
-        "stribeck": "Let the voltage fall (triangle, coast): a deadband cuts it off.",
-        "delay": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
+        "stribeck": (
+            "Let the voltage fall slowly (triangle test): below one voltage a deadband gives no "
+            "voltage at all, friction only slows the mechanism."
+        ),
+        "delay": (
+            "Run two ramps: with a deadband the motion starts at the same voltage, with a delay "
+            "it starts after the same time."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

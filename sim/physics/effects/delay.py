@@ -51,11 +51,19 @@ EFFECT = Effect(
     formula="u(t) = V(t - lag)",
     parameters=(Parameter("lag", "time from command to motor", "s", most=0.5),),
     fingerprint="Nothing happens for a moment after every change of voltage.",
-    inspect="Logging in another loop than driving, a busy CAN bus, a slew-rate limit.",
+    inspect="Logging in a different loop than driving, a busy CAN bus, a slew-rate limit.",
     apart={
-        "velocity-filter": "Look at the position: a filter delays only the velocity.",
-        "current-limit": "Log at 5 ms, or add a second step level.",
-        "deadband": "Compare two ramps: a deadband starts at one voltage, a delay after one time.",
+        "velocity-filter": (
+            "Look at the position: a delay also shifts the position, a filter does not."
+        ),
+        "current-limit": (
+            "Log every 5 ms, or run a step with another voltage: a delay is the same for both "
+            "steps."
+        ),
+        "deadband": (
+            "Run two ramps: with a deadband the motion starts at the same voltage, with a delay "
+            "it starts after the same time."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -41,8 +41,14 @@ EFFECT = Effect(
     inspect="Whatever moves air: a flywheel or a roller that works as a fan, spokes, a large flat "
     "surface. It is not thick grease, which raises kV, nor a tight belt, which raises kS.",
     apart={
-        "stribeck": "A faster ramp or step: drag keeps growing, Stribeck friction stays small.",
-        "voltage-limit": "A coast: drag slows it while no voltage is applied.",
+        "stribeck": (
+            "Run a faster ramp or a larger step: drag keeps growing with the speed, Stribeck "
+            "friction stays small."
+        ),
+        "voltage-limit": (
+            "Record a coast: drag slows the mechanism while no voltage is applied, a voltage "
+            "limit does not."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

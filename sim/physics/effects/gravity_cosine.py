@@ -53,7 +53,7 @@ def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str,
 EFFECT = Effect(
     name="gravity-cosine",
     kind="term",
-    summary="gravity on an arm: most when level, none when upright",
+    summary="gravity on an arm: largest when the arm is level, zero when it is upright",
     formula="level·cos x + upright·sin x",
     parameters=(
         Parameter("level", "voltage that holds it level", "V", least=-12.0, most=12.0),
@@ -62,8 +62,14 @@ EFFECT = Effect(
     fingerprint="The missing voltage follows the angle like a cosine, at every speed.",
     inspect="An arm fitted as simple, an angle whose zero is not level, a turret on a slope.",
     apart={
-        "spring": "Use the full travel, or start elsewhere: a cosine bends, a spring does not.",
-        "constant-load": "Use the full travel: a constant load does not change with the angle.",
+        "spring": (
+            "Use the full travel, or start at another position: the voltage for gravity follows a"
+            " cosine, the voltage for a spring follows a straight line."
+        ),
+        "constant-load": (
+            "Use the full travel: gravity on an arm changes with the angle, a constant load does "
+            "not."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -55,12 +55,17 @@ EFFECT = Effect(
     summary="a motor that gets warm and weaker during the tests",
     formula="(u - kV·v)/(1 + warmth), warmth grows with (u - kV·v)²",
     parameters=(Parameter("rate", "warmth per squared volt and second", "1/(V²·s)", most=10.0),),
-    fingerprint="Later runs react more weakly than earlier ones, most after a large current.",
+    fingerprint="Later runs react more weakly than earlier runs, above all after a large current.",
     inspect="Motor temperature in the log; let it cool between tests.",
     apart={
-        "inertia-change": "Repeat the first test at the end: heat grows slowly, a load comes at "
-        "once.",
-        "battery-sag": "Repeat the first test at the end: heat stays, sag does not.",
+        "inertia-change": (
+            "Repeat the first test at the end: a motor gets warm slowly, a load changes at one "
+            "moment."
+        ),
+        "battery-sag": (
+            "Repeat the first test at the end: the motor is warmer than before, battery sag is "
+            "the same as before."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

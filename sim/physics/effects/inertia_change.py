@@ -146,8 +146,13 @@ EFFECT = Effect(
     fingerprint="kA changes from one value to another at one moment.",
     inspect="The load that the mechanism carried, and changes between tests.",
     apart={
-        "velocity-filter": "Look at the position: a filter does not change it.",
-        "heating": "Repeat the first test at the end: heat grows slowly, a load comes at once.",
+        "velocity-filter": (
+            "Look at the position: a filter does not change it, another inertia does."
+        ),
+        "heating": (
+            "Repeat the first test at the end: a motor gets warm slowly, a load changes at one "
+            "moment."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

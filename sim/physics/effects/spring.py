@@ -60,8 +60,14 @@ EFFECT = Effect(
     fingerprint="The missing voltage is a straight line over position, at every speed.",
     inspect="Tubing or gas springs that hold up an arm, a cable chain, a hose that winds up.",
     apart={
-        "gravity-cosine": "Use the full travel, or start elsewhere: a cosine bends.",
-        "constant-load": "Use the full travel: a constant load is the same everywhere.",
+        "gravity-cosine": (
+            "Use the full travel, or start at another position: the voltage for gravity follows a"
+            " cosine, the voltage for a spring follows a straight line."
+        ),
+        "constant-load": (
+            "Use the full travel: the force of a spring changes with the position, a constant "
+            "load does not."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -64,9 +64,14 @@ EFFECT = Effect(
     ),
     inspect="A dry bearing, a gasket, a chain that is too tight, grease that has become stiff.",
     apart={
-        "deadband": "Let the voltage fall (triangle, coast): a deadband cuts it off, friction only "
-        "slows it.",
-        "drag": "A faster run: drag grows with speed, Stribeck friction fades.",
+        "deadband": (
+            "Let the voltage fall slowly (triangle test): below one voltage a deadband gives no "
+            "voltage at all, friction only slows the mechanism."
+        ),
+        "drag": (
+            "Run a faster ramp or a larger step: drag keeps growing with the speed, Stribeck "
+            "friction stays small."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

@@ -68,8 +68,10 @@ EFFECT = Effect(
     fingerprint="The velocity follows the slope of the position with a delay; steps look rounded.",
     inspect="Velocity filter and measurement period of the motor controller's encoder.",
     apart={
-        "delay": "Look at the position: a delay moves it too, a filter does not.",
-        "inertia-change": "Look at the position: its second difference is not filtered.",
+        "delay": "Look at the position: a delay also shifts the position, a filter does not.",
+        "inertia-change": (
+            "Look at the position: a filter does not change it, another inertia does."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

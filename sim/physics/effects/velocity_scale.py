@@ -50,8 +50,8 @@ EFFECT = Effect(
     inspect="Conversion factors of position and of velocity: gear ratio, wheel, minutes.",
     apart={
         "asymmetric-back-emf": (
-            "Compare velocity and slope of the position: only this effect makes them differ by a "
-            "constant factor."
+            "Compare the velocity with the slope of the position: only velocity-scale makes the "
+            "two differ by a constant factor."
         ),
     },
     example=ordinary_parameters,

@@ -40,11 +40,17 @@ EFFECT = Effect(
     summary="a bound on the voltage that is applied (peak output)",
     formula="u kept within ± limit",
     parameters=(Parameter("limit", "largest voltage applied", "V", least=1e-3, neutral=1e6),),
-    fingerprint="Above one voltage nothing gets faster, in ramps and in steps.",
+    fingerprint="Above a certain voltage the mechanism gets no faster, in ramps and in steps.",
     inspect="Peak output and voltage compensation in the motor controller's configuration.",
     apart={
-        "drag": "A coast: drag slows it while no voltage is applied, a limit does not.",
-        "current-limit": "A ramp: a current limit lets it reach full speed, slowly.",
+        "drag": (
+            "Record a coast: drag slows the mechanism while no voltage is applied, a voltage "
+            "limit does not."
+        ),
+        "current-limit": (
+            "Run a ramp: with a current limit the mechanism still reaches its full speed, but "
+            "later."
+        ),
     },
     example=ordinary_parameters,
     start_values=find_start_values,

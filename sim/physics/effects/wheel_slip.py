@@ -64,12 +64,13 @@ EFFECT = Effect(
     inspect="Tires, carpet and the robot's weight on the driven wheels.",
     apart={
         "current-limit": (
-            "Log the current: at a limit it stays the same, while wheels that slip draw less and "
-            "less."
+            "Log the current: at a current limit it stays the same, with wheels that slip it falls."
         ),
-        "backlash": "Use a smaller step: free play shows at every start, slip only at strong ones.",
+        "backlash": (
+            "Use a smaller step: free play shows at every start, wheels slip only at strong starts."
+        ),
         "inertia-change": (
-            "Use a smaller step: then the wheels hold, and a different inertia still shows."
+            "Use a smaller step: then the wheels do not slip, but a different inertia still shows."
         ),
     },
     example=ordinary_parameters,

@@ -125,7 +125,7 @@ def _unreadable(damage: FileDamage | None, end: int, where: str, what: str) -> U
         return UnreadableFile(
             "there are no records in it",
             where=f"{where}, byte {end}",
-            advice="Run the tests with the robot enabled, and give the log of that.",
+            advice="Run the tests with the robot enabled, and use the log of these tests.",
         )
     how = "the file is cut off" if damage.torn else "the file is damaged"
     return UnreadableFile(

@@ -157,7 +157,7 @@ def _find_misfits(number: int, group: _Group, lives: Sequence[_EntryLife]) -> It
     tools do.
     """
     if not lives:
-        yield _Stop(int(group.index[0]), f"a record of entry {number}, which was never started")
+        yield _Stop(int(group.index[0]), f"a record of the unknown entry {number}")
     for life in lives:
         if life.start.type in SIZES:
             part = group.select_life(life)
