@@ -80,7 +80,7 @@ def draw_drag(*, moves: bool = True) -> str:
         moves: whether all of the way is in it, or only its end.
     """
     log = simulate(MECHANISMS["swerve"], Routine(), rng=np.random.default_rng(1))
-    shown = Log(tuple(log.runs_of_test(test)[0] for test in TESTS), units=log.units)
+    shown = Log(tuple(log.list_runs_of_test(test)[0] for test in TESTS), units=log.units)
     fitted = {name: float(value) for name, value in fit(log).gains.items()}
     steps = list_steps(fitted)[0 if moves else -1 :]
     frames = [draw_step(gains, shown, moved=moved) for gains, moved in steps]

@@ -1,6 +1,6 @@
 """A numeric answer: a value with a unit, bands for full and half credit, and what went wrong.
 
-A wrong number is told which known slip would explain it, or only how far outside it is in words:
+Feedback to a wrong number names the known mistake that would explain it, or how far off it is:
 never the distance, and never the key.
 """
 
@@ -29,7 +29,7 @@ class Band:
 
     Args:
         full, partial: share of the expected value, for full and for half credit.
-        full_size, partial_size: in the unit asked for.
+        full_size, partial_size: in the unit of the answer.
     """
 
     full: float
@@ -54,7 +54,7 @@ FAST_KA = Band(0.25, 0.50)  # kA where the mechanism is FAST
 
 @dataclass(frozen=True)
 class AskedNumber:
-    """A number that is asked for.
+    """A number that an exercise asks for: its value, unit and tolerance.
 
     Args:
         name: as in the answer file: ``kV``.
@@ -81,7 +81,7 @@ class AskedNumber:
 
 @dataclass(frozen=True)
 class AnswerKey:
-    """The numbers asked for together, and the mechanism and tests they belong to."""
+    """The numbers of an exercise, and the mechanism and tests they belong to."""
 
     asked: Mapping[str, AskedNumber]
     scene: Scene = field(default_factory=Scene)
@@ -101,7 +101,7 @@ def ask_gains(gains: Mapping[str, float], *, position: str) -> dict[str, AskedNu
 
 
 def read_answer_number(raw: object, asked: AskedNumber) -> float:
-    """An answer as a number in the unit asked for.
+    """An answer as a number in the exercise's unit.
 
     Raises:
         WrongAnswer: it is not a number, or not of that unit; the message says what it is instead.
@@ -168,7 +168,7 @@ def judge_number(
     Args:
         name: which one.
         given: all the answers, by name, as they were read from the file.
-        key: what is asked for.
+        key: the right numbers.
         points: what the check is worth, for half credit.
 
     Returns:
@@ -213,30 +213,23 @@ class NumberAnswers(Protocol):
 
     @property
     def key(self) -> AnswerKey:
-        """The numbers asked for."""
+        """The right numbers."""
 
 
-def number_check(
-    name: str,
-    description: str,
-    *,
-    points: float,
-    after: Check[Any] | tuple[Check[Any], ...] = (),
-) -> Check[Any]:
+def make_number_check(name: str, description: str, *, points: float) -> Check[Any]:
     """Make a check of one number.
 
     Args:
-        name: of the number; in lower case it is the check's.
+        name: the number's name; in lower case it names the check.
         description: the line that the learner reads.
         points: for full marks.
-        after: the check, or checks, that have to pass first.
     """
 
     def judge(answers: NumberAnswers) -> str | None:
         return judge_number(name, answers.given, answers.key, points=points)
 
     judge.__name__, judge.__doc__ = name.lower(), description
-    return check(points=points, after=after)(judge)
+    return check(points=points)(judge)
 
 
 def diagnose_number(

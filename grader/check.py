@@ -26,7 +26,7 @@ LONGEST_SHOWN = 40  # [characters] of an answer that is shown back
 
 
 def shorten(raw: object) -> str:
-    """An answer as it is shown back: on one line, and not too much of it."""
+    """An answer as messages quote it: on one line, and not too long."""
     text = " ".join(str(raw).split())
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}…"
 
@@ -71,7 +71,7 @@ class NotRunError(Exception):
 
 @dataclass(frozen=True)
 class Result:
-    """What one check found.
+    """The result of one check.
 
     Args:
         id: the check's name in lower case with dashes: ``applied-voltage``.
@@ -96,7 +96,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Check(Generic[Subject]):
-    """A check as the examiner knows it.
+    """A check that can be run on an answer.
 
     Args:
         id: its function's name, with dashes.

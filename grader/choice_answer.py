@@ -45,7 +45,7 @@ def check_choice(
     why: Callable[[str], tuple[str, str]],
     also: Mapping[str, str] | None = None,
 ) -> None:
-    """Raise ``WrongAnswer`` unless a word is the right one.
+    """Raise ``WrongAnswer`` unless the answer is the right one of the choices.
 
     Args:
         raw: what was given.

@@ -36,7 +36,7 @@ class Picture(Protocol):
 
 @dataclass(frozen=True)
 class Consequence:
-    """What an answer would do.
+    """The effect of an answer on the robot, in words and as a picture.
 
     Args:
         words: what happens, in sentences with rounded numbers.

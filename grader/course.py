@@ -45,7 +45,7 @@ def find_course(start: Path) -> Path:
 
 
 def describe_other_code(course: Path) -> str:
-    """What is to be said where a course folder holds other code than the one that is running.
+    """A remark if a course folder holds other code than the one that is running; else empty.
 
     The folder one stands in decides about exercises and lessons; grader and sim are those of the
     installation that runs. Empty where the two are the same, or the folder holds no code.
@@ -92,21 +92,21 @@ class Progress:
         return self.standings.get(student, {}).get(exercise, Standing())
 
     def replace_standing(self, student: str, exercise: str, standing: Standing) -> "Progress":
-        """The same, with one standing changed."""
+        """A copy with one standing changed."""
         mine = {**self.standings.get(student, {}), exercise: standing}
         return replace(self, standings={**self.standings, student: mine})
 
     def add_score(
         self, student: str, exercise: str, *, score: float, max_score: float
     ) -> "Progress":
-        """The same, with a score noted; a better one from before is kept."""
+        """A copy with a score added; a better earlier one is kept."""
         old = self.find_standing(student, exercise)
         best = score if old.max_score != max_score else max(score, old.score)
         new = replace(old, score=best, max_score=max_score)
         return self.replace_standing(student, exercise, new)
 
     def add_hints(self, student: str, exercise: str, hints: int) -> "Progress":
-        """The same, with so many hints shown; more from before are kept."""
+        """A copy with so many hints shown; a larger earlier number is kept."""
         old = self.find_standing(student, exercise)
         return self.replace_standing(student, exercise, replace(old, hints=max(hints, old.hints)))
 

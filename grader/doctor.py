@@ -17,7 +17,7 @@ ROBOT = ("wpilib", "robotpy-commands-v2")
 
 @dataclass(frozen=True)
 class MachineFinding:
-    """One thing that was looked at.
+    """One finding about this machine.
 
     Args:
         what: it is.
@@ -35,7 +35,7 @@ class MachineFinding:
 
 
 def examine_machine(course: Path) -> Iterator[MachineFinding]:
-    """Look at this machine, one thing after another.
+    """Examine this machine, one finding after another.
 
     Args:
         course: the course folder.

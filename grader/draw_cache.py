@@ -27,7 +27,7 @@ _KEEPING = ContextVar("keeping", default=False)
 
 @contextmanager
 def enable_draw_cache() -> Iterator[None]:
-    """A context in which drawn data are cached on disk."""
+    """A context in which a student's random data are cached on disk."""
     token = _KEEPING.set(True)
     try:
         yield
@@ -35,8 +35,8 @@ def enable_draw_cache() -> Iterator[None]:
         _KEEPING.reset(token)
 
 
-def cache_draw_on_disk(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
-    """Decorator: read a student's drawn data from the cache where it is on, else draw them.
+def cache_generated_data(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
+    """Decorator: read a student's random data from the cache if it is on, else generate them.
 
     Args:
         draw: a student -> what is theirs; in a module of an exercise's folder.
@@ -54,14 +54,14 @@ def cache_draw_on_disk(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
                 found: Drawn = pickle.loads(content)  # noqa: S301 - the user's own cache, as Python's
                 return found
         found = draw(student)
-        write_draw(place, pickle.dumps(found))
+        write_cached_data(place, pickle.dumps(found))
         return found
 
     return drawn
 
 
 def find_cache_path(exercise: Path, student: str, what: str) -> Path | None:
-    """Where something of a student's exercise is kept; None where nothing is to be kept.
+    """The path of a student's cached data for an exercise; None if nothing is cached.
 
     Args:
         exercise: the exercise's folder.
@@ -72,7 +72,7 @@ def find_cache_path(exercise: Path, student: str, what: str) -> Path | None:
         return None
     whole = f"{exercise.resolve()}\0{normalize_name(student)}\0{_fingerprint_code(exercise)}"
     name = f"{exercise.name}-{hashlib.sha256(whole.encode()).hexdigest()[:20]}.{what}"
-    return kept_files.cache_folder() / "drawn" / name
+    return kept_files.find_cache_folder() / "drawn" / name
 
 
 @cache
@@ -81,8 +81,8 @@ def _fingerprint_code(exercise: Path) -> str:
     return fingerprint_folders(exercise)
 
 
-def write_draw(place: Path, content: bytes) -> None:
-    """Write drawn data into the cache, if there is one; the oldest of many are removed."""
+def write_cached_data(place: Path, content: bytes) -> None:
+    """Write a student's random data into the cache, and remove the oldest of many."""
     with suppress(OSError):
         kept_files.write_cached(place, content)
         kept_files.remove_files(kept_files.select_older(place.parent.iterdir(), than=MOST))

@@ -83,7 +83,7 @@ class Exercise:
 
     @cached_property
     def module(self) -> ModuleType:
-        """Its checks.py, loaded by path under a name of its own."""
+        """The exercise's checks.py, loaded by path under a name of its own."""
         path = self.folder / "checks.py"
         own = hashlib.sha256(str(path).encode("utf-8", "surrogatepass")).hexdigest()[:12]
         name = f"_checks_of_{self.name}_{own}"  # the same in each process: see grader.draw_cache
@@ -99,12 +99,12 @@ class Exercise:
 
     @property
     def checks(self) -> tuple[Check[Any], ...]:
-        """Its checks, in the order they are written."""
+        """The exercise's checks, in the order in which they are written."""
         return tuple(value for value in vars(self.module).values() if isinstance(value, Check))
 
     @property
     def hints(self) -> tuple[str, ...]:
-        """Its three hints."""
+        """The exercise's three hints."""
         text = (self.folder / "hints.toml").read_text(encoding="utf-8")
         return tuple(tomllib.loads(text)[name].strip() for name in HINTS)
 
@@ -120,7 +120,7 @@ class Exercise:
 
     @property
     def log_endings(self) -> tuple[str, ...]:
-        """Endings of the logs of a learner's own robot that may belong to the answer."""
+        """File name endings of robot logs that a learner may hand in with the answer."""
         return tuple(getattr(self.module, "LOG_ENDINGS", ()))
 
     @property
@@ -137,7 +137,7 @@ class Exercise:
 
     @property
     def runs_code(self) -> bool:
-        """Whether it can run the code it is given, besides reading it."""
+        """Whether it can run the learner's code, besides reading it."""
         return "run" in inspect.signature(self.module.read).parameters
 
     @property
@@ -147,7 +147,7 @@ class Exercise:
         return folder if folder.is_dir() else None
 
     def prepare(self, student: str, *, say: Callable[[str], None]) -> None:
-        """Make what the learner works on, where it is not there yet.
+        """Make the files that the learner works on, if they are missing.
 
         Args:
             student: for whom.
@@ -171,7 +171,9 @@ class Exercise:
             files = find_files(whole, folder=self.folder, names=self.files)
         except Refusal as refusal:
             return self._ungradable(str(refusal), student=student)
-        return best_grade([self._grade_file(file, student=student, run=run) for file in files])
+        return choose_best_grade(
+            [self._grade_file(file, student=student, run=run) for file in files]
+        )
 
     def find_consequence(self, grade: Grade) -> Consequence | None:
         """What an answer would do on the robot; None where it is right, or has no visible effect.
@@ -221,8 +223,8 @@ def _sum_points(results: Sequence[Result]) -> list[tuple[float, float]]:
     return [(result.points, result.max_points) for result in results] or [(0.0, 0.0)]
 
 
-def best_grade(grades: Sequence[Grade]) -> Grade:
-    """The grade to show: the highest score; where nothing scored, one that could not be read.
+def choose_best_grade(grades: Sequence[Grade]) -> Grade:
+    """The grade with the highest score; if none scored, one whose answer could not be read.
 
     A file with a syntax error is more likely the one being worked on than an untouched starter.
     """

@@ -32,7 +32,7 @@ SHARE = 1 / 6  # of the log's points: one wrong signal
 
 
 def check_devices(facts: RoutineFacts, *, points: float) -> None:
-    """Whether each motor's entries come from its own devices, each with its own quantity.
+    """Raise ``WrongAnswer`` unless each motor's entries come from its own devices.
 
     Args:
         facts: what the code says.
@@ -142,7 +142,7 @@ def _find_mixed_devices(facts: RoutineFacts) -> Iterator[Fault]:
 
 
 def check_all_logged(facts: RoutineFacts, *, demanded: int, points: float) -> None:
-    """Whether every motor that the Mechanism drives is in the log, or each side of a drivetrain.
+    """Raise ``WrongAnswer`` unless every driven motor, or each side of a drivetrain, is logged.
 
     Args:
         facts: what the code says.
@@ -189,7 +189,7 @@ def _turn_independently(facts: RoutineFacts, pair: tuple[str, str]) -> bool:
 
 
 def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | None:
-    """Whether voltage, position and velocity of each motor have one sign.
+    """Raise ``WrongAnswer`` if a motor gets the voltage with a wrong sign.
 
     Args:
         facts: what the code says.
@@ -232,7 +232,7 @@ def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | 
 
 
 def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
-    """Whether voltage, position and velocity of each motor keep one sign.
+    """Raise ``WrongAnswer`` unless the signals of each motor are logged with one sign.
 
     Raises:
         WrongAnswer: one is turned round and another is not.
@@ -264,7 +264,7 @@ def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
 
 
 def check_sources(signals: Sequence[LoggedSignal], *, geared: frozenset[str]) -> None:
-    """Whether the number in each unit's wrapper is in that unit, judged by the device it is from.
+    """Raise ``WrongAnswer`` unless each number is in the unit with which it is logged.
 
     Args:
         signals: the positions and velocities that are recorded.
@@ -388,7 +388,7 @@ def _check_alike(signals: Sequence[LoggedSignal]) -> None:
 
 
 def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
-    """Whether the numbers that come with the task are still what they were, and are used.
+    """Raise ``WrongAnswer`` unless the task's numbers are unchanged and used.
 
     Args:
         facts: what the code says.
@@ -423,7 +423,7 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
 
 
 def check_circumference(facts: RoutineFacts) -> None:
-    """Whether the way of one turn is π diameters of the wheel, or 2π radii, the gears apart.
+    """Raise ``WrongAnswer`` unless one turn is π diameters of the wheel, or 2π radii.
 
     Raises:
         WrongAnswer: it is one of the two mistaken for the other, or made without π.
@@ -455,7 +455,7 @@ def _is_among(found: Sequence[float], expected: Sequence[float]) -> bool:
 
 
 def check_numbers(facts: RoutineFacts) -> None:
-    """Whether no two devices are made with one port or CAN ID, and gears and wheels have a size.
+    """Raise ``WrongAnswer`` if two devices share a port or CAN ID, or a gear or wheel has no size.
 
     Raises:
         WrongAnswer: two are, or one has none.

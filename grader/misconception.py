@@ -18,7 +18,7 @@ class Misconception:
     section: str
 
     @property
-    def where(self) -> str:
+    def reference(self) -> str:
         """Where to read on: ``lesson 3, "Why reverse? Three reasons"``."""
         return f'lesson {int(self.lesson.partition("_")[0])}, "{self.section}"'
 

@@ -21,7 +21,7 @@ class Mistake:
         file: the solution's file it is made from.
         edit_text: the right text -> the wrong text.
         check: id of the check that has to fail.
-        says: part of what the learner is told.
+        says: part of the feedback to the learner.
         misconception: its code, or empty.
     """
 
@@ -74,8 +74,8 @@ def exchange_numbers(one: str, other: str) -> Callable[[str], str]:
     return change_numbers(lambda right: {one: right[other], other: right[one]})
 
 
-def set_answer(name: str, value: str) -> Callable[[str], str]:
-    """Make a wrong text by giving one line of an answers.toml another value, as TOML."""
+def make_wrong_answer(name: str, value: str) -> Callable[[str], str]:
+    """Make a wrong answer by changing the value of one line of answers.toml."""
 
     def edit_text(text: str) -> str:
         line = re.compile(rf"^{re.escape(name)} = .*$", re.MULTILINE)

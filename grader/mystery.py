@@ -32,7 +32,7 @@ SEEDS = 2**32  # so many mysteries of each level
 
 @dataclass(frozen=True, eq=False)
 class Mystery:
-    """A hidden trouble, and how an answer to it is graded.
+    """A log with a hidden fault or effect, and how an answer about it is graded.
 
     Args:
         logs: name of a file without its ending -> the log in it.
@@ -104,7 +104,7 @@ def save_state(folder: Path, state: MysteryState) -> None:
 
 
 def draw_mystery(course: Path, state: MysteryState) -> Mystery:
-    """The mystery at hand, always the same one for a state; the exercises take turns.
+    """The mystery of a state, always the same one; the exercises take turns.
 
     Raises:
         BadRequest: no exercise of this course has mysteries.
@@ -152,8 +152,8 @@ def open_mystery(course: Path, folder: Path, state: MysteryState) -> tuple[Myste
     return state, mystery
 
 
-def grade_mystery(mystery: Mystery, answer: str, *, student: str) -> Grade:
-    """Grade an answer by the checks of the exercise that the mystery is from."""
+def grade_mystery_answer(mystery: Mystery, answer: str, *, student: str) -> Grade:
+    """Grade an answer about a mystery log by the checks of its exercise."""
     results = run_checks(mystery.checks, mystery.read(answer))
     score = sum(one.points for one in results)
     most = sum(one.max_points for one in results)

@@ -11,7 +11,7 @@ from grader.class_package import explain_no_grading, find_learner, read_class_pa
 from grader.consequence import Consequence
 from grader.course import find_course, load_progress, update_progress
 from grader.exercise import Exercise, Grade, find_exercise
-from grader.report import MARKS, SPOKEN, check_feedback, format_grade, format_receipt
+from grader.report import MARKS, SPOKEN, format_grade, format_receipt, list_feedback_lines
 from grader.submission import read_answers
 from grader.terminal import Line, print_error, style_line
 from sim.core.errors import BadRequest, Refusal
@@ -186,7 +186,7 @@ def _render_check(result: Result) -> str:
     points = f"{result.points:g} of {result.max_points:g}"
     told = "".join(
         f"<div style='margin-left:1.6em'>{escape_html(word)}{escape_html(text)}</div>"
-        for word, text in check_feedback(result)
+        for word, text in list_feedback_lines(result)
         if text
     )
     style = f"margin:0.35em 0;padding-left:0.6em;border-left:4px solid {STYLE[result.status]}"

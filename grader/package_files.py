@@ -16,7 +16,7 @@ import ast
 import hashlib
 import json
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -96,27 +96,25 @@ def select_package_files(course: Path) -> PackageFiles:
             advice="Run this in the folder the course was fetched into.",
         )
     listed = _read_starters(course)
-    chosen = {name: course / name for name in (*TOPS, STARTERS)}
+    chosen = {name: course / name for name in (*TOPS, STARTERS, *listed)}
     for one in list_exercises(course):
-        chosen |= {path.relative_to(course).as_posix(): path for path in _list_exercise_files(one)}
-    chosen |= {name: course / name for name in listed}
-    chosen |= {path.relative_to(course).as_posix(): path for path in _list_lesson_files(course)}
+        chosen |= _name_files(_list_exercise_files(one), top=course)
+    chosen |= _name_files(_list_lesson_files(course), top=course)
     packages = {one.name: _find_package_folder(course, one) for one in PACKAGES}
-    for name, folder in packages.items():
-        chosen |= {
-            f"{name}/{path.relative_to(folder).as_posix()}": path
-            for path in _list_files(folder)
-            if path.name.endswith(SOURCES)
-        }
+    for folder in packages.values():
+        sources = [path for path in _list_files(folder) if path.name.endswith(SOURCES)]
+        chosen |= _name_files(sources, top=folder.parent)
     chosen = {name: path for name, path in chosen.items() if not path.is_symlink()}
     files = {name: _read_content(name, chosen[name]) for name in sorted(chosen)}
     _refuse_changed(files, listed, course)
-    there = {
-        path.relative_to(course).as_posix()
-        for top in (*FOLDERS, *packages)
-        for path in _list_files(course / top)
-    }
-    return PackageFiles(files, tuple(sorted(there - files.keys())))
+    every = [path for top in (*FOLDERS, *packages) for path in _list_files(course / top)]
+    left_out = _name_files(every, top=course).keys() - files.keys()
+    return PackageFiles(files, tuple(sorted(left_out)))
+
+
+def _name_files(paths: Iterable[Path], *, top: Path) -> dict[str, Path]:
+    """Path as seen from a folder -> file."""
+    return {path.relative_to(top).as_posix(): path for path in paths}
 
 
 def digest_starter(content: bytes) -> str:
@@ -164,7 +162,7 @@ def _list_exercise_files(one: Exercise) -> set[Path]:
 
 
 def find_imported_modules(module: Path) -> set[Path]:
-    """A module of an exercise, and every module beside it that it imports, directly or not."""
+    """A module of an exercise, and the modules beside it that it imports, directly or not."""
     found: set[Path] = set()
     left = {module}
     while left:
@@ -216,7 +214,7 @@ def _read_content(name: str, path: Path) -> bytes:
 
 
 def strip_notebook(content: bytes, *, name: str) -> bytes:
-    """A notebook as it was derived: without outputs, and without what Jupyter noted in it.
+    """A notebook as it was made from its source: no outputs, no metadata of Jupyter's.
 
     Args:
         content: of the notebook's file.

@@ -33,7 +33,7 @@ class Quantity:
     powers: tuple[int, ...]
 
     def multiply(self, other: "Quantity", *, power: int = 1) -> "Quantity":
-        """This, times a power of the other."""
+        """The product of this and a power of the other."""
         powers = tuple(
             mine + power * its for mine, its in zip(self.powers, other.powers, strict=True)
         )

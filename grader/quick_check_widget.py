@@ -20,7 +20,7 @@ RIGHT, NOT_YET = "Right.", "Not yet."
 
 
 class QuickCheck(Prediction):
-    """A question with a few answers, each of which is told something.
+    """A question with a few answers, and a feedback to each.
 
     Without buttons, plain code does the same: ``check.answer("kA")``.
 
@@ -45,7 +45,7 @@ class QuickCheck(Prediction):
         self._buttons.observe(self._tell, "value")
 
     def answer(self, chosen: str) -> str:
-        """Choose an answer; the feedback to it.
+        """Choose an answer; returns the feedback to it.
 
         Raises:
             BadRequest: it is none of the answers.
@@ -65,14 +65,14 @@ class QuickCheck(Prediction):
 
 
 class QuickNumberCheck:
-    """A question for a number; a wrong one is told which slip it looks like.
+    """A question for a number; a wrong one is explained.
 
     Without a box to type in, plain code does the same: ``check.answer("0.019 V·s/rad")``.
 
     Args:
         question: what is asked.
         expected: the right number, in ``unit``.
-        unit: as it is asked for; empty for a bare number.
+        unit: of the answer; empty for a bare number.
         tolerance: share by which it may be off.
         gain: which gain it is, whose slips are known; empty for any other number.
         angular: whether rotations and radians may be taken for each other.

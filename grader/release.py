@@ -82,7 +82,7 @@ def make_student_package(package: StudentPackage) -> tuple[str, bytes]:
 
 
 def zip_files(files: Mapping[str, bytes]) -> bytes:
-    """A zip file with one folder, ``course``; the same files give the same bytes."""
+    """The content of a zip file with one folder, ``course``; the same files give the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():

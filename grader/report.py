@@ -120,7 +120,7 @@ def _format_result(result: Result, said: set[str], *, plain: bool) -> list[Line]
         rows = [style_line(f"{mark} {result.description}, {points} points", style)]
     else:
         rows = _format_row(result.description, points, mark, style)
-    for word, text in check_feedback(result):
+    for word, text in list_feedback_lines(result):
         if text and text not in said:
             rows += wrap_text(text, lead=f"{INDENT}{word}")
         if word in ONCE:
@@ -145,7 +145,7 @@ def _format_row(description: str, points: str, mark: str, style: str) -> list[Li
     return rows
 
 
-def check_feedback(result: Result) -> list[tuple[str, str]]:
+def list_feedback_lines(result: Result) -> list[tuple[str, str]]:
     """The lines of feedback under a check: a label and a text each."""
     if result.status is Status.PASSED:
         return [("note ", result.hint)]
@@ -153,7 +153,7 @@ def check_feedback(result: Result) -> list[tuple[str, str]]:
         return [("", result.seen)]
     told = [("got  ", result.seen), ("try  ", result.hint)]
     if known := MISCONCEPTIONS.get(result.misconception):
-        told += [("why  ", known.says), ("see  ", known.where)]
+        told += [("why  ", known.says), ("see  ", known.reference)]
     return told
 
 

@@ -91,7 +91,7 @@ def _is_on_path(command: str) -> bool:
 
 
 def choose_root_option() -> tuple[str, ...]:
-    """Jupyter refuses the administrator unless told; in a container there is nobody else."""
+    """Jupyter's option to run as root, if this process is root; else none."""
     return ("--allow-root",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
 
 

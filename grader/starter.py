@@ -1,4 +1,4 @@
-"""The file a learner starts from is the solution with its answers taken out.
+"""Make the file that a learner starts from: the solution with its answers taken out.
 
 In a solution an answer stands between two comments, in Python or in Java::
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.class_package import ClassPackage, read_class_package
-from grader.draw_cache import find_cache_path, write_draw
+from grader.draw_cache import find_cache_path, write_cached_data
 from grader.variant import make_folder_name
 from sim.core.errors import BadRequest
 from sim.support.work.cache import read_cached
@@ -67,7 +67,7 @@ def write_student_files(
         folder.mkdir(parents=True, exist_ok=True)
         news = [_write_made_file(made, folder / name) for name, made in files.items()]
         if known is not None:
-            write_draw(known, _digest_files(folder, files))
+            write_cached_data(known, _digest_files(folder, files))
     except OSError as error:
         raise BadRequest(
             f"your {what} cannot be written: {error.strerror}",

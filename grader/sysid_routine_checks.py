@@ -136,7 +136,7 @@ class ConfigSetting:
 
 
 def check_motor_driven(motor: str, calls: Sequence[DriveCall]) -> None:
-    """Whether a motor gets the test's voltage.
+    """Raise ``WrongAnswer`` unless a motor gets the test's voltage.
 
     Args:
         motor: its name in the code.
@@ -192,7 +192,7 @@ def find_test_commands(facts: RoutineFacts) -> tuple[DriveCall, ...]:
 
 
 def check_only_test_drives(facts: RoutineFacts) -> None:
-    """Whether nothing but the test moves its motors.
+    """Raise ``WrongAnswer`` if anything but the test moves its motors.
 
     Raises:
         WrongAnswer: periodic() commands one as well.
@@ -206,7 +206,7 @@ def check_only_test_drives(facts: RoutineFacts) -> None:
 
 
 def check_open_loop(call: DriveCall) -> None:
-    """Whether a command leaves the voltage to the test.
+    """Raise ``WrongAnswer`` unless a command passes the test's voltage on.
 
     Raises:
         WrongAnswer: it is a closed loop or a share of the battery, or it cannot be told.
@@ -224,7 +224,7 @@ def check_open_loop(call: DriveCall) -> None:
 
 
 def check_motor_recorded(motor: str, signals: Sequence[LoggedSignal], *, points: float) -> None:
-    """Whether everything a fit needs of one motor is recorded.
+    """Raise ``WrongAnswer`` unless all signals that a fit needs of a motor are recorded.
 
     Args:
         motor: its name in the log; empty if it cannot be told.
@@ -282,7 +282,7 @@ _SHARE = {"voltage": 1 / 2, "position": 1 / 6, "velocity": 1 / 6}
 
 
 def check_units(signals: Sequence[LoggedSignal], *, mechanism: str) -> None:
-    """Whether positions and velocities are in units that fit each other and the mechanism.
+    """Raise ``WrongAnswer`` unless the units of position and velocity fit the mechanism.
 
     Args:
         signals: the positions and velocities that are recorded.
@@ -327,7 +327,7 @@ def _find_length_unit(unit: str) -> str:
 
 
 def find_motion_family(name: str) -> str:
-    """How a mechanism of this name moves, ``linear`` or ``angular``; empty if it does not tell."""
+    """The motion of a mechanism of this name, ``linear`` or ``angular``; empty if unknown."""
     words = [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)]
     linear = any(word.startswith(LINEAR) for word in words)
     angular = any(word.startswith(ANGULAR) for word in words)
@@ -337,7 +337,7 @@ def find_motion_family(name: str) -> str:
 
 
 def check_compiles(errors: Sequence[ParseProblem], *, language: str, earned: float = 0.0) -> None:
-    """Whether reading finds nothing that a compiler, or Python itself, would stop at.
+    """Raise ``WrongAnswer`` if a compiler, or Python itself, would stop at an error.
 
     Args:
         errors: what it found.
@@ -365,7 +365,7 @@ def check_spelling(
     language: str,
     earned: float = 0.0,
 ) -> None:
-    """Whether a misspelled name explains what another check misses.
+    """Raise ``WrongAnswer`` if a misspelled name explains what another check misses.
 
     Args:
         errors: what a compiler, or Python itself, would stop at.

@@ -73,5 +73,5 @@ def print_lines(lines: Iterable[Line]) -> None:
 
 
 def print_error(said: str) -> None:
-    """One line to standard error."""
+    """Print one line to standard error."""
     command_line.print_error(said, name="grade")

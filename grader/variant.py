@@ -85,7 +85,7 @@ def make_student_rng(
 
 
 def cache_draws(draw: Callable[[str], Drawn]) -> Callable[[str], Drawn]:
-    """Remember what was drawn for the last few students, each class's apart.
+    """Decorator: cache the data of the last few students in memory, each class's apart.
 
     What a learner works on is drawn when it is handed out and again when it is graded.
 

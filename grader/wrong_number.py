@@ -1,4 +1,4 @@
-"""Slips: mistakes that leave a fingerprint in a wrong number, such as a factor of 2π.
+"""Mistakes that can be recognized by a wrong number, such as a factor of 2π.
 
 A slip is a suspect when undoing it brings the number into the band for full marks. One suspect is
 named, two or three are named side by side, and more say nothing.
@@ -47,7 +47,7 @@ class Scene:
         motors: how many motors drive it.
         ramp: [V/s] of the quasistatic test.
         period: [s] between two samples; 0 if there are none.
-        lookalikes: gain -> what wrong recipes give for it, in the unit asked for.
+        lookalikes: gain -> numbers of wrong methods, in the unit of the answer.
         rarer: the same, of recipes that are suspected only where nothing else explains a number.
     """
 
@@ -75,15 +75,15 @@ def explain_wrong_number(
     scene: Scene,
     unit: str,
 ) -> tuple[WrongNumber, ...]:
-    """The slips that would explain a wrong number.
+    """The mistakes that would explain a wrong number.
 
     Args:
         name: the gain: ``kV``.
-        value: what was given, in the unit asked for.
+        value: the learner's number, in the unit of the answer.
         right: whether a value of this gain would earn full marks.
-        key: gain -> its value in the unit asked for.
+        key: gain -> its value in the unit of the answer.
         scene: the mechanism and its tests.
-        unit: the unit asked for.
+        unit: the unit of the answer.
     """
     found = list(_explain_by_factors(name, value, right=right, scene=scene, unit=unit))
     if name == "kS" and {"kV", "kA"} <= key.keys():

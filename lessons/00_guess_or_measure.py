@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 0: Start here: guess or measure?
 #
-# *About 35 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
+# *About 40 minutes. You need only this page: no robot, no earlier lesson, no math beyond a straight
 # line.*
 #
 # **At the end you can**

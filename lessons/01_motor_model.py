@@ -48,7 +48,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.fit import fit
-from sim.physics.motors import MOTORS, theoretical_kv
+from sim.physics.motors import MOTORS, compute_theoretical_kv
 from sim.plot import (
     Picture,
     Table,
@@ -224,19 +224,11 @@ animate_mechanism(
 )
 
 # %%
-rows = []
-for words, name, when in (
-    ("right after the sudden step", "sudden step", 0.102),
-    ("half a second after it", "sudden step", 0.6),
-    ("halfway through the slow ramp", "slow ramp", 3.0),
-):
-    time, terms, applied = spent(name, 60.0, 0.15)
-    here = round(when / FINE)
-    volts = [float(one[here]) for one in terms.values()]
-    rows.append((words, *volts, float(applied[here])))
+time, terms, _ = spent("slow ramp", 60.0, 0.15)
+halfway = float(terms["kA·a"][round(3.0 / FINE)])
 print("After the step:", guess_step.reveal("kA·a"))
 print("In the ramp:", guess_ramp.reveal("kV·v"))
-Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tuple(rows))
+print(f"Halfway through the ramp, kA·a takes {halfway:.2f} V.")
 
 # %% [markdown]
 # ### Explain
@@ -263,8 +255,8 @@ Table(("moment", "kS·sgn(v) [V]", "kV·v [V]", "kA·a [V]", "applied [V]"), tup
 # > ([WPILib docs: Introduction to DC Motor
 # > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
 # >
-# > **Try it:** how many volts does kA·a take halfway through the slow ramp? The table above has the
-# > number. Lesson 3 shows how kA·a changes a kS that you find with a straight line.
+# > **Try it:** how many volts does kA·a take halfway through the slow ramp? The cell above printed
+# > it. Lesson 3 shows how kA·a changes a kS that you find with a straight line.
 # </details>
 
 # %% [markdown]
@@ -319,13 +311,8 @@ log = simulate(drivetrain, sim.Routine(ramp=1.0, step=2.0), rng=np.random.defaul
 measured = fit(log, method="sysid").gains
 print(f"R = {1000 * kraken.resistance:.1f} mΩ   Ke = {kraken.back_emf:.5f} V·s/rad")
 print(f"Kt = {kraken.torque_constant:.5f} N·m/A   G = {G}   r = {r} m   n = {n}   m = {m:g} kg")
-Table(
-    ("gain", "from the data", "from the log", "unit"),
-    (
-        ("kV", by_hand["kV"], measured["kV"], "V·s/m"),
-        ("kA", by_hand["kA"], measured["kA"], "V·s²/m"),
-    ),
-)
+for gain, unit in (("kV", "V·s/m"), ("kA", "V·s²/m")):
+    print(f"{gain}: {by_hand[gain]:.3f} {unit} from the data, {measured[gain]:.3f} from the log")
 
 # %% [markdown]
 # You have to measure kS: no data sheet contains your robot's friction.
@@ -376,17 +363,10 @@ show_interactive(
 other_parts(mass=60.0, ratio=8.14, motors=4, wheel=4.0)
 
 # %%
-others = {
-    "8.14:1 gears": built(60.0, 8.14, 4, 4.0),
-    "80 kg": built(80.0, 6.75, 4, 4.0),
-    "2 motors only": built(60.0, 6.75, 2, 4.0),
-    "3 inch wheels": built(60.0, 6.75, 4, 3.0),
-}
+geared = built(60.0, 8.14, 4, 4.0)
 print(guess_gears.reveal("kV grows, kA shrinks"))
-Table(
-    ("change", "kS now ÷ before", "kV now ÷ before", "kA now ÷ before"),
-    tuple((name, *(now[gain] / gains[gain] for gain in gains)) for name, now in others.items()),
-)
+print(f"kV is now {geared['kV'] / gains['kV']:.2f} times as large as before,", end=" ")
+print(f"and kA is {geared['kA'] / gains['kA']:.2f} times as large.")
 
 # %% [markdown]
 # With the 8.14:1 gears the motor turns faster for each m/s, so each m/s needs **more** volts. But
@@ -439,7 +419,7 @@ TURN = 2 * math.pi  # [rad]
 rows = []
 for name in NAMES:
     one = MOTORS[name]
-    theory, exact = theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
+    theory, exact = compute_theoretical_kv(one, ratio=1.0) * TURN, one.back_emf * TURN
     lower = f"{100 * (1 - exact / theory):.1f} %"
     rows.append((name, f"{one.free_speed * 60 / TURN:.0f}", f"{theory:.4f}", f"{exact:.4f}", lower))
 Table(
@@ -464,7 +444,7 @@ Table(
 # (These limits are rough rules. Data sheets are rounded, so 1 or 2 % below proves nothing.)
 #
 # Here are seven robots with the same drivetrain. All except the first have one fault. Which robots
-# have a kV more than 20 % above the theoretical kV?
+# have a kV more than 20 % above theory? The picture shows three of them, the table all seven.
 #
 # **Predict:**
 
@@ -522,25 +502,13 @@ def above(story: str) -> float:
     return 100 * (found(STORIES[story])["kV"] / THEORY - 1)
 
 
-def verdict(story: str) -> Picture:
-    """Where the kV of a robot lies."""
-    marks = {story: above(story)}
-    return plot_gauge(marks, VERDICTS, label="kV above theory [%]", good="ok", least=-20.0)
-
-
-show_interactive(
-    verdict,
-    story=widgets.Dropdown(options=list(STORIES), description="robot", layout={"width": "25em"}),
-)
-
-# %% [markdown]
-# No menu on your screen? Change the name here:
-
-# %%
-verdict("thick grease in the gears")
-
-# %%
 print(guess_cause.reveal("thick grease, which brakes more at higher speed"))
+SHORT = {"no fault": "no fault", "thick grease in the gears": "grease"}
+SHORT |= {"diameter used as radius": "wrong wheel"}
+marks = {name: above(story) for story, name in SHORT.items()}
+plot_gauge(marks, VERDICTS, label="kV above theory [%]", good="ok")
+
+# %%
 rows = []
 for story, one in STORIES.items():
     got = found(one)
@@ -590,7 +558,7 @@ Table(("robot", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "kV above theory"), tu
 # %%
 rows = []
 for name in ("falcon500", "krakenX60", "krakenX44"):
-    theory = theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
+    theory = compute_theoretical_kv(MOTORS[name], ratio=8.46, radius=0.0508)
     rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
 Table(("motor", "theoretical kV [V·s/m]", "2.68 is above it by"), tuple(rows))
 
@@ -690,38 +658,9 @@ print(f"which is {100 * flag / 12:.0f} % of 12 V. Our drivetrain's kS is {gains[
 # Two warning signs need no limit:
 #
 # - **kS has grown since last week.** Write kS down each time.
-# - **Left and right differ.** They are built the same, so they should have the same friction.
-
-
-# %%
-def red_flag(left: float, right: float, typical: float) -> Picture:
-    """Where the kS of both sides lies, for a typical speed [m/s]."""
-    bands = {"fine": 0.5, "watch": gains["kV"] * typical, "stop": gains["kV"] * typical + 1.0}
-    return plot_gauge({"left": left, "right": right}, bands, label="kS [V]", good="fine")
-
-
-show_interactive(
-    red_flag,
-    left=widgets.FloatSlider(
-        min=0, max=4, step=0.05, value=0.15, description="left [V]", continuous_update=False
-    ),
-    right=widgets.FloatSlider(
-        min=0, max=4, step=0.05, value=0.45, description="right [V]", continuous_update=False
-    ),
-    typical=widgets.FloatSlider(
-        min=0.5, max=3, step=0.1, value=1.0, description="speed [m/s]", continuous_update=False
-    ),
-)
-
-# %% [markdown]
-# No sliders on your screen? Change the numbers here.
-
-# %%
-red_flag(left=0.15, right=0.45, typical=1.0)
-
-# %% [markdown]
-# Here the gauge says *fine* for both sides. But the right side has three times the friction of the
-# left side. The gauge does not compare the sides: you must do it.
+# - **Left and right differ.** They are built the same, so they should have the same friction. For
+#   example, 0.15 V on the left and 0.45 V on the right are both below our limit. But the right side
+#   has three times the friction of the left side.
 
 # %% [markdown]
 # ## 8 Units: per rotation, per radian, per meter

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 2: Gravity
 #
-# *About 35 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
+# *About 40 minutes. You need lesson 1: what kS, kV and kA mean. Section 4 uses the cosine and
 # explains it.*
 #
 # **At the end you can**
@@ -335,12 +335,10 @@ guess_angle = Prediction(
 guess_angle
 
 # %%
-cosines = [
-    (f"{angle}°", round(float(np.cos(np.radians(angle))), 3)) for angle in (0, 30, 45, 60, 90, 120)
-]
 print(guess_angle.reveal("half"))
 print(f"np.cos(60) = {np.cos(60):.3f}, not 0.5: NumPy, Java and C++ need angles in radians.")
-Table(("angle from level", "share of kG"), tuple(cosines))
+for angle in (0, 60, 120):
+    print(f"At {angle}° the motor needs {np.cos(np.radians(angle)):g} · kG.".replace("-", "−"))
 
 # %% [markdown]
 # Beyond 90° the share of kG is negative: the arm is past the top, and gravity pulls it down on the
@@ -650,9 +648,9 @@ down = all_rows["quasistatic-reverse"]
 def up_and(down_rows: int) -> Picture:
     """How well kS and kG are known from the way up and some rows of the way down."""
     used = {**forward, "quasistatic-reverse": down.select(slice(down_rows))}
-    told = compute_information(used, type="elevator", noise=noise_of(elevator)).information_on_pair(
-        *SIDES
-    )
+    told = compute_information(
+        used, type="elevator", noise=noise_of(elevator)
+    ).compute_pair_information(*SIDES)
     return plot_ellipses(
         {f"95 of 100 fits (rows from the way down: {down_rows})": told},
         names=("kS [V]", "kG [V]"),
@@ -717,7 +715,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 
 # %%
 falls = (truth["kG"] - truth["kS"]) / truth["kV"]
-down_run = log.runs_of_test("quasistatic-reverse")[0]
+down_run = log.list_runs_of_test("quasistatic-reverse")[0]
 print(f"At 0 V the carriage goes down at {falls:.2f} m/s.")
 print(
     f"The slow ramp down lasted {down_run.time[-1] - down_run.time[0]:.1f} s. Then the carriage "

@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 3: Test design
 #
-# *About 35 minutes. You need lessons 1 and 2. You need no robot today.*
+# *About 40 minutes. You need lessons 1 and 2. You need no robot today.*
 #
 # **At the end you can**
 #
@@ -192,7 +192,7 @@ guess_drift
 def read_off(mechanism: Mechanism, ramp: float) -> tuple[sim.Log, Line]:
     """A log with this ramp, and the straight line through its moving samples, per meter or turn."""
     slow = simulate(mechanism, sim.Routine(ramp=ramp, step=2.0), rng=np.random.default_rng(1))
-    run = slow.runs_of_test("quasistatic-forward")[0]
+    run = slow.list_runs_of_test("quasistatic-forward")[0]
     per = 1.0 if mechanism.units == "meters" else 2.0 * np.pi
     moving = np.abs(run.velocity) > 0.05 * np.abs(run.velocity).max()
     slope, intercept = np.polyfit(run.velocity[moving] / per, run.voltage[moving], 1)
@@ -342,7 +342,7 @@ UNIT = {"kS": "kS [V]", "kV": "kV [V·s/m]", "kA": "kA [V·s²/m]"}
 def map_of(tests: list[str], pair: tuple[str, str]) -> Picture:
     """Where the rows of some runs lie, and how well two gains follow from them."""
     rows = {test: all_rows[test] for test in tests}
-    told = compute_information(rows, type="simple", noise=NOISE).information_on_pair(*pair)
+    told = compute_information(rows, type="simple", noise=NOISE).compute_pair_information(*pair)
     return plot_information_map(
         rows,
         told,
@@ -677,7 +677,7 @@ rows = []
 for seconds in (0.2, 0.5, 1.0, 2.0, 7.0):
     cut = replace(hall, runs=tuple(first_seconds(run, seconds) for run in hall.runs))
     found = fit(cut, method="sysid")
-    step = cut.runs_of_test("dynamic-forward")[0]
+    step = cut.list_runs_of_test("dynamic-forward")[0]
     used = found.samples_used["dynamic-forward"]
     rows.append((f"{seconds:g} s", len(step), used, found.gains["kA"], float(step.position[-1])))
 Table(

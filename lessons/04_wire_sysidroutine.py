@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 4: Wire a SysIdRoutine
 #
-# *About 30 minutes. You need lesson 3, and you should have written some robot code. You need no
+# *About 35 minutes. You need lesson 3, and you should have written some robot code. You need no
 # robot today.*
 #
 # **At the end you can**

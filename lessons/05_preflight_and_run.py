@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 5: Pre-flight and the first run
 #
-# *About 35 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
+# *About 40 minutes. You need lessons 3 and 4. You can read it without a robot. Print sections 5 and
 # 6, and take them to the robot.*
 #
 # **At the end you can**
@@ -658,7 +658,7 @@ plot_time_series(mine, dynamic_seconds=1.0)
 gains = fit(mine, method="sysid").in_log_units()
 Table(
     ("gain", "value", "unit"),
-    tuple((gain, gains.gains[gain], gains.gain_unit(gain)) for gain in ("kS", "kV", "kA")),
+    tuple((gain, gains.gains[gain], gains.format_gain_unit(gain)) for gain in ("kS", "kV", "kA")),
 )
 
 # %% [markdown]

@@ -48,7 +48,7 @@ from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import move_gains_only, simulate
 from sim.core.units import find_unit
-from sim.feedback import allowed_velocity_error, design_velocity_loop
+from sim.feedback import compute_allowed_velocity_error, design_velocity_loop
 from sim.fit import fit
 from sim.fit.sysid_rows import median_filter, prepare_rows
 from sim.plot import (
@@ -124,7 +124,7 @@ def ramp_picture(ramp: float) -> Picture:
     """The line that a ramp of so many volts per second gives, beside the true one."""
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
     lines = {
-        "straight line": line_through(slow.runs_of_test("quasistatic-forward")[0]),
+        "straight line": line_through(slow.list_runs_of_test("quasistatic-forward")[0]),
         "truth": Line(truth["kS"], truth["kV"]),
     }
     return plot_voltage_velocity(slow, lines=lines)
@@ -152,7 +152,7 @@ timescale = truth["kA"] / truth["kV"]
 rows = []
 for ramp in RAMPS:
     slow = simulate(robot, sim.Routine(ramp=ramp, step=3.5), rng=np.random.default_rng(7))
-    read_off = line_through(slow.runs_of_test("quasistatic-forward")[0]).intercept
+    read_off = line_through(slow.list_runs_of_test("quasistatic-forward")[0]).intercept
     rule = truth["kS"] + timescale * ramp
     rows.append((ramp, read_off, rule, rule + 0.010 * ramp))
 
@@ -210,7 +210,10 @@ Table(
 # The acceleration is not in the log. `np.gradient` computes it from neighboring rows.
 
 # %%
-slow, step = log.runs_of_test("quasistatic-forward")[0], log.runs_of_test("dynamic-forward")[0]
+slow, step = (
+    log.list_runs_of_test("quasistatic-forward")[0],
+    log.list_runs_of_test("dynamic-forward")[0],
+)
 slow_a, step_a = np.gradient(slow.velocity, slow.time), np.gradient(step.velocity, step.time)
 
 solutions = []
@@ -275,10 +278,11 @@ by_hand(intercept=0.8, slope=2.0)
 # %%
 columns = np.column_stack([np.ones(six_v.size), six_v])
 (intercept, slope), *_ = np.linalg.lstsq(columns, six_volts, rcond=None)
-by_hand(float(intercept), float(slope))
+smallest = np.sum((six_volts - columns @ [intercept, slope]) ** 2)
+print(f"{intercept:.2f} V at v = 0, {slope:.2f} V per m/s, sum of squares {smallest:.4f}")
 
 # %% [markdown]
-# No straight line has a smaller sum. A regression finds this line.
+# No straight line has a smaller sum. Set the sliders to these values.
 
 # %% [markdown]
 # ## 4 The whole fit in five lines
@@ -304,12 +308,9 @@ def voltage_left(log: sim.Log) -> dict[str, float]:
     return {"kS": float(ks), "kV": float(kv), "kA": float(ka)}
 
 
-HEADER = ("fit", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]")
 first_try = voltage_left(log)
-Table(
-    HEADER,
-    (("five lines, voltage on the left side", *first_try.values()), ("truth", *truth.values())),
-)
+print(f"kV is {first_try['kV'] / truth['kV']:.2f} times the truth,", end=" ")
+print(f"kA is {first_try['kA'] / truth['kA']:.2f} times the truth.")
 
 # %% [markdown]
 # kV is very good, but kA is far from the truth. This log has no fault. What happened?
@@ -410,6 +411,7 @@ def acceleration_left(log: sim.Log) -> dict[str, float]:
     return {name: float(gain) for name, gain in mine.gains(alpha, beta, gamma).items()}
 
 
+HEADER = ("fit", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]")
 second_try = acceleration_left(log)
 Table(
     HEADER,
@@ -517,15 +519,8 @@ def my_fit(
 
 
 recipe = fit(log, method="sysid")
-Table(
-    HEADER,
-    (
-        ("five lines, data not prepared", *second_try.values()),
-        ("my fit, four stages", *my_fit(log).values()),
-        ("SysId's recipe", *recipe.gains.values()),
-        ("truth", *truth.values()),
-    ),
-)
+for name, gains in (("my fit", my_fit(log)), ("SysId", recipe.gains)):
+    print(f"{name}: " + ", ".join(f"{gain} {value:.3f}" for gain, value in gains.items()))
 
 # %% [markdown]
 # Your gains and SysId's gains are close. SysId computes its threshold from the noise, so it drops a
@@ -656,17 +651,17 @@ try_choices("acceleration", 0.05, 3, mean_dt=False, trim=True)
 # %% [markdown]
 # ### Explain
 #
-# - The **filter** and the **left side** matter most. A filter window that is longer than the rise
-#   makes kA too small (section 9). Noise in the acceleration column also makes kA too small
-#   (section 4).
+# The **filter** and the **left side** matter most. A filter window that is longer than the rise
+# makes kA too small (section 9). Noise in the acceleration column also makes kA too small (section
+# 4).
+#
+# <details><summary>Want to know more? Time step, trim and threshold</summary>
+#
 # - **Time step.** SysId uses the mean time step, which is wrong for the rows next to a gap. So gaps
 #   in the log make kA less accurate. kV hardly changes.
 # - **Trim.** At full speed the acceleration is zero, so the rows at full speed only bring noise
 #   into the fit.
-#
-# <details><summary>Want to know more? The threshold</summary>
-#
-# - The **threshold** hardly matters *here*, because our encoder is quiet at rest. With a noisy
+# - **Threshold.** It hardly matters *here*, because our encoder is quiet at rest. With a noisy
 #   encoder, sgn(v) is random in the rows at standstill. The longer the robot stands, the worse kA
 #   gets. (To try it, see the last point of section 14.)
 # </details>
@@ -703,8 +698,7 @@ plot_time_series(log, beside=model, names=("log", "simulation"), dynamic_seconds
 #
 # > R² = 1 − (sum of squared errors) / (sum of squared distances from the mean)
 #
-# So 1 is perfect. A score of 0 is no better than guessing the mean every time. (For the simulation
-# we use the two forward tests. SysId uses all four.)
+# So 1 is perfect. A score of 0 is no better than guessing the mean every time.
 
 # %%
 explained = np.column_stack([v, volts, np.sign(v)]) @ [alpha, beta, gamma]
@@ -713,22 +707,16 @@ unknowns = 3
 adjusted = 1 - (1 - acceleration_r2) * (a.size - 1) / (a.size - unknowns - 1)
 
 forward = ("quasistatic-forward", "dynamic-forward")
-seen = np.concatenate([log.runs_of_test(test)[0].velocity for test in forward])
-said = np.concatenate([model.runs_of_test(test)[0].velocity for test in forward])
+seen = np.concatenate([log.list_runs_of_test(test)[0].velocity for test in forward])
+said = np.concatenate([model.list_runs_of_test(test)[0].velocity for test in forward])
 rmse = np.sqrt(np.mean((seen - said) ** 2))
 textbook = 1 - np.sum((seen - said) ** 2) / np.sum((seen - seen.mean()) ** 2)
 sysids = 1 - rmse / np.sqrt(np.mean(seen**2))
 
-print(f"acceleration R²:             by hand {acceleration_r2:.4f}")
-print(f"  the same, adjusted:        by hand {adjusted:.4f}   SysId {recipe.acceleration_r2:.4f}")
-print(
-    f"simulated velocity R²:       by hand {sysids:.3f}    SysId {recipe.simulated_velocity_r2:.3f}"
-)
-print(f"  the same, textbook R²:     by hand {textbook:.4f}")
-print(f"RMSE, the typical error:     {rmse:.4f} m/s")
-print(
-    f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} in the textbook's formula, which uses squares."
-)
+print(f"Acceleration R², adjusted: {adjusted:.4f} by hand, {recipe.acceleration_r2:.4f} by SysId")
+print(f"Simulated velocity R²: {sysids:.3f} by hand, {recipe.simulated_velocity_r2:.3f} by SysId")
+print(f"With the textbook's formula it would be {textbook:.4f}. (RMSE: {rmse:.4f} m/s)")
+print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} in the textbook's formula.")
 
 # %% [markdown]
 #
@@ -738,6 +726,8 @@ print(
 # every additional column matches some of the noise by chance. With hundreds of rows the difference
 # is very small. ([SysId's source:
 # OLS.cpp](https://github.com/wpilibsuite/allwpilib/blob/v2026.2.2/sysid/src/main/native/cpp/analysis/OLS.cpp))
+#
+# For the simulation we used the two forward tests. SysId uses all four.
 # </details>
 #
 # **Myth check.** "R² must be above 0.9." *Which one?* The *simulated velocity* R² should be above
@@ -969,19 +959,10 @@ show_interactive(
 kp_picture(q=1.5, r=7.0, delay=0)
 
 # %%
-at_load = allowed_velocity_error(ks=0.14, kv=lesson_kv)
-rows = []
-for name, q, delay in (
-    ("1.5 m/s, the default in SysId's code", 1.5, 0.0),
-    ("a quarter of the top speed, the first value in SysId's window", at_load, 0.0),
-    ("the q that gives kP = 0.62", 3.43, 0.0),
-    ("1.5 m/s, and a delay of 112 ms, which SysId uses for a NEO's encoder", 1.5, 0.112),
-):
-    kp = design_velocity_loop(
-        kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=delay
-    ).kp
-    rows.append((name, q, kp))
-Table(("setting", "q [m/s]", "kP [V·s/m]"), tuple(rows))
+window = compute_allowed_velocity_error(ks=0.14, kv=lesson_kv)  # a quarter of the top speed
+for name, q in (("kP of 0.62", 3.43), ("default in SysId's code", 1.5), ("SysId's window", window)):
+    kp = design_velocity_loop(kv=lesson_kv, ka=lesson_ka, velocity_error=q, volts=7.0, delay=0.0).kp
+    print(f"{name}: q = {q:.2f} m/s, kP = {kp:.2f} V·s/m")
 
 # %% [markdown]
 # The gains are the same, but the values of kP are very different. So a suggested kP is only a first
@@ -1030,7 +1011,13 @@ hand = my_fit(own, threshold=0.02 * top_speed)
 Table(
     ("gain", "SysId's recipe", "one standard error", "my fit", "unit"),
     tuple(
-        (gain, best.gains[gain], best.errors[gain], hand[gain] * scale[gain], best.gain_unit(gain))
+        (
+            gain,
+            best.gains[gain],
+            best.errors[gain],
+            hand[gain] * scale[gain],
+            best.format_gain_unit(gain),
+        )
         for gain in ("kS", "kV", "kA")
     ),
 )

@@ -46,9 +46,9 @@ from IPython.display import display
 import sim
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
-from sim.core.units import gains_per
+from sim.core.units import convert_gains
 from sim.fit import fit
-from sim.physics.motors import MOTORS, find_motor
+from sim.physics.motors import find_motor
 from sim.plot import (
     Picture,
     Table,
@@ -60,7 +60,7 @@ from sim.plot import (
 from sim.plot.animation import Motion, Panel, Scene, animate_mechanism
 from sim.reconcile import reconcile
 from sim.report.controller_snippet import write_controller_code
-from sim.report.robot_code_snippet import CLASSES, ORDER, write_robot_code
+from sim.report.robot_code_snippet import ORDER, write_robot_code
 from sim.teaching.prediction import Prediction
 from sim.teaching.profile_loop import (
     ONBOARD,
@@ -70,25 +70,14 @@ from sim.teaching.profile_loop import (
     PIDController,
     TrapezoidProfile,
     check_loop,
+    compute_phoenix_voltage,
     follow_in_closed_loop,
-    phoenix_volts,
 )
 
 shooter, elevator, arm = (MECHANISMS[name] for name in ("shooter", "elevator", "arm"))
 log = simulate(shooter, sim.Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(8))
 found = fit(log).in_log_units()
-print(f"The mechanism: {shooter.summary}. Its gains are per rotation:")
-Table(
-    ("gain", "value", "one standard error", "unit"),
-    tuple(
-        (name, found.gains[name], found.errors[name], found.gain_unit(name))
-        for name in ORDER["simple"]
-    ),
-)
-
-# %% [markdown]
-# *One standard error* is the typical error that noise alone causes. On a real robot, effects that
-# are not in the model cause larger errors (lesson 9). So trust only two or three digits.
+print(f"The mechanism: {shooter.summary}. Its gains are per rotation.")
 
 # %% [markdown]
 # ## 2 Constants that explain themselves
@@ -96,37 +85,8 @@ Table(
 # Put the numbers into `Constants.java`, in a class of their own. Write the unit of each number in a
 # comment. Above the numbers, write *when to measure again*.
 #
-# Do not copy somebody else's constants. Example: somebody's drivetrain has TalonFX motors, ratio
-# 8.46, 4 inch wheels and `kV = 2.68`. A real kV is *above* the theoretical kV (lesson 1). Is 2.68
-# above it?
-#
-# <details><summary>For mentors: the source lesson's constants</summary>
-#
-# > **Lesson says:** a drivetrain with TalonFX motors, ratio 8.46 and 4 in wheels has `kV = 2.68`,
-# > and "SysId suggests kP = 0.62".
-# >
-# > **Source says:** kV contains the back-EMF ("the counter-electromotive force") and the friction
-# > that grows with speed. So a measured kV is *larger* than the kV that you compute from the
-# > motor's free speed. (It can be one or two percent smaller, because data sheets are rounded.)
-# > ([WPILib docs: Introduction to DC Motor
-# > Feedforward](https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst))
-# >
-# > **Try it:** the next cell computes the theoretical kV of three motors, and compares 2.68 with
-# > it.
-# </details>
-
-# %%
-METERS = math.pi * 0.1016 / 8.46  # [m] for one turn of the motor
-rows = []
-for name in ("falcon500", "krakenX60", "krakenX44"):
-    per_second = MOTORS[name].free_speed / (2 * math.pi)  # turns of the motor, at 12 V
-    theory = 12.0 / (per_second * METERS)
-    rows.append((name, theory, f"{100 * (2.68 / theory - 1):+.0f} %".replace("-", "−")))
-Table(("motor", "kV from its free speed [V·s/m]", "difference of 2.68"), tuple(rows))
-
-# %% [markdown]
-# For a Falcon 500 or a Kraken X60, 2.68 is too low. It is possible only for the X44. If kV is more
-# than a few percent below the theoretical kV, a number is wrong: the ratio, the wheel, or the unit.
+# Do not copy somebody else's constants: lesson 1 has an example with a wrong number. If kV is more
+# than a few percent below the theoretical kV, the ratio, the wheel or the unit is wrong.
 #
 # `sysid fit` can write the constants, with their errors as comments:
 #
@@ -134,7 +94,9 @@ Table(("motor", "kV from its free speed [V·s/m]", "difference of 2.68"), tuple(
 # sysid fit my_log.wpilog --paste java
 # ```
 #
-# Here is the code for our shooter. Each number has as many digits as its error allows:
+# Here is the code for our shooter. Each number has as many digits as its error allows. (One
+# *standard error* is the typical error that noise alone causes. On a real robot, effects that are
+# not in the model cause larger errors. So trust only two or three digits.)
 
 # %%
 print(write_robot_code(found, language="java", season=2026, name="shooter"))
@@ -344,7 +306,7 @@ print(f"kV by {share['kV']:+.1f} %, kA by {share['kA']:+.0f} %.")
 # %%
 TIME = np.arange(0.0, 4.0, LOOP)
 TARGET = np.interp(TIME, [0.0, 0.2, 1.4, 2.6, 3.6, 4.0], [0, 0, 50, 50, 0, 0])  # [rot/s]
-wheel = gains_per(shooter.gains, factor=2 * math.pi)  # the truth, per rotation
+wheel = convert_gains(shooter.gains, factor=2 * math.pi)  # the truth, per rotation
 
 
 def forward(gains: dict[str, float]) -> np.ndarray:
@@ -538,14 +500,8 @@ remaining_error(0.12)
 
 # %%
 print(guess_kp.reveal("half of it"))
-Table(
-    ("kP ÷ kV", "kP [V per rot/s]", "rpm below the target", "share of the error that remains"),
-    tuple(
-        (f"{times}", times * wheel["kV"], left_over(times * wheel["kV"]),
-         f"{100 * left_over(times * wheel['kV']) / REMAINING[0]:.0f} %")
-        for times in (0, 1, 2, 4)
-    ),
-)  # fmt: skip
+print(f"kP = kV: {left_over(wheel['kV']):.0f} of {REMAINING[0]:.0f} rpm remain.")
+print(f"kP = 4 · kV: {left_over(4 * wheel['kV']):.0f} rpm remain.")
 
 # %% [markdown]
 # Feedback with kP acts only if there is an error. So it never removes the whole error: about
@@ -553,26 +509,12 @@ Table(
 # remains. So why not use a very large kP?
 
 # %%
-late = {0: "measured at once", 2: "measured 40 ms late", 6: "measured 120 ms late"}
 suggested = found.feedback()["velocity"].kp
 print(f"kP that the fit suggests, for WPILib's own loop: {suggested:.3f} V per rot/s.")
 shaking = follow(measured, 0.6, late=6)
 plot_tracking_error(
     TIME, TARGET, {"kP = 0.6, 120 ms late": shaking, "kP = 0": follow(measured)}, unit="rot/s"
 )
-
-# %%
-away = [
-    (
-        f"{kp}",
-        *(
-            measure_tracking_error(TARGET, follow(measured, kp, late=loops)).typical
-            for loops in late
-        ),
-    )
-    for kp in (0.1, 0.3, 0.6, 1.2)
-]
-Table(("kP [V per rot/s]", *late.values()), tuple(away), caption="Typical error [rot/s]")
 
 # %% [markdown]
 # If the measurement is late, the feedback may correct an error that is already gone. Then a large
@@ -679,7 +621,7 @@ def rise(gains: dict[str, float], *, kp: float = 5.0, with_tube: bool = False) -
 
     def volts(one: LoopInput) -> float:
         held = tube["rate"] * one.now.position + tube["preload"]
-        return mine.volts(ff, pid, one) + with_tube * held
+        return mine.loop(ff, pid, one) + with_tube * held
 
     return follow_in_closed_loop(robot, RISE, volts)
 
@@ -760,8 +702,8 @@ Table(
 
 # %%
 DRUM = 2 * math.pi * robot.radius  # [m] for one rotation of the drum
-per_drum = gains_per(SETS["reconciled"], factor=DRUM) | {"kP": 5.0 * DRUM}
-per_rotor = gains_per(SETS["reconciled"], factor=DRUM / robot.ratio) | {
+per_drum = convert_gains(SETS["reconciled"], factor=DRUM) | {"kP": 5.0 * DRUM}
+per_rotor = convert_gains(SETS["reconciled"], factor=DRUM / robot.ratio) | {
     "kP": 5 * DRUM / robot.ratio
 }
 
@@ -771,7 +713,7 @@ def magic(slot0: dict[str, float]) -> FollowedMove:
 
     def volts(one: LoopInput) -> float:
         held = tube["rate"] * one.now.position + tube["preload"]
-        return phoenix_volts(slot0, one, meters_per_rotation=DRUM) + held
+        return compute_phoenix_voltage(slot0, one, meters_per_rotation=DRUM) + held
 
     return follow_in_closed_loop(robot, RISE, volts, period=ONBOARD)
 
@@ -887,7 +829,7 @@ Table(
 # sensor detects the piece.
 #
 # With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF and
-# the gears. The table shows our elevator with three loads:
+# the gears. The next cell makes our elevator's carriage 1.5 times as heavy:
 #
 # <details><summary>For mentors: which gains change with the load?</summary>
 #
@@ -902,11 +844,12 @@ Table(
 # </details>
 
 # %%
-rows = []
-for kilograms in (elevator.load, 1.25 * elevator.load, 1.5 * elevator.load):
-    gains = replace(elevator, load=kilograms).gains
-    rows.append((f"{kilograms:.0f} kg", *(gains[name] for name in ORDER["elevator"])))
-Table(("carriage", "kS [V]", "kG [V]", "kV [V·s/m]", "kA [V·s²/m]"), tuple(rows))
+heavier = replace(elevator, load=1.5 * elevator.load).gains
+print(
+    ", ".join(
+        f"{gain} times {heavier[gain] / elevator.gains[gain]:.2f}" for gain in ORDER["elevator"]
+    )
+)
 
 # %% [markdown]
 # ## 8 Which gains belong to which mechanism?
@@ -935,19 +878,12 @@ Table(
 OWNERS = ("drivetrain", "elevator", "shooter")
 guess_one = Prediction("Set 1 belongs to the…", *OWNERS)
 guess_two = Prediction("Set 2 belongs to the…", *OWNERS)
-guess_three = Prediction("Set 3 belongs to the…", *OWNERS)
-display(guess_one, guess_two, guess_three)
+display(guess_one, guess_two)
 
 # %%
 print(guess_one.reveal(sets["set 1"][::-1]))
 print(guess_two.reveal(sets["set 2"][::-1]))
-print(guess_three.reveal(sets["set 3"][::-1]))
-rows = []
-for name, one in fits.items():
-    cls = CLASSES.get(one.type, "SimpleMotorFeedforward")
-    top = (12.0 - one.gains["kS"] - one.gains.get("kG", 0.0)) / one.gains["kV"]
-    rows.append((name, sets[name][::-1], f"{cls}({', '.join(ORDER[one.type])})", top))
-Table(("set", "mechanism", "class", "top speed at 12 V [m/s or rad/s]"), tuple(rows))
+print(f"Set 3 belongs to the {sets['set 3'][::-1]}.")
 
 # %% [markdown]
 # <details><summary>How can you see it?</summary>

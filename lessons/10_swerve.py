@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Lesson 10: Swerve
 #
-# *About 40 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
+# *About 35 minutes. You need lessons 3, 6 and 8. This lesson is for teams with a swerve drive.*
 #
 # **At the end you can**
 #
@@ -61,11 +61,11 @@ import numpy as np
 
 import sim
 from sim.bench.simulate import simulate
-from sim.bench.slip import slip_voltage
+from sim.bench.slip import compute_slip_voltage
 from sim.bench.swerve import SwerveDrive
 from sim.bench.swerve_logs import record_modules, record_spin, record_wall_push
 from sim.fit import fit
-from sim.fit.physics.inertia import moment_of_inertia
+from sim.fit.physics.inertia import compute_moment_of_inertia
 from sim.fit.pooled import pool_fits
 from sim.physics.motors import find_motor
 from sim.plot import Table, plot_curves
@@ -288,7 +288,7 @@ turning = fit(simulate(robot.rotation, gentle, rng=np.random.default_rng(3))).in
 straight = fits["front-left"]
 levers = {"half the trackwidth, T/2": 0.5 * robot.trackwidth, "half the diagonal, T/√2": distance}
 found = {
-    name: moment_of_inertia(turning, straight, mass=robot.mass, lever=lever)
+    name: compute_moment_of_inertia(turning, straight, mass=robot.mass, lever=lever)
     for name, lever in levers.items()
 }
 print(f"kA straight {straight.gains['kA']:.4f} V·s²/m")
@@ -370,7 +370,7 @@ def launch(step: float) -> Scene:
     return Scene(since, (Motion("robot", velocity=body), log))
 
 
-limit = slip_voltage(robot.translation)
+limit = compute_slip_voltage(robot.translation)
 print(guess_step.reveal("they spin fast almost at once, and the robot is much slower"))
 print(f"The wheels of this robot slip above {limit:.1f} V.")
 STEPS = {f"{step:g} V": launch(step) for step in (1.0, 1.5, 2.0, 3.0, 4.0, 5.0)}

@@ -12,7 +12,7 @@ from sim.core.log import Log, Run
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.battery import Battery
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State, simulate_run
@@ -87,7 +87,7 @@ def rubbing(gains, shares, *parts, noise, step, seed):
 
 def based(log, gains):
     """The problem of a log, and the point of gains without effects."""
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     begun = RunNuisance.at_first_samples(len(problem.records))
     return problem, problem.evaluate(
         ModelStructure("simple"), gains, begun, problem.noise.velocity**2

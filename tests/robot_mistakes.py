@@ -30,4 +30,4 @@ def changed(*changes):
 def ran(tmp_path, text, *, seconds=bench.SECONDS, name="ExampleSubsystem"):
     path = tmp_path / "mine.py"
     path.write_text(text, "utf-8")
-    return bench.run(path, name, seconds=seconds)
+    return bench.run_sysid_routine(path, name, seconds=seconds)

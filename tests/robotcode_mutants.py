@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from robot_corpus import whole_corpus
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = (ROOT / "tests" / "robotcode", *sorted((ROOT / "solutions").glob("exercise*")))
+FOLDERS = (*sorted((ROOT / "solutions").glob("exercise*")), whole_corpus())
 SUFFIXES = {".java", ".py"}
 MOST_CHANGES = 4
 LONGEST = 60  # pieces that one change takes, repeats or moves
@@ -53,8 +54,8 @@ class Mutant:
 
 def sources() -> list[Path]:
     """The sound and broken files that mutants are made of."""
-    found = (path for folder in FOLDERS for path in folder.rglob("*") if path.suffix in SUFFIXES)
-    return sorted(found)
+    found = (path for folder in FOLDERS for path in sorted(folder.rglob("*")))
+    return [path for path in found if path.suffix in SUFFIXES]
 
 
 def mutant(number: int, files: Sequence[Path]) -> Mutant:

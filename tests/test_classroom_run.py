@@ -131,7 +131,9 @@ def test_what_only_a_run_shows_is_not_held_against_code_that_is_only_read(tmp_pa
 @needs_robot
 def test_practice_reads_robot_code_without_running_it_where_it_may_not(tmp_path, monkeypatch):
     practice = Exercise("practice", ROOT / "exercises" / "practice")
-    monkeypatch.setattr("grader.robotcode.bench.run", lambda *_: pytest.fail("it was run"))
+    monkeypatch.setattr(
+        "grader.robotcode.bench.run_sysid_routine", lambda *_: pytest.fail("it was run")
+    )
     (tmp_path / "example_subsystem.py").write_text(RIGHT, "utf-8")
     (tmp_path / "answers.toml").write_text('language = "python"\n', "utf-8")
     answers = practice.module.read(tmp_path / "answers.toml", student="ann", run=False)

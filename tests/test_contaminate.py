@@ -167,7 +167,7 @@ def test_a_log_too_small_to_damage_is_damaged_or_refused_in_words(name, log):
 def test_whatever_is_asked_for_is_done_or_refused(drive, *, name, severity, test, share, seed):
     at = None
     if share is not None and test is not None:
-        run = drive.runs_of_test(test)[0]
+        run = drive.list_runs_of_test(test)[0]
         at = share * float(run.time[-1] - run.time[0])
     try:
         spoilt = contaminate(drive, name, severity=severity, test=test, at=at, rng=rng(seed))

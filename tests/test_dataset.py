@@ -147,7 +147,7 @@ def test_every_purpose_has_a_source_of_chance_of_its_own(tmp_path):
     jobs = jobs_of(spec(tmp_path, DAMAGED))
     purposes = [(MECHANISM,), (RECORD,), (DAMAGE, 0, 0), (DAMAGE, 1, 0), (DAMAGE, 0, 1), (FAULT, 0)]
 
-    drawn = {job.random_stream(*which).random() for job in jobs for which in purposes}
+    drawn = {job.make_random_stream(*which).random() for job in jobs for which in purposes}
 
     assert len(drawn) == len(jobs) * len(purposes)
 

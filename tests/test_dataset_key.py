@@ -34,7 +34,7 @@ def test_the_key_holds_the_true_gains_in_the_units_of_the_log(tmp_path):
         MECHANISMS["shooter"].gains["kV"] * turn
     )
     log = sim.read(folder / next(iter(truth["shooter"]["files"])))
-    (step,) = log.runs_of_test("dynamic-forward")
+    (step,) = log.list_runs_of_test("dynamic-forward")
     top = step.velocity[-10:].mean() / turn  # [rot/s] near its end, where kA has nothing to do
     gains = truth["shooter"]["gains"]
     assert gains["kS"] + gains["kV"] * top == pytest.approx(3.0, rel=0.02)

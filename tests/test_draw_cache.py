@@ -14,11 +14,11 @@ from grader.variant import use_class_secret
 from sim.support.work import cache
 
 DRAWN = """
-from grader.draw_cache import cache_draw_on_disk
+from grader.draw_cache import cache_generated_data
 
 COUNT = []
 
-@cache_draw_on_disk
+@cache_generated_data
 def draw(student):
     COUNT.append(student)
     return {"student": student, "number": NUMBER}

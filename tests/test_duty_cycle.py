@@ -29,7 +29,7 @@ def asked(log):
 def test_a_step_from_rest_sags_by_ohms_law():
     # Four motors of 12 V/366 A at 3.5/12 of the battery, at rest: 0.035 Ω in series with
     # 12/366/4 Ω/(3.5/12)² seen from the battery.
-    step = driven(TIRED).runs_of_test("dynamic-forward")[0]
+    step = driven(TIRED).list_runs_of_test("dynamic-forward")[0]
     seen = 12.0 / 366.0 / 4.0 / (3.5 / 12.0) ** 2
     assert step.bus_voltage[0] == pytest.approx(12.2 * seen / (seen + 0.035), rel=1e-6)
     assert step.voltage[0] == pytest.approx(step.bus_voltage[0] * 3.5 / 12.0, rel=1e-6)

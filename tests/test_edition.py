@@ -11,7 +11,7 @@ from grader.cli import run_command
 from grader.edition import build_pages
 from grader.edition.notebook_html import highlight_python, split_notebook
 from sim.core.errors import BadRequest
-from sim.plot.animation import allow_script, read_script
+from sim.plot.animation import make_script_source, read_script
 
 MARKDOWN, CODE = nbformat.v4.new_markdown_cell, nbformat.v4.new_code_cell
 CELLS = (
@@ -81,8 +81,8 @@ def test_only_the_scripts_of_the_edition_itself_may_run(lesson, tmp_path):
     policy = html.unescape(re.search(r'Policy" content="([^"]*)"', page)[1])
     (own,) = re.findall(r'<script type="module">(.*?)</script>', page, flags=re.DOTALL)
 
-    assert allow_script(own) in policy
-    assert allow_script(read_script()) in policy
+    assert make_script_source(own) in policy
+    assert make_script_source(read_script()) in policy
     assert "unsafe" not in policy.partition("script-src")[2]
     for name in ("handout.html", "index.html"):
         assert "script-src" not in (tmp_path / "out" / name).read_text("utf-8")

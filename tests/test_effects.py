@@ -66,7 +66,7 @@ def test_the_catalogue_holds_every_effect_that_other_programs_call_by_name():
 def test_an_effect_is_written_as_the_contract_asks(name):
     found = EFFECTS[name]
 
-    assert found.contract_breaches() == []
+    assert found.find_contract_breaches() == []
     assert found.name == name
     for said in (found.summary, found.formula, found.fingerprint, found.inspect):
         assert len(said) > 3, said
@@ -121,6 +121,21 @@ def test_an_effect_at_its_neutral_values_is_not_there(name):
 
     assert with_it.seen == pytest.approx(alone.seen, abs=1e-9)
     assert with_it.position == pytest.approx(there.position, abs=2e-3 * np.ptp(there.position))
+
+
+@pytest.mark.parametrize("name", [name for name in EFFECTS if EFFECTS[name].same_in_motion])
+@pytest.mark.parametrize("step", [6.0, -6.0])
+def test_effects_that_are_the_same_in_motion_move_alike(name, step):
+    base = replace(MECHANISMS["drivetrain"].model, travel=None)
+
+    def speeds(effect):
+        part = Part(effect, dict.fromkeys(EFFECTS[effect].names, 0.1))
+        volts = np.full(TIME.size, step)
+        return simulate_run(base + part, time=TIME, voltage=volts, state=State()).velocity
+
+    plain = simulate_run(base, time=TIME, voltage=np.full(TIME.size, step), state=State()).velocity
+    assert speeds(name) == pytest.approx(speeds(EFFECTS[name].same_in_motion), rel=1e-9)
+    assert np.abs(speeds(name) - plain).max() > 0.01 * np.abs(plain).max()
 
 
 @pytest.mark.parametrize("name", ["backlash", "compliance"])
@@ -433,7 +448,7 @@ def test_starts_survive_a_log_in_which_nothing_moves():
     ids=["kind", "nothing", "hook", "argument", "order"],
 )
 def test_an_effect_written_wrongly_is_named_with_what_is_wrong(change, said):
-    assert any(said in line for line in replace(EFFECTS["drag"], **change).contract_breaches())
+    assert any(said in line for line in replace(EFFECTS["drag"], **change).find_contract_breaches())
 
 
 @pytest.mark.parametrize(

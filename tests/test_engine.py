@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from sim.bench.mechanisms import MECHANISMS
-from sim.bench.simulate import power_path_arrays
+from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.physics.effects import EFFECTS
 from sim.physics.effects.drag import EFFECT as DRAG
@@ -21,10 +21,10 @@ from sim.physics.engine import (
     NO_WIRES,
     RunBatch,
     State,
-    effect_arrays,
     filter_runs,
     find_finest_step,
-    model_constants,
+    make_effect_arrays,
+    make_model_constants,
     simulate_run,
 )
 from sim.physics.engine import kernel as kernel_room
@@ -34,7 +34,7 @@ from sim.physics.engine.machine_code import ObjectCode, link_code
 from sim.physics.engine.power_path import CUT
 from sim.physics.engine.two_body_modes import WAYS
 from sim.physics.model import Model, Part
-from sim.support.work.cache import CACHE, cache_folder
+from sim.support.work.cache import CACHE, find_cache_folder
 
 GAINS = {"kS": 0.2, "kV": 2.0, "kA": 0.3}
 PLAIN = Model("simple", GAINS)
@@ -50,7 +50,7 @@ def test_the_compiled_engine_does_what_the_plain_text_says(name):
     kind = next(k for k in MECHANISMS if not EFFECTS[name].reason_against(MECHANISMS[k].scale))
     model = MECHANISMS[kind].hide(name).model
     volts = np.where(TIME < 0.4, 3.0, -2.0)
-    wires = power_path_arrays(MECHANISMS[kind])
+    wires = make_power_path_array(MECHANISMS[kind])
 
     fast, slow = (
         simulate_run(model, time=TIME, voltage=volts, state=State(), wires=wires, plain=plain)
@@ -191,7 +191,7 @@ def test_heat_stays_from_run_to_run_and_fades_in_a_pause():
 @pytest.mark.parametrize("speed", [0.0, 1.5, -1.5, 4.0])
 def test_wires_keep_every_limit_and_ohms_law(asked, speed):
     built = MECHANISMS["drivetrain"]
-    wires = power_path_arrays(built)
+    wires = make_power_path_array(built)
     wires[7] = 0.0  # no brownout here
     state = State.cold_at(0.0, speed)
 
@@ -217,7 +217,7 @@ def test_a_brownout_takes_the_motors_off_for_a_loop():
 
     track = simulate_run(
         built.model, time=time, voltage=np.full(time.size, 11.0), state=State(),
-        wires=power_path_arrays(built),
+        wires=make_power_path_array(built),
     )  # fmt: skip
 
     off = track.applied == 0.0
@@ -332,7 +332,7 @@ def test_what_was_compiled_is_kept_where_the_environment_says(cache, tmp_path, m
     assert not is_compiled(FEW)
 
     monkeypatch.setenv(CACHE, str(cache))
-    assert cache_folder() == cache
+    assert find_cache_folder() == cache
     assert is_compiled(FEW)
     (kept,) = cache.iterdir()
     written = kept.stat().st_mtime_ns
@@ -422,15 +422,15 @@ def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, wo
     ],
 )
 def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
-    on, parameters = effect_arrays(PLAIN)
+    on, parameters = make_effect_arrays(PLAIN)
     given = {
         "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
         "slides": steady(0.0), "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf),
         "high": np.full(1, math.inf), "rubs": np.zeros(1), "run_lags": np.zeros(1),
-        "sessions": np.zeros(1), "c": model_constants(PLAIN), "w": NO_WIRES, "on": on,
+        "sessions": np.zeros(1), "c": make_model_constants(PLAIN), "w": NO_WIRES, "on": on,
         "p": parameters, "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS),
         "began": np.zeros(1), "steps": EXACT, "plain": True,
-        "measured": np.zeros((0, 2)), "trust": np.zeros((0, 4)),
+        "measured": np.zeros((0, 2)), "trust": np.zeros((0, 4)), "errors": np.zeros((0, 2)),
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip
     engine = compose_engine(EFFECTS)

@@ -11,7 +11,7 @@ from gain_styles import BODY, PYTHON_BODY, PYTHON_STYLES, STYLES
 
 from grader.cli import run_command
 from grader.exercise import Exercise
-from grader.robotcode.gain_constants import gain_from_name, read_gains
+from grader.robotcode.gain_constants import find_gain_of_name, read_gains
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise10", ROOT / "exercises" / "exercise10")
@@ -593,7 +593,7 @@ def test_a_loop_with_duty_cycle_is_told_about_its_output(checked, reads):
     ],
 )
 def test_a_name_stands_for_a_gain_or_for_none(name, gain):
-    assert gain_from_name(name) == gain
+    assert find_gain_of_name(name) == gain
 
 
 @pytest.mark.parametrize("place", ["", *BOTH])

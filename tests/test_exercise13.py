@@ -12,7 +12,7 @@ import pytest
 from grader.cli import run_command
 from grader.exercise import Exercise
 from grader.variant import make_folder_name
-from sim.bench.slip import slip_voltage
+from sim.bench.slip import compute_slip_voltage
 from sim.inspect.detect_faults import inspect
 from sim.io import list_entries, read, read_motors
 
@@ -72,8 +72,8 @@ def test_a_drive_is_one_that_a_team_can_have():
         assert 40.0 < drive.slip_current < 120.0, (
             student
         )  # the limit of Phoenix 6 is not in the way
-        assert 0.7 < variant.step / slip_voltage(drive.translation) < 0.81, student
-        assert variant.step < slip_voltage(drive.rotation), student
+        assert 0.7 < variant.step / compute_slip_voltage(drive.translation) < 0.81, student
+        assert variant.step < compute_slip_voltage(drive.rotation), student
 
 
 def test_every_wrong_lever_is_named_for_everybody(copy):

@@ -20,7 +20,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.motors import find_motor, theoretical_kv
+from sim.physics.motors import compute_theoretical_kv, find_motor
 
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
@@ -108,7 +108,7 @@ def test_theory_is_what_the_bench_says_of_the_same_parts():
     made = parts("Kraken X60", 6000, find_motor("krakenX60").back_emf, 4, 6.75, 0.1016)
 
     assert made.theoretical_kv == pytest.approx(
-        theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508), rel=1e-9
+        compute_theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508), rel=1e-9
     )
     assert (made.theoretical_kv, made.exact) == (
         pytest.approx(2.538, abs=5e-4),

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from robot_corpus import whole_corpus
 
 from grader.cli import run_command
 from grader.exercise import Exercise, find_exercise
@@ -312,7 +313,7 @@ def test_a_field_that_is_empty_until_the_routine_is_made_is_right(tmp_path):
 def graded_program(tmp_path, name, file):
     """The checks of exercise 4 on a program of the corpus, by their ids."""
     program = tmp_path / name
-    shutil.copytree(ROOT / "tests" / "robotcode" / "swerve" / name, program)
+    shutil.copytree(whole_corpus() / "swerve" / name, program)
     (found,) = program.rglob(file)
     return {one.id: one for one in EXERCISE.grade(found, student="ann").checks}
 

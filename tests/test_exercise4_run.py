@@ -106,7 +106,7 @@ def test_a_question_about_a_log_that_names_no_tests_stays_one(tmp_path):
 
 @needs_robot
 def test_code_that_reading_finds_wrong_is_not_run(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench, "run", lambda *_: pytest.fail("it was run"))
+    monkeypatch.setattr(bench, "run_sysid_routine", lambda *_: pytest.fail("it was run"))
     checks = grade_answer(tmp_path, changed(("rampRate=0.5", "rampRate=0.25")))
 
     assert [name for name, one in checks.items() if one.status != "passed"] == ["ramp"]
@@ -114,7 +114,7 @@ def test_code_that_reading_finds_wrong_is_not_run(tmp_path, monkeypatch):
 
 @needs_robot
 def test_whoever_grades_can_leave_running_out(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench, "run", lambda *_: pytest.fail("it was run"))
+    monkeypatch.setattr(bench, "run_sysid_routine", lambda *_: pytest.fail("it was run"))
     path = tmp_path / "mine.py"
     path.write_text(RIGHT, "utf-8")
 
@@ -127,7 +127,7 @@ def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
 
     assert {one.status for one in checks.values()} == {"passed"}
     assert checks["routine"].hint.startswith("Read, not compiled, not run")
-    assert bench.run(tmp_path / "mine.py", "ExampleSubsystem") == RunFacts(
+    assert bench.run_sysid_routine(tmp_path / "mine.py", "ExampleSubsystem") == RunFacts(
         RunOutcome.CANNOT, "RobotPy is not installed here"
     )
 
@@ -135,7 +135,7 @@ def test_without_robotpy_reading_is_enough(tmp_path, monkeypatch):
 def test_a_vendors_file_is_graded_by_reading_and_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(bench, "is_robotpy_installed", lambda: True)
     unable = RunFacts(RunOutcome.CANNOT, "it imports phoenix6, which is not here")
-    monkeypatch.setattr(bench, "run", lambda *_: unable)
+    monkeypatch.setattr(bench, "run_sysid_routine", lambda *_: unable)
     checks = grade_answer(tmp_path, RIGHT)
 
     assert {one.status for one in checks.values()} == {"passed"}

@@ -162,7 +162,7 @@ def test_the_closed_form_is_where_the_bench_goes_under_the_routine(kind):
     log = simulate(quiet, routine, rng=np.random.default_rng(1))
 
     for test, name in ((PLAN.quasistatic, "quasistatic"), (PLAN.dynamic, "dynamic")):
-        (ran,) = log.runs_of_test(f"{name}-forward")
+        (ran,) = log.list_runs_of_test(f"{name}-forward")
         begins = ran.time[0] - (0.04 if name == "quasistatic" else 0.0)
         moving = ran.time - begins - test(machine, plan).still
         places = [test(machine, plan).place(max(float(t), 0.0)) for t in moving]

@@ -77,7 +77,7 @@ def test_the_standstill_may_be_trimmed_instead_of_dropped_by_a_threshold():
         mine = variant(student)
         keep = dict(mine.reference.keep)
         for ramp in RAMPS:
-            (one,) = mine.log.runs_of_test(ramp)
+            (one,) = mine.log.list_runs_of_test(ramp)
             first = one.time[np.argmax(mine.valid[ramp])] - one.time[0]
             keep[ramp] = (first, keep.get(ramp, (0.0, 99.0))[1])
         trimmed = replace(mine.reference, keep=keep, threshold=0.0)

@@ -164,8 +164,8 @@ def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
     # an elevator that 0.5 V cannot lift: it sinks, in the forward test as in the reverse one
     log = recorded("elevator")
     forward, reverse = (
-        log.runs_of_test("dynamic-forward")[0],
-        log.runs_of_test("dynamic-reverse")[0],
+        log.list_runs_of_test("dynamic-forward")[0],
+        log.list_runs_of_test("dynamic-reverse")[0],
     )
     sinks = replace(reverse, test="dynamic-forward", velocity=reverse.velocity * 0.2)
     sinks = replace(
@@ -182,10 +182,10 @@ def test_a_weight_that_beats_the_voltage_has_no_sign_wrong():
 @pytest.mark.parametrize(
     ("factor", "words"),
     [
-        (2 * np.pi, "a factor of 2π"),
-        (1 / 60, "one over 60"),
-        (180 / np.pi, "a factor of 57.3"),
-        (360.0, "a factor of 360"),
+        (2 * np.pi, "2π, the factor"),
+        (1 / 60, "60, the factor"),
+        (180 / np.pi, "57.3, the factor"),
+        (360.0, "360, the factor"),
         (8.46, "a gear ratio"),
     ],
 )
@@ -294,7 +294,11 @@ def test_damage_grows_with_severity(name):
         for severity in (0.3, 1.0, 3.0)
         for spoilt in (contaminate(log, name, severity=severity, rng=np.random.default_rng(6)).log,)
         for kept in (
-            [run for run in log.runs if len(spoilt.runs) == 4 or spoilt.runs_of_test(run.test)],
+            [
+                run
+                for run in log.runs
+                if len(spoilt.runs) == 4 or spoilt.list_runs_of_test(run.test)
+            ],
         )
     ]
 

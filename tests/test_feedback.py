@@ -11,24 +11,20 @@ ALLOWED = {"velocity_error": 1.5, "volts": 7.0}  # SysId's test settings
 
 
 @pytest.mark.parametrize(
-    ("preset", "kv", "ka", "factor", "kp"),
+    ("preset", "kv", "ka", "kp"),
     [
-        ("default", 3.060, 0.327, 1.0, 2.10943242457),
-        ("default", 0.0693, 0.1170, 1.0, 3.11253582864),
-        ("default", 3.060, 0.0, 1.0, 0.0),
-        ("default", 0.0693, 0.1170, 3 * 1023.0, 0.00101418567241),
-        ("ctre-phoenix5", 1.97, 0.179, 1.0, 259.212767315),
-        ("ctre-phoenix5", 1.97, 0.179, 3.0, 259.212767315 / 3),
-        ("rev-brushless", 1.97, 0.179, 1.0, 0.000178155039061),
-        ("ctre-phoenix6", 1.97, 0.179, 1.0, 2.96668263259),
-        ("rev-brushed", 1.97, 0.179, 1.0, 0.000422308190478),
-        ("venom", 1.97, 0.179, 1.0, 15.0709394559),
+        ("default", 3.060, 0.327, 2.10943242457),
+        ("default", 0.0693, 0.1170, 3.11253582864),
+        ("default", 3.060, 0.0, 0.0),
+        ("ctre-phoenix5", 1.97, 0.179, 259.212767315),
+        ("rev-brushless", 1.97, 0.179, 0.000178155039061),
+        ("ctre-phoenix6", 1.97, 0.179, 2.96668263259),
+        ("rev-brushed", 1.97, 0.179, 0.000422308190478),
+        ("venom", 1.97, 0.179, 15.0709394559),
     ],
 )
-def test_a_velocity_loop_is_sysids_own(preset, kv, ka, factor, kp):
-    gains = design_velocity_loop(
-        kv=kv, ka=ka, preset=PRESETS[preset], encoder_factor=factor, **ALLOWED
-    )
+def test_a_velocity_loop_is_sysids_own(preset, kv, ka, kp):
+    gains = design_velocity_loop(kv=kv, ka=ka, preset=PRESETS[preset], **ALLOWED)
 
     assert gains.kp == pytest.approx(kp, rel=1e-10)
     assert gains.kd == 0.0

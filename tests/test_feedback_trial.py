@@ -13,9 +13,9 @@ from sim.fit.feedback_trial import (
     OWN,
     SUGGESTED,
     OwnGains,
-    feedback_delay,
-    trial_doubts,
+    choose_feedback_delay,
     try_feedback_gains,
+    warn_of_bad_suggestions,
 )
 
 DRIVE = {"kS": 0.15, "kV": 2.5, "kA": 0.19}
@@ -44,7 +44,7 @@ def found(gains=DRIVE, **changes):
 
 
 def doubts(fit, preset="default"):
-    return trial_doubts(fit, try_feedback_gains(fit, PRESETS[preset]))
+    return warn_of_bad_suggestions(fit, try_feedback_gains(fit, PRESETS[preset]))
 
 
 def test_what_settles_is_handed_over_without_a_word():
@@ -69,9 +69,12 @@ def test_a_suggestion_that_turns_the_wrong_way_comes_with_one_that_settles():
     kp, kd = map(float, re.findall(r"loop with kP (\S+), kD (\S+): ", doubt.message)[0])
     plant = Plant("simple", LIGHT)
     took = simulate_step_response(
-        plant, loop="position", feedback=Feedback(kp, kd), target=plant.target_step("position"),
+        plant,
+        loop="position",
+        feedback=Feedback(kp, kd),
+        target=plant.choose_target_step("position"),
         preset=PRESETS["rev-brushless"],
-    )  # fmt: skip
+    )
     assert kp > 0.0
     assert judge_step_response(took).is_good
 
@@ -105,15 +108,15 @@ def test_the_learners_own_gains_are_tried_and_told_but_not_doubted():
     (suggested,) = [one for one in tried if one.owner == SUGGESTED and one.loop == "position"]
     assert own.response.target == suggested.response.target
     assert own.verdict.kind == "oscillates"
-    assert trial_doubts(found(), tried) == ()
+    assert warn_of_bad_suggestions(found(), tried) == ()
 
 
 def test_the_logs_delay_is_the_default_presets_and_no_others():
     late = found(velocity_delay=0.14, position_delay=0.02)
 
-    assert feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14
-    assert feedback_delay(late, PRESETS["default"], loop="position") == 0.02
-    assert feedback_delay(late, PRESETS["venom"], loop="velocity") == 5e-3
+    assert choose_feedback_delay(late, PRESETS["default"], loop="velocity") == 0.14
+    assert choose_feedback_delay(late, PRESETS["default"], loop="position") == 0.02
+    assert choose_feedback_delay(late, PRESETS["venom"], loop="velocity") == 5e-3
 
 
 @pytest.mark.parametrize(
@@ -140,7 +143,7 @@ def test_a_negative_gain_is_never_handed_over_in_silence(kv, timescale, preset):
     tried = try_feedback_gains(fit, PRESETS[preset])
     assume(tried)
 
-    said = " ".join(doubt.message for doubt in trial_doubts(fit, tried))
+    said = " ".join(doubt.message for doubt in warn_of_bad_suggestions(fit, tried))
 
     for one in tried:
         if min(one.gains.kp, one.gains.kd) < 0.0 or not one.verdict.is_good:

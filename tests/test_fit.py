@@ -224,13 +224,13 @@ def test_a_ramp_without_motion_says_what_to_check(drive, signals, said):
             change(
                 drive,
                 "quasistatic-forward",
-                **signals(drive.runs_of_test("quasistatic-forward")[0]),
+                **signals(drive.list_runs_of_test("quasistatic-forward")[0]),
             )
         )
 
 
 def test_a_step_without_voltage_is_refused_where_sysid_reads_a_negative_ka(drive):
-    run = drive.runs_of_test("dynamic-forward")[0]
+    run = drive.list_runs_of_test("dynamic-forward")[0]
 
     with pytest.raises(NotIdentifiable, match="dynamic-forward never applies a voltage. Log the"):
         fit(change(drive, "dynamic-forward", voltage=0 * run.voltage))
@@ -238,7 +238,7 @@ def test_a_step_without_voltage_is_refused_where_sysid_reads_a_negative_ka(drive
 
 @pytest.mark.parametrize("samples", [1, 3, 9])
 def test_a_run_of_a_few_samples_is_refused(drive, samples):
-    run = drive.runs_of_test("dynamic-reverse")[0]
+    run = drive.list_runs_of_test("dynamic-reverse")[0]
     names = ("time", "voltage", "position", "velocity")
     short = {name: getattr(run, name)[:samples] for name in names}
 

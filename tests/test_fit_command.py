@@ -52,7 +52,7 @@ def two_sided(folder, *, right=DRIVE, name="drive.json"):
     sides = [simulate(one, SHORT, rng=np.random.default_rng(4)) for one in (DRIVE, right)]
     document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
     for key, test in RUNS.items():
-        (a,), (b,) = (side.runs_of_test(test) for side in sides)
+        (a,), (b,) = (side.list_runs_of_test(test) for side in sides)
         n = min(len(a), len(b))
         columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
         still = np.zeros(n)

@@ -40,7 +40,7 @@ def old_file(path, left, right):
     """A drivetrain as SysId wrote it until 2023."""
     document = {"test": "Drivetrain", "units": "Meters", "unitsPerRotation": 1.0, "sysid": True}
     for key, test in RUNS.items():
-        (a,), (b,) = left.runs_of_test(test), right.runs_of_test(test)
+        (a,), (b,) = left.list_runs_of_test(test), right.list_runs_of_test(test)
         n = min(len(a), len(b))
         columns = (a.time, a.voltage, b.voltage, a.position, b.position, a.velocity, b.velocity)
         rows = [*(one[:n] for one in columns), np.zeros(n), np.zeros(n)]

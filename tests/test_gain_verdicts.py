@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.core.doubt import Doubt
 from sim.fit import fit
-from sim.report.gain_verdicts import gain_verdict
+from sim.report.gain_verdicts import write_gain_verdict
 from sim.support.command_line import run_command
 
 LOG = simulate(MECHANISMS["drivetrain"], Routine(ramp=0.5, step=4.0), rng=np.random.default_rng(2))
@@ -41,7 +41,7 @@ def weaker(log, factor):
     ],
 )
 def test_advice_for_ka_comes_from_the_log(log, advice):
-    assert gain_verdict(FOUND, log) == f"{USABLE}; kA not usable (± 40 %): {advice}."
+    assert write_gain_verdict(FOUND, log) == f"{USABLE}; kA not usable (± 40 %): {advice}."
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_advice_for_ka_comes_from_the_log(log, advice):
 def test_gains_with_the_same_advice_stand_together(log, advice):
     unsure = replace(FOUND, errors={"kS": 0.3, "kV": 0.5, "kA": 0.01})
 
-    said = gain_verdict(unsure, log)
+    said = write_gain_verdict(unsure, log)
 
     start = "kA usable (± 2 %); kV not usable (± 20 %), kS not usable (± 0.3 V): "
     assert said.startswith(start + advice)
@@ -73,7 +73,7 @@ def test_gains_with_the_same_advice_stand_together(log, advice):
     ],
 )
 def test_each_gain_is_judged_in_its_own_measure(gains, errors, said):
-    assert gain_verdict(replace(FOUND, gains=gains, errors=errors)) == said
+    assert write_gain_verdict(replace(FOUND, gains=gains, errors=errors)) == said
 
 
 def test_what_is_wrong_stands_above_the_gains(tmp_path, capsys):
@@ -93,4 +93,4 @@ def test_what_is_wrong_stands_above_the_gains(tmp_path, capsys):
 def test_a_grave_doubt_makes_no_gain_usable(reads):
     grave = replace(FOUND, doubts=(Doubt("x", "It cannot be.", grave=True),))
 
-    reads(gain_verdict(grave, LOG))
+    reads(write_gain_verdict(grave, LOG))

@@ -96,14 +96,15 @@ def test_our_own_error_blames_nobody(course, capsys, reads):
     reads(err)
 
 
-def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(course, capsys, monkeypatch):
+def test_an_exercise_that_breaks_is_our_fault_and_says_how_to_see_more(
+    course, capsys, monkeypatch, reads
+):
     (course / "exercises" / "exercise1" / "checks.py").write_text("1 / 0", "utf-8")
 
     assert run_command(["exercise1"]) == 2
     err = capsys.readouterr().err
-    assert err.startswith("grade: our mistake, not yours (ZeroDivisionError: division by zero).")
-    assert "SYSID_TRACEBACK=1" in err
     assert err.count("\n") == 1
+    reads(err)
 
     monkeypatch.setenv("SYSID_TRACEBACK", "1")
     with pytest.raises(ZeroDivisionError):
@@ -189,12 +190,9 @@ def test_hints_come_one_by_one_and_then_all_again(capsys, reads):
         assert run_command(["exercise1", "--hint"]) == 0
         shown.append(capsys.readouterr().out)
 
-    reads(shown[0])
-    assert shown[1].startswith("Hint 2 of 3: Look at the ruler.")
-    assert shown[2].startswith("Hint 3 of 3: One, two")
     assert shown[3] == shown[4]
-    assert "no more hints" in shown[3]
-    assert all(hint in shown[3] for hint in ("length", "ruler", "One"))
+    for text in shown[:4]:
+        reads(text)
 
 
 @pytest.mark.usefixtures("course")
@@ -205,21 +203,14 @@ def test_hints_are_counted_for_each_student(capsys):
     assert capsys.readouterr().out.count("Hint 1 of 3") == 2
 
 
-def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys):
+def test_without_a_name_it_shows_how_far_one_is_and_what_is_next(course, capsys, reads):
     assert run_command([]) == 0
-    before = capsys.readouterr().out
+    reads(capsys.readouterr().out)
     answer(course, RIGHT)
     run_command(["exercise1"])
     capsys.readouterr()
     assert run_command([]) == 0
-    after = capsys.readouterr().out
-
-    assert "0 of 1 exercises done" in before
-    assert "not tried yet" in before
-    assert before.endswith("Next: do exercises/exercise1/README.md\n")
-    assert "1 of 1 exercises done" in after
-    assert "exercise1  Measure" in after
-    assert after.endswith("Everything here is done.\n")
+    reads(capsys.readouterr().out)
 
 
 @pytest.mark.parametrize(
@@ -255,11 +246,11 @@ def test_the_next_step_is_one_lesson_or_one_exercise(root, standings, step):
     assert find_next_step(root, found) == step
 
 
-def test_a_right_answer_ends_with_the_next_step(course, capsys):
+def test_a_right_answer_ends_with_the_next_step(course, capsys, reads):
     answer(course, RIGHT)
 
     assert run_command(["exercise1"]) == 0
-    assert capsys.readouterr().out.endswith("\nEverything here is done.\n")
+    reads(capsys.readouterr().out.splitlines()[-1])
 
 
 def grade(*arguments, cwd, **environment):

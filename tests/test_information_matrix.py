@@ -54,7 +54,9 @@ def test_an_elevator_that_only_goes_up_tells_friction_from_weight_never():
 
 
 def test_what_up_only_tells_of_friction_and_weight_is_their_sum():
-    about = compute_information(UP, type="elevator", noise=0.05).information_on_pair("kS", "kG")
+    about = compute_information(UP, type="elevator", noise=0.05).compute_pair_information(
+        "kS", "kG"
+    )
     values, vectors = np.linalg.eigh(about)
     assert values[0] == pytest.approx(0.0, abs=1e-9 * values[1])
     assert abs(vectors[0, 1]) == pytest.approx(abs(vectors[1, 1]))
@@ -69,7 +71,7 @@ def test_an_arm_that_only_goes_up_tells_them_by_its_cosine():
 @pytest.mark.parametrize("pair", [("kS", "kA"), ("kA", "kS"), ("kV", "kG")])
 def test_two_gains_are_told_as_well_as_each_of_them(pair):
     told = compute_information(BOTH, type="elevator", noise=0.05)
-    two = np.sqrt(np.diag(np.linalg.inv(told.information_on_pair(*pair))))
+    two = np.sqrt(np.diag(np.linalg.inv(told.compute_pair_information(*pair))))
     assert two == pytest.approx([told.errors[name] for name in pair], rel=1e-6)
 
 
@@ -80,7 +82,7 @@ def test_two_gains_are_told_as_well_as_each_of_them(pair):
         (lambda: compute_information(UP, type="crane", noise=0.1), "Choose one of: simple"),
         (lambda: compute_information(UP, type="simple", noise=0.0), "Give one above 0"),
         (
-            lambda: compute_information(UP, type="simple", noise=0.1).information_on_pair(
+            lambda: compute_information(UP, type="simple", noise=0.1).compute_pair_information(
                 "kS", "kG"
             ),
             "Choose one of: kS, kV, kA",

@@ -90,7 +90,7 @@ def test_the_worst_kind_comes_first():
     ).log
     log = contaminate(log, "unit-error", rng=np.random.default_rng(2)).log
 
-    kinds = [kind[0].fault for kind in inspect(log).by_kind()]
+    kinds = [kind[0].fault for kind in inspect(log).group_by_kind()]
 
     assert kinds[0] == "unit-error"
 
@@ -129,7 +129,7 @@ def test_a_real_brownout_is_one_and_no_run_is_to_be_renamed(seed):
 
     assert {fault.fault for fault in found.faults} == {"brownout"}
     assert {fault.where.test for fault in found.faults} == {"dynamic-forward", "dynamic-reverse"}
-    worst = found.by_kind()[0][0]
+    worst = found.group_by_kind()[0][0]
     assert "falls to 5.8 V" in worst.evidence
     assert "smaller step than 3.5 V" in worst.advice
 
@@ -155,7 +155,7 @@ def test_a_bus_that_stays_up_is_no_brownout():
 
 def test_a_run_that_stands_before_its_step_keeps_its_name():
     log = bench()
-    run = log.runs_of_test("dynamic-forward")[0]
+    run = log.list_runs_of_test("dynamic-forward")[0]
     rest = np.arange(250) * 0.02  # five seconds, and a voltage left over from the run before
     zeros = np.zeros(rest.size)
     waits = replace(

@@ -334,7 +334,7 @@ def test_a_log_without_entries_says_so(tmp_path, capsys, reads):
 )
 def test_tests_are_known_in_any_spelling(tmp_path, spelling):
     log = recorded()
-    log = replace(log, runs=log.runs_of_test("quasistatic-forward"))
+    log = replace(log, runs=log.list_runs_of_test("quasistatic-forward"))
     rows = samples(log, AKIT, state="/Robot/Mode")
     logger = Logger()
     for name, time, value in rows:

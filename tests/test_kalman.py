@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.estimation.kalman import OPEN_LOOP, steady_state_filter
+from sim.estimation.kalman import OPEN_LOOP, make_steady_state_filter
 from sim.estimation.measurements import SensorNoise
 from sim.physics.model import Model
 
@@ -15,7 +15,7 @@ PERIOD = 0.02
 
 
 def filtered(process_noise):
-    return steady_state_filter(MODEL, noise=NOISE, process_noise=process_noise, period=PERIOD)
+    return make_steady_state_filter(MODEL, noise=NOISE, process_noise=process_noise, period=PERIOD)
 
 
 def by_riccati(process_noise, voltage_error, *, before=3000):

@@ -11,7 +11,7 @@ from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.inspect.detect_faults import inspect
 from sim.inspect.faults import FAULTS
-from sim.inspect.launch import find_launch_event, step_start
+from sim.inspect.launch import find_launch_event, find_step_start
 from sim.inspect.log_features import LogFeatures
 
 TIME = np.arange(0.0, 2.5, 0.005)
@@ -87,7 +87,7 @@ def test_a_step_begins_where_its_voltage_stays():
     volts = np.where(TIME < 1.0, 0.0, 6.0)
     volts[0] = 6.0  # what the test before left behind
 
-    assert TIME[step_start(run_of(PLAIN, volts=volts))] == pytest.approx(1.0)
+    assert TIME[find_step_start(run_of(PLAIN, volts=volts))] == pytest.approx(1.0)
 
 
 def test_wheels_slip_on_a_floor_and_nowhere_else():

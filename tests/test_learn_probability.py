@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from sim.reconcile.probability import FEATURES, Evidence, probability_of
+from sim.reconcile.probability import FEATURES, Evidence, compute_probability
 
 BENCHMARKS = Path(__file__).resolve().parent / "benchmarks"
 ROWS = 4000
@@ -49,7 +49,7 @@ def test_what_is_predicted_is_what_the_product_says(learning):
 
     told = learning.predict(rows, stored)
 
-    assert told == pytest.approx([probability_of(Evidence(*row)) for row, _ in rows])
+    assert told == pytest.approx([compute_probability(Evidence(*row)) for row, _ in rows])
 
 
 def test_a_maker_whose_findings_are_more_often_wrong_is_seen(learning):

@@ -101,6 +101,6 @@ def test_the_python_runs_on_a_robot_and_its_log_gives_the_gains(tmp_path, root):
     assert log.units == "meters"
     found = fit(log, type="simple", method="sysid").gains
     assert found == pytest.approx(GAINS, rel=0.1)
-    slow = log.runs_of_test("quasistatic-forward")[0]
+    slow = log.list_runs_of_test("quasistatic-forward")[0]
     assert 5.9 < slow.time[-1] - slow.time[0] < 6.0  # let go after 6 s, well before the timeout
     assert slow.voltage[-1] == pytest.approx(6.0, abs=0.1)  # at 1 V/s

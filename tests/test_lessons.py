@@ -2,10 +2,12 @@
 
 import ast
 import importlib.util
+import math
 import os
 import re
 import subprocess
 import sys
+from dataclasses import astuple, dataclass
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -22,6 +24,12 @@ from sim.teaching.r2_cases import GOOD, make_cases
 
 ROOT = Path(__file__).resolve().parents[1]
 TEXTS = sorted((ROOT / "lessons").glob("*.py"))
+LONGEST = 45  # [minutes] of a lesson, for one student alone
+ASSUMED = (  # INSTRUCTORS.md's sentence about how the minutes are calculated
+    r"We assume (\d+) words a minute, (\d+) seconds for a question, (\d+) seconds for a picture "
+    r"that moves or has sliders, and (\d+) seconds for any other picture or table"
+)
+PICTURE = '<figure><img alt="a picture"></figure><table></table>'  # with the table of its numbers
 SCREENFUL = 40  # [lines] of a function; what is longer belongs into sim
 DERIVE = "run  python .ci/derive_notebooks.py  and commit the notebook with its text"
 
@@ -31,16 +39,22 @@ pytestmark = pytest.mark.filterwarnings("ignore:Proactor event loop:RuntimeWarni
 each_lesson = pytest.mark.parametrize("text", TEXTS, ids=lambda path: path.stem)
 
 
+# Summaries of the folded texts that answer a question, which the learner opens after thinking.
+ANSWERS = ("Answer", "Solution", "The defect", "The five defects, and some more")
+
+
 class Page(HTMLParser):
-    """The pictures and the open-and-close of details in a piece of HTML."""
+    """The pictures, the tables and the open-and-close of details in a piece of HTML."""
 
     def __init__(self, html):
         super().__init__()
         self.pictures, self.animations, self.open, self.summaries = [], [], 0, 0
+        self.tables = 0
         self.feed(html)
 
     def handle_starttag(self, tag, attrs):
-        """Note a picture, and what opens."""
+        """Note a picture or a table, and what opens."""
+        self.tables += tag == "table"
         if tag == "img":
             self.pictures.append(dict(attrs))
         if tag == "figure" and "data-motion" in dict(attrs):
@@ -235,6 +249,108 @@ def test_the_practice_of_a_lesson_links_to_its_exercises_and_names_grade_watch(t
     assert "`grade watch exercise" in practice
 
 
+@dataclass(frozen=True)
+class Load:
+    """What a lesson asks of its reader."""
+
+    words: int  # of Markdown in sight
+    questions: int  # predictions, quick checks, and tasks whose answer is folded
+    moving: int  # pictures that move or have sliders
+    still: int  # other pictures, each with the table of its numbers, and other tables
+
+
+def measure_load(notebook):
+    """What is in sight on the page of an executed notebook."""
+    load = Load(0, 0, 0, 0)
+    for cell in notebook.cells[1:]:  # the first only installs the course
+        one = _text_load(cell) if cell.cell_type == "markdown" else _code_load(cell)
+        load = Load(*(a + b for a, b in zip(astuple(load), astuple(one), strict=True)))
+    return load
+
+
+def _text_load(cell):
+    """What a cell of text asks; its code, formulas, addresses and folded texts do not count."""
+    text = re.sub(r"<details>.*?</details>|```.*?```", " ", cell.source, flags=re.DOTALL)
+    prose = re.sub(r"\$[^$]*\$|<[^>]+>|\]\([^)]*\)|`", " ", text)
+    opened = re.findall(r"<summary>(.*?)</summary>", cell.source)
+    return Load(
+        words=len(re.findall(r"[A-Za-z][A-Za-z'’-]*", prose)),
+        questions=sum(summary in ANSWERS for summary in opened),
+        moving=0,
+        still=len(re.findall(r"^\|[-| :]+\|$|!\[", text, re.MULTILINE)),
+    )
+
+
+def _code_load(cell):
+    """What the questions, pictures and tables of a cell of code ask; a folded output is skipped."""
+    if cell.metadata.get("jupyter", {}).get("outputs_hidden"):
+        return Load(0, 0, 0, 0)
+    html = [output["data"].get("text/html", "") for output in cell.outputs if "data" in output]
+    pages = [Page(one) for one in html]
+    sliders = len(re.findall(r"^show_interactive\(", cell.source, re.MULTILINE))
+    return Load(
+        words=0,
+        questions=len(re.findall(r"\b(?:Prediction|Quick(?:Number)?Check)\(", cell.source)),
+        moving=sliders + sum(len(page.animations) for page in pages),
+        still=sum(len(page.pictures) or page.tables for page in pages),
+    )
+
+
+def minutes(load):
+    """The minutes of a lesson by the numbers that INSTRUCTORS.md assumes."""
+    text = " ".join((ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8").split())
+    words, question, moving, still = (float(number) for number in re.search(ASSUMED, text).groups())
+    seconds = load.questions * question + load.moving * moving + load.still * still
+    return load.words / words + seconds / 60
+
+
+def stated_minutes(text):
+    """The minutes in the head of a lesson."""
+    return int(re.search(r"^# \*About (\d+) minutes\.", text.read_text("utf-8"), re.MULTILINE)[1])
+
+
+@each_lesson
+def test_a_lesson_takes_as_long_as_its_head_says_and_at_most_45_minutes(text, run):
+    """The minutes in the head are those that INSTRUCTORS.md calculates, rounded to 5.
+
+    A question makes the learner think and then click: a prediction, a quick check, or a task whose
+    answer is folded (an answer of the knowledge check, a solution, a list of defects). Code is not
+    counted, neither read nor written, and of folded texts only that they are answers.
+    """
+    load = measure_load(run(text))
+    calculated = minutes(load)
+
+    assert calculated <= LONGEST, f"{calculated:.1f} minutes: {load}"
+    assert stated_minutes(text) == 5 * round(calculated / 5), f"{calculated:.1f} minutes: {load}"
+
+
+def test_the_plan_for_a_class_adds_half_to_the_minutes_of_the_lessons():
+    text = " ".join((ROOT / "INSTRUCTORS.md").read_text(encoding="utf-8").split())
+    low, high = re.search(r"plan 50 % more time: (\d+) to (\d+) minutes", text).groups()
+    in_class = [1.5 * stated_minutes(lesson) for lesson in TEXTS]
+
+    assert int(low) == 5 * math.floor(min(in_class) / 5)
+    assert int(high) == 5 * math.ceil(max(in_class) / 5)
+
+
+def test_what_is_folded_or_repeated_takes_no_time():
+    folded = "<details><summary>Answer</summary>\n\nlong words\n\n| a |\n|---|\n</details>"
+    code = {"jupyter": {"outputs_hidden": True}}
+    cells = [
+        nbformat.v4.new_code_cell("install"),
+        nbformat.v4.new_markdown_cell(f"# Two words\n\n{folded}\n\n| a | b |\n|---|---|\n"),
+        nbformat.v4.new_markdown_cell("```\ncode\n```\n[link](https://address.org) $x + y$"),
+        nbformat.v4.new_code_cell("guess = Prediction(\n", outputs=[_html_output(PICTURE)]),
+        nbformat.v4.new_code_cell("look(1)", outputs=[_html_output(PICTURE)], metadata=code),
+        nbformat.v4.new_code_cell("show_interactive(look)", outputs=[_html_output("<table>")]),
+    ]
+
+    load = measure_load(nbformat.v4.new_notebook(cells=cells))
+
+    assert load == Load(words=2 + 2 + 1, questions=2, moving=1, still=1 + 1 + 1)
+    assert minutes(load) == pytest.approx(5 / 130 + 2 * 0.75 + 1.5 + 3)
+
+
 def test_lesson_6_does_not_name_the_damage_of_a_log_before_one_decided():
     source = (ROOT / "lessons" / "06_read_the_data.py").read_text(encoding="utf-8")
     cell = source.partition("# **Decide first:**")[2].partition("# %%\n")[2].partition("# %%")[0]
@@ -326,6 +442,11 @@ def test_lesson_7_reads_the_log_that_exercise_9_made(tmp_path, root):
 
     assert "ada" in said
     assert "in rotations" in said
+
+
+def _html_output(html):
+    """An output of a cell that shows HTML."""
+    return nbformat.v4.new_output("display_data", data={"text/html": html})
 
 
 def _plain(text):

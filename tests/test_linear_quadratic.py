@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm, fractional_matrix_power, solve_discrete_are
 
-from sim.feedback.linear_quadratic import two_state_regulator
+from sim.feedback.linear_quadratic import design_two_state_regulator
 
 VOLTS, POSITION = 7.0, 0.1
 
@@ -30,7 +30,7 @@ def test_gains_are_those_of_scipy(kv, ka, period, delay):
     q = (POSITION**-2, (0.25 * 12.0 / kv if kv else 1.5) ** -2)
     asked = {"period": period, "q": q, "r": VOLTS**-2, "loops": delay / period}
 
-    found = two_state_regulator(-kv / ka, 1.0 / ka, **asked)
+    found = design_two_state_regulator(-kv / ka, 1.0 / ka, **asked)
 
     expected = by_scipy(-kv / ka, 1.0 / ka, **asked)
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
@@ -41,7 +41,9 @@ def test_two_equal_eigenvalues_have_a_power_too():
     for share in np.linspace(0.01, 5.0, 60):
         asked = {"period": 0.02, "q": (share, 0.1), "r": 0.02, "loops": 1.7}
         expected = by_scipy(-1.0, 1.0, **asked)
-        np.testing.assert_allclose(two_state_regulator(-1.0, 1.0, **asked), expected, rtol=1e-8)
+        np.testing.assert_allclose(
+            design_two_state_regulator(-1.0, 1.0, **asked), expected, rtol=1e-8
+        )
 
 
 def test_a_fit_in_json_imports_no_scipy(tmp_path):

@@ -68,8 +68,8 @@ def test_a_test_nobody_knows_is_refused_with_those_that_exist(reads):
 def test_a_log_finds_its_runs_by_test():
     log = Log((run(), run(test="dynamic-reverse"), run()), units="Rotations")
 
-    assert len(log.runs_of_test("dynamic-forward")) == 2
-    assert log.runs_of_test("coast-forward") == ()
+    assert len(log.list_runs_of_test("dynamic-forward")) == 2
+    assert log.list_runs_of_test("coast-forward") == ()
     assert log.units == "rotations"
 
 

@@ -7,7 +7,12 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
-from sim.estimation.measurements import THIRD, estimate_noise, measure_runs, third_differences
+from sim.estimation.measurements import (
+    THIRD,
+    compute_third_differences,
+    estimate_noise,
+    measure_runs,
+)
 
 NOISE = 1e-3  # [m]
 
@@ -33,13 +38,13 @@ def moving(time, *, seed=2):
 def test_with_even_times_they_are_the_ordinary_third_differences():
     values = np.random.default_rng(0).standard_normal(50)
 
-    assert third_differences(even(50), values) == pytest.approx(np.diff(values, 3))
+    assert compute_third_differences(even(50), values) == pytest.approx(np.diff(values, 3))
 
 
 def test_nothing_is_left_of_a_parabola_however_uneven_its_times():
     time = uneven()
 
-    left = third_differences(time, 3.0 - 2.0 * time + 5.0 * time**2)
+    left = compute_third_differences(time, 3.0 - 2.0 * time + 5.0 * time**2)
 
     assert np.abs(left).max() < 1e-10
 
@@ -47,7 +52,7 @@ def test_nothing_is_left_of_a_parabola_however_uneven_its_times():
 def test_of_independent_noise_as_much_is_left_with_uneven_times():
     values = np.random.default_rng(3).standard_normal(20_000)
 
-    left = third_differences(uneven(20_000), values)
+    left = compute_third_differences(uneven(20_000), values)
 
     assert np.mean(left**2) == pytest.approx(THIRD, rel=0.05)
 

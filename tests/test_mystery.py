@@ -12,7 +12,7 @@ from grader.mystery import (
     MysteryState,
     draw_mystery,
     find_mystery_folder,
-    grade_mystery,
+    grade_mystery_answer,
     load_state,
 )
 from grader.variant import use_class_secret
@@ -38,7 +38,7 @@ def drawn(number, seed, level=1):
 
 
 def grade_answer(mystery, answer):
-    return grade_mystery(mystery, answer, student="ann")
+    return grade_mystery_answer(mystery, answer, student="ann")
 
 
 @pytest.mark.parametrize("number", [FAULTS, EFFECTS])

@@ -231,7 +231,7 @@ def test_a_mistake_of_ours_is_told_and_does_not_end_it(tmp_path, drive, monkeypa
     ],
 )
 def test_a_dropped_name_becomes_a_file_in_the_sessions_folder(tmp_path, given, name):
-    plain, path = Session(tmp_path).place_for(given)
+    plain, path = Session(tmp_path).choose_place(given)
 
     assert (plain, path.name) == (name, name)
     assert path.parent.parent == tmp_path

@@ -114,14 +114,12 @@ def test_a_link_is_never_followed(course, tmp_path):
     ["exercise9/answers.toml", "exercise9/fit.py", "exercise4/ExampleSubsystem.java",
      "exercise12/try_it.py"],
 )  # fmt: skip
-def test_a_solved_starter_is_refused_by_name(course, capsys, name):
+def test_a_solved_starter_is_refused_by_name(course, capsys, name, reads):
     path = course / "exercises" / name
     path.write_bytes(path.read_bytes() + b"\n# my answer")
 
     assert run_command(["release", "-o", "../out"]) == 2
-    said = capsys.readouterr().err
-    assert f"exercises/{name} is a starter that was changed" in said
-    assert f"git checkout -- exercises/{name}" in said
+    reads(capsys.readouterr().err)
     assert not (course.parent / "out").exists()
 
 
@@ -160,14 +158,14 @@ def test_a_notebook_that_was_run_is_packed_as_it_was_derived(course):
     assert select_package_files(course).files["lessons/01_motor_model.ipynb"] == derived
 
 
-def test_a_notebook_with_edited_cells_is_refused(course, capsys):
+def test_a_notebook_with_edited_cells_is_refused(course, capsys, reads):
     path = course / "lessons" / "01_motor_model.ipynb"
     notebook = json.loads(path.read_bytes())
     notebook["cells"][0]["source"] = ["my notes about ann"]
     path.write_text(json.dumps(notebook), encoding="utf-8")
 
     assert run_command(["release", "-o", "../out"]) == 2
-    assert "lessons/01_motor_model.ipynb: the notebook was edited" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
     with pytest.raises(BadRequest, match="edited"):
         strip_notebook(b"[]", name="x.ipynb")
 
@@ -199,7 +197,7 @@ def test_a_secret_that_a_link_leads_to_is_refused_in_both_directions(course, cap
         assert "the secret is in the course folder" in capsys.readouterr().err
 
 
-def test_a_file_that_holds_the_secret_is_refused(course, capsys):
+def test_a_file_that_holds_the_secret_is_refused(course, capsys, reads):
     (course.parent / "r.csv").write_text("student\nann\n", encoding="utf-8")
     (course.parent / "class.secret").write_bytes(SECRET + b"\n")
     readme = course / "README.md"
@@ -207,7 +205,7 @@ def test_a_file_that_holds_the_secret_is_refused(course, capsys):
     command = ["release", "-o", "../out", "--roster", "../r.csv", "--secret", "../class.secret"]
 
     assert run_command(command) == 2
-    assert "README.md: this file holds the class's secret" in capsys.readouterr().err
+    reads(capsys.readouterr().err)
 
 
 def test_modules_are_found_through_one_another(tmp_path):

@@ -12,7 +12,7 @@ from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.fit import fit
-from sim.fit.physics import Parts, compare_directions, compare_sides, physical_doubts
+from sim.fit.physics import Parts, check_plausibility, compare_directions, compare_sides
 from sim.physics.motors import MOTORS, find_motor
 
 GENTLE = Routine(ramp=0.5, step=3.5)
@@ -82,7 +82,7 @@ def test_quiet_about_a_clean_log_and_true_parts(kind, method):
     mechanism = MECHANISMS[kind]
     found = fit(recorded(mechanism), method=method)
 
-    said = codes(physical_doubts(found, parts=true_parts(mechanism)))
+    said = codes(check_plausibility(found, parts=true_parts(mechanism)))
 
     # the recipe does not simulate between samples, and 29 ms are less than two of 20 ms
     fast = ["fast-mechanism"] * ((kind, method) == ("intake", "sysid"))
@@ -101,7 +101,7 @@ def test_quiet_about_others_like_it_unless_they_rub_or_are_fast(kind, seed):
     }
     log = recorded(mechanism, seed)
 
-    said = physical_doubts(fit(log), parts=true_parts(mechanism))
+    said = check_plausibility(fit(log), parts=true_parts(mechanism))
 
     expected = {code for code, holds in truly.items() if holds} | set(gravity_advice(mechanism))
     assert set(codes(said)) == expected
@@ -126,7 +126,7 @@ def test_quiet_about_others_like_it_unless_they_rub_or_are_fast(kind, seed):
     ],
 )
 def test_a_wrong_unit_in_the_log_is_named(kind, factor, reads):
-    said = physical_doubts(read_as(kind, factor), parts=true_parts(MECHANISMS[kind]))
+    said = check_plausibility(read_as(kind, factor), parts=true_parts(MECHANISMS[kind]))
 
     code = "kv-below-theory" if factor > 1.0 else "kv-above-theory"
     reads(about(said, code))
@@ -158,13 +158,13 @@ def test_a_wrong_unit_in_the_log_is_named(kind, factor, reads):
 def test_wrong_parts_are_caught_and_what_would_fit_is_said(kind, wrong, code, named):
     parts = replace(true_parts(MECHANISMS[kind]), **wrong)
 
-    assert named in about(physical_doubts(found_in(kind), parts=parts), code)
+    assert named in about(check_plausibility(found_in(kind), parts=parts), code)
 
 
 def test_the_number_of_motors_does_not_change_kv():
     parts = replace(true_parts(MECHANISMS["drivetrain"]), count=2, load=None)
 
-    assert physical_doubts(found_in("drivetrain"), parts=parts) == ()
+    assert check_plausibility(found_in("drivetrain"), parts=parts) == ()
 
 
 def test_a_model_that_does_not_hold_comes_before_the_parts():
@@ -174,8 +174,8 @@ def test_a_model_that_does_not_hold_comes_before_the_parts():
     sure = replace(found, errors={gain: 0.01 * abs(value) for gain, value in found.gains.items()})
 
     # the errors of such a fit are so wide that nothing surely contradicts the parts
-    assert physical_doubts(found, parts=true_parts(mechanism)) == ()
-    said = physical_doubts(sure, parts=true_parts(mechanism))
+    assert check_plausibility(found, parts=true_parts(mechanism)) == ()
+    said = check_plausibility(sure, parts=true_parts(mechanism))
     assert about(said, "kv-below-theory").endswith("find it first.")
 
 
@@ -184,7 +184,7 @@ def test_an_ideal_motor_with_a_little_drag_is_within_theory(name):
     parts = Parts(find_motor(name), 1, 10.0)
     for drag in (0.0, 0.08):
         kv = find_motor(name).back_emf * 10.0 * (1.0 + drag)
-        assert physical_doubts(found_in("turret", kV=kv), parts=parts) == ()
+        assert check_plausibility(found_in("turret", kV=kv), parts=parts) == ()
 
 
 @pytest.mark.parametrize(
@@ -193,7 +193,7 @@ def test_an_ideal_motor_with_a_little_drag_is_within_theory(name):
 )
 def test_drag_is_told_by_its_size(drag, code):
     mechanism = replace(MECHANISMS["drivetrain"], drag=drag)
-    said = physical_doubts(fit(recorded(mechanism)), parts=true_parts(mechanism))
+    said = check_plausibility(fit(recorded(mechanism)), parts=true_parts(mechanism))
 
     assert codes(said) == ([code] if code else [])
     assert not any(doubt.grave for doubt in said)
@@ -204,8 +204,8 @@ def test_a_difference_within_the_errors_is_no_doubt():
     low = replace(found, gains={name: 0.9 * value for name, value in found.gains.items()})
     loose = replace(low, errors={name: 0.05 * value for name, value in low.gains.items()})
 
-    assert codes(physical_doubts(low, parts=parts)) == ["kv-below-theory", "ka-below-theory"]
-    assert physical_doubts(loose, parts=parts, period=0.005) == ()
+    assert codes(check_plausibility(low, parts=parts)) == ["kv-below-theory", "ka-below-theory"]
+    assert check_plausibility(loose, parts=parts, period=0.005) == ()
 
 
 @pytest.mark.parametrize(
@@ -222,7 +222,7 @@ def test_a_difference_within_the_errors_is_no_doubt():
 def test_weight_over_inertia_of_an_elevator_is_at_most_g_and_of_a_cascade_2_g(share, code):
     truth = MECHANISMS["elevator"].gains["kA"]
 
-    said = physical_doubts(found_in("elevator", kA=truth * share))
+    said = check_plausibility(found_in("elevator", kA=truth * share))
 
     assert codes(said) == ([code] if code else [])
     assert [doubt.grave for doubt in said] == ([share < 0.5] if code else [])
@@ -233,7 +233,7 @@ def test_weight_over_inertia_of_an_elevator_is_at_most_g_and_of_a_cascade_2_g(sh
 def test_an_elevator_on_a_spring_is_told_by_its_weight():
     mechanism = replace(MECHANISMS["elevator"], lift=0.7 * 9.81)
 
-    assert codes(physical_doubts(fit(recorded(mechanism)))) == ["gravity-below-g"]
+    assert codes(check_plausibility(fit(recorded(mechanism)))) == ["gravity-below-g"]
 
 
 @pytest.mark.parametrize(
@@ -247,7 +247,7 @@ def test_an_elevator_on_a_spring_is_told_by_its_weight():
     ],
 )
 def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
-    said = physical_doubts(found_in(kind, kS=ks))
+    said = check_plausibility(found_in(kind, kS=ks))
 
     assert codes(said) == ([code] if code else [])
     assert [doubt.grave for doubt in said] == ([code == "friction-stop"] if code else [])
@@ -256,7 +256,7 @@ def test_friction_has_a_band_to_watch_and_a_red_flag(kind, ks, code):
 def test_an_elevator_fitted_as_simple_waves_the_red_flag(reads):
     found = found_in("drivetrain", kS=10.5, kV=-0.2)  # as SysId's recipe reads such an elevator
 
-    reads(about(physical_doubts(found), "friction-stop"))
+    reads(about(check_plausibility(found), "friction-stop"))
 
 
 @pytest.mark.parametrize(
@@ -271,7 +271,7 @@ def test_an_elevator_fitted_as_simple_waves_the_red_flag(reads):
 )
 def test_a_timescale_shorter_than_the_sampling_is_told(method, period, doubted):
     found = replace(found_in("intake"), method=method)
-    said = physical_doubts(found, period=period)
+    said = check_plausibility(found, period=period)
 
     assert codes(said) == ["fast-mechanism"] * doubted
     assert all("kA/kV = 29 ms" in doubt.message for doubt in said)
@@ -330,10 +330,10 @@ def test_a_side_that_runs_backward_or_is_in_feet_is_compared_by_size():
 def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
     found, parts = found_in("turret"), replace(true_parts(MECHANISMS["turret"]), ratio=60.0)
 
-    said = physical_doubts(found, parts=parts)
+    said = check_plausibility(found, parts=parts)
 
     assert "V·s/deg" in about(said, "kv-below-theory")
-    assert physical_doubts(found.in_log_units(), parts=parts) == said
+    assert check_plausibility(found.in_log_units(), parts=parts) == said
 
 
 @pytest.mark.parametrize(
@@ -341,9 +341,11 @@ def test_units_shown_are_the_owners_and_the_unit_of_the_fit_does_not_matter():
     [
         lambda: Parts(find_motor("neo"), 0, 5.0),
         lambda: Parts(find_motor("neo"), 1, math.nan),
-        lambda: physical_doubts(found_in("turret"), parts=Parts(find_motor("neo"), 1, 5.0, 0.05)),
-        lambda: physical_doubts(found_in("drivetrain"), parts=Parts(find_motor("neo"), 1, 5.0)),
-        lambda: physical_doubts(found_in("turret"), period=0.0),
+        lambda: check_plausibility(
+            found_in("turret"), parts=Parts(find_motor("neo"), 1, 5.0, 0.05)
+        ),
+        lambda: check_plausibility(found_in("drivetrain"), parts=Parts(find_motor("neo"), 1, 5.0)),
+        lambda: check_plausibility(found_in("turret"), period=0.0),
         lambda: compare_sides(found_in("turret"), found_in("drivetrain")),
     ],
 )

@@ -26,7 +26,6 @@ from sim.plot import (
     plot_misses,
     plot_time_series,
     plot_timesteps,
-    plot_velocity_time,
     plot_voltage_velocity,
     show_interactive,
 )
@@ -55,11 +54,7 @@ PICTURES = {
         DRIVE, damages=[LogInterval(0, DRIVE.runs[0].test, 2.0, 2.5)]
     ),
     "timesteps": lambda: plot_timesteps(DRIVE),
-    "velocity over time": lambda: plot_velocity_time(SHOOTER, median=3, beside=SHOOTER),
     "acceleration against velocity": lambda: plot_acceleration_velocity(DRIVE),
-    "acceleration with a fit": lambda: plot_acceleration_velocity(
-        SHOOTER, gains=sim.MECHANISMS["shooter"].gains
-    ),
     "choices": lambda: plot_choices({"a": 1.0, "b": 3.0}, truth=2.0, name="kA", unit="V·s²/m"),
     "choices with spreads": lambda: plot_choices(
         {"a": 1.0}, truth=2.0, name="kA", spreads={"a": 0.1}
@@ -123,7 +118,7 @@ def test_color_never_speaks_alone():
 
 def test_the_table_of_a_log_says_what_the_log_says():
     table = plot_time_series(DRIVE).table
-    run = DRIVE.runs_of_test("dynamic-reverse")[0]
+    run = DRIVE.list_runs_of_test("dynamic-reverse")[0]
     (row,) = (row for row in table.rows if row[0] == "dynamic-reverse")
     assert row[1] == len(run) == 381
     assert row[3:5] == (-3.5, -3.5)
@@ -135,7 +130,7 @@ def test_velocities_are_in_the_unit_of_the_log():
     fastest = table.rows[0][-1]
     assert table.header[-1] == "fastest [rot/s]"
     assert fastest == pytest.approx(
-        SHOOTER.runs_of_test("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
+        SHOOTER.list_runs_of_test("quasistatic-forward")[0].velocity.max() / (2 * np.pi)
     )
 
 

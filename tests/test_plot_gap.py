@@ -70,7 +70,7 @@ def test_nothing_is_seen_where_nothing_is_missing():
 def test_missing_volts_are_the_volts_of_the_friction_that_is_hidden():
     log = hiding("asymmetric-friction", noise=False)
     (lean,) = DRIVETRAIN.hide("asymmetric-friction").hidden[0].parameters.values()
-    ramp = log.runs_of_test("quasistatic-forward")[0]
+    ramp = log.list_runs_of_test("quasistatic-forward")[0]
     lacks = compute_missing_volts(log, simulated(log), TRUTH.gains)[log.runs.index(ramp)]
     fast = np.flatnonzero(ramp.velocity > 0.3)[:-1]
     assert np.median(lacks[fast]) == pytest.approx(-lean, rel=0.05)

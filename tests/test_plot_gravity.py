@@ -30,15 +30,17 @@ def some(way):
 
 
 def about(part):
-    return compute_information(part, type="elevator", noise=0.05).information_on_pair("kS", "kG")
+    return compute_information(part, type="elevator", noise=0.05).compute_pair_information(
+        "kS", "kG"
+    )
 
 
 PICTURES = {
     "window": lambda: plot_hold_window(
-        VOLTS, SPEEDS, window=(1.76, 2.26), marks={"recipe": 1.77}, here=(2.5, 0.05)
+        VOLTS, SPEEDS, window=(1.76, 2.26), marks={"recipe": 1.77}
     ),
     "window without marks": lambda: plot_hold_window(VOLTS, SPEEDS, window=(1.76, 2.26), marks={}),
-    "angles": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25, here=60.0),
+    "angles": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25),
     "angles of an encoder askew": lambda: plot_hold_angles(HOLDS, kg=1.51, ks=0.25, offset=35.0),
     "ellipses": lambda: plot_ellipses(
         {"up": about(some("forward")), "both": about(rows())},

@@ -16,7 +16,6 @@ from sim.plot import (
     Line,
     plot_time_series,
     plot_timesteps,
-    plot_velocity_time,
     plot_voltage_velocity,
 )
 from sim.plot.picture import COLORS
@@ -179,12 +178,6 @@ def test_tests_that_are_no_ramps_are_left_out_and_repeated_ones_counted(reads):
     assert [text.get_text() for text in legend.get_texts()] == ["forward", "reverse"]
 
 
-@pytest.mark.parametrize("zoom", [0.0, -1.0, float("nan")])
-def test_a_zoom_that_shows_nothing_is_refused(zoom):
-    with pytest.raises(BadRequest, match="Choose one above 0"):
-        plot_voltage_velocity(FOUR, zoom=zoom)
-
-
 @pytest.mark.parametrize(
     "draw", [plot_time_series, plot_voltage_velocity, plot_timesteps], ids=lambda d: d.__name__
 )
@@ -223,7 +216,7 @@ def huge():
 
 @pytest.mark.parametrize(
     "draw",
-    [plot_time_series, plot_voltage_velocity, plot_timesteps, plot_velocity_time],
+    [plot_time_series, plot_voltage_velocity, plot_timesteps],
     ids=lambda d: d.__name__,
 )
 def test_a_huge_log_makes_a_small_picture_that_counts_every_sample(draw, huge):

@@ -17,7 +17,6 @@ TIME = np.linspace(0.0, 2.0, 41)
 BANDS = {"fine": 0.5, "watch": 5.0, "stop": 6.0}
 PICTURES = {
     "chase": lambda: plot_tracking_error(TIME, TIME, {"a": TIME + 0.1, "b": TIME}, title="A race"),
-    "moved": lambda: plot_tracking_error(TIME, TIME, {"a": TIME}, unit="cm", quantity="position"),
     "change": lambda: plot_relative_change({"kS": 0.829, "kV": 1.206, "kA": 1.001}),
     "gauge": lambda: plot_gauge({"left": 0.2, "right": 0.9}, BANDS, label="kS [V]", good="fine"),
 }
@@ -73,15 +72,6 @@ def test_two_marks_of_the_same_number_are_both_seen():
 def test_a_mark_outside_the_bands_does_not_stand_on_the_edge(value, ends):
     (axes,) = plot_gauge({"x": value}, BANDS, label="kS [V]", good="fine").figure.axes
     assert axes.get_xlim() == pytest.approx(ends)
-
-
-def test_a_position_that_is_followed_is_called_one():
-    picture = PICTURES["moved"]()
-
-    assert picture.alt.startswith("A target position over time")
-    assert "velocity" not in picture.alt
-    with pytest.raises(BadRequest, match="every position"):
-        plot_tracking_error(TIME, TIME, {}, quantity="position")
 
 
 def test_a_change_says_what_grew_and_what_shrank():

@@ -9,7 +9,7 @@ import pytest
 
 from grader import robotcode
 from grader.exercise import Exercise, find_exercise
-from grader.mistake import scale_numbers, set_answer
+from grader.mistake import make_wrong_answer, scale_numbers
 from grader.variant import make_folder_name
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
@@ -49,7 +49,7 @@ def grade_answer(folder, texts, *, student="ann", **answers):
     for name, text in texts.items():
         if name == "answers.toml":
             for key, value in answers.items():
-                text = set_answer(key, value)(text)  # noqa: PLW2901 - each answer in its turn
+                text = make_wrong_answer(key, value)(text)  # noqa: PLW2901 - each answer in its turn
         (folder / name).write_text(text, encoding="utf-8")
     found = OWN.grade(folder / "answers.toml", student=student)
     return {check.id: check for check in found.checks}

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from sim.bench.mechanisms import MECHANISMS
 from sim.core.errors import BadRequest
-from sim.core.units import gains_per
+from sim.core.units import convert_gains
 from sim.teaching.profile_loop import (
     LOOP,
     ONBOARD,
@@ -19,9 +19,9 @@ from sim.teaching.profile_loop import (
     PIDController,
     TrapezoidProfile,
     check_loop,
-    feedforward_and_feedback,
+    compute_loop_voltage,
+    compute_phoenix_voltage,
     follow_in_closed_loop,
-    phoenix_volts,
 )
 
 LIFT = MECHANISMS["elevator"]
@@ -35,7 +35,7 @@ def error(gains, *, robot=LIFT, kp=0.0, profile=RISE):
     """[cm] the worst error of a move with these gains."""
     ff = ElevatorFeedforward(*(gains[name] for name in ("kS", "kG", "kV", "kA")))
     pid = PIDController(kp)
-    move = follow_in_closed_loop(robot, profile, lambda one: feedforward_and_feedback(ff, pid, one))
+    move = follow_in_closed_loop(robot, profile, lambda one: compute_loop_voltage(ff, pid, one))
     return 100.0 * move.worst_error
 
 
@@ -43,7 +43,9 @@ def test_true_gains_and_nothing_hidden_leave_no_error():
     onboard = follow_in_closed_loop(
         SMOOTH,
         RISE,
-        lambda one: phoenix_volts({**SMOOTH.gains, "kP": 0.0}, one, meters_per_rotation=1.0),
+        lambda one: compute_phoenix_voltage(
+            {**SMOOTH.gains, "kP": 0.0}, one, meters_per_rotation=1.0
+        ),
         period=ONBOARD,
     )
 
@@ -74,7 +76,7 @@ def test_a_missing_kg_leaves_the_droop_that_the_arithmetic_says():
     ff = ElevatorFeedforward(*(wrong[name] for name in ("kS", "kG", "kV", "kA")))
     slow = TrapezoidProfile(start=0.1, goal=0.3, max_velocity=0.1, max_acceleration=1.0)
     pid = PIDController(kp)
-    move = follow_in_closed_loop(SMOOTH, slow, lambda one: feedforward_and_feedback(ff, pid, one))
+    move = follow_in_closed_loop(SMOOTH, slow, lambda one: compute_loop_voltage(ff, pid, one))
 
     assert move.error[-1] == pytest.approx(0.4 / kp, rel=0.03)  # missing kG ÷ kP
 
@@ -88,7 +90,7 @@ def test_a_hidden_spring_is_in_the_error_until_its_volts_are_added():
         robot,
         RISE,
         lambda one: (
-            feedforward_and_feedback(ff, pid, one)
+            compute_loop_voltage(ff, pid, one)
             + spring["rate"] * one.now.position
             + spring["preload"]
         ),
@@ -102,9 +104,9 @@ def test_gains_per_rotor_rotation_leave_nearly_the_whole_way():
     drum = 2.0 * math.pi * LIFT.radius
 
     def worst(meters):
-        gains = gains_per(LIFT.gains, factor=meters) | {"kP": 5.0 * meters}
+        gains = convert_gains(LIFT.gains, factor=meters) | {"kP": 5.0 * meters}
         move = follow_in_closed_loop(
-            LIFT, RISE, lambda one: phoenix_volts(gains, one, meters_per_rotation=drum),
+            LIFT, RISE, lambda one: compute_phoenix_voltage(gains, one, meters_per_rotation=drum),
             period=ONBOARD,
         )  # fmt: skip
         return move.worst_error
@@ -164,7 +166,7 @@ def test_the_feedback_is_wpilibs():
 @pytest.mark.parametrize(
     ("mine", "says"),
     [
-        (feedforward_and_feedback, RIGHT),
+        (compute_loop_voltage, RIGHT),
         (lambda *_: ..., "still empty"),
         (lambda *_: None, "still empty"),
         (lambda *_: nothing, "stops with an error: name 'nothing'"),  # noqa: F821 - meant
@@ -227,7 +229,7 @@ def test_a_learners_loop_is_checked_and_ours_used_until_it_is_right(mine, says):
     found = check_loop(mine)
 
     assert says in found.report
-    assert found.volts is (mine if says == RIGHT else feedforward_and_feedback)
+    assert found.loop is (mine if says == RIGHT else compute_loop_voltage)
 
 
 @pytest.mark.parametrize("volts", [lambda _: math.nan, lambda _: ..., lambda _: "12"])

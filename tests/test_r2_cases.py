@@ -72,7 +72,7 @@ def measured(five):
     """As a row of the table."""
     rows = [
         (
-            *(100.0 * case.gain_error(gain) for gain in GAINS),
+            *(100.0 * case.compute_gain_error(gain) for gain in GAINS),
             case.fit.acceleration_r2,
             case.fit.simulated_velocity_r2,
         )

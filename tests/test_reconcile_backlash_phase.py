@@ -11,14 +11,14 @@ from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
 from sim.reconcile.backlash_phase import (
     ASIDE,
     BETWEEN,
-    backlash_phase_prior,
+    compute_backlash_phase_prior,
     estimate_backlash_phase,
 )
 from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
@@ -71,7 +71,7 @@ def begun_at(places, *, step, seed):
 
 @pytest.fixture(scope="module")
 def problem():
-    return PredictionErrorProblem.from_records(run_records(session(0, step=4.0, seed=1)))
+    return PredictionErrorProblem.from_records(make_run_records(session(0, step=4.0, seed=1)))
 
 
 def at(problem, structure=PLAYS, nuisance=None):
@@ -85,7 +85,7 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
 
     seen = estimate_backlash_phase(problem, blind)
 
-    assert seen.cost + backlash_phase_prior(seen) < blind.cost - 100.0
+    assert seen.cost + compute_backlash_phase_prior(seen) < blind.cost - 100.0
     assert seen.nuisance.backlash_phase == pytest.approx(
         [one for one, _ in BEGAN.values()], abs=0.2
     )
@@ -93,7 +93,7 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
 
 def test_a_second_look_is_nearer():
     off = PredictionErrorProblem.from_records(
-        run_records(session(1, step=3.0, seed=2))
+        make_run_records(session(1, step=3.0, seed=2))
     )  # -1, 0, 1 and -0.5
     began = RunNuisance.at_first_samples(4).with_backlash_phase(np.array([-0.8, 0.2, 0.8, -0.7]))
 
@@ -106,7 +106,7 @@ def test_a_second_look_is_nearer():
 
 def test_a_start_that_was_told_amiss_is_gone_untold_too():
     problem = PredictionErrorProblem.from_records(
-        run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3))
+        make_run_records(begun_at([0.0] * len(BEGAN), step=6.0, seed=3))
     )
     stiff = at(problem, ModelStructure("simple"))
     base = minimize_fully(problem, stiff)
@@ -129,8 +129,8 @@ def test_what_is_told_has_its_price(problem):
     between = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) < 1.0)
 
     assert aside > between > 0
-    assert backlash_phase_prior(seen) == pytest.approx(aside * ASIDE + between * BETWEEN)
-    assert score_estimate(problem, seen).score > seen.cost + backlash_phase_prior(
+    assert compute_backlash_phase_prior(seen) == pytest.approx(aside * ASIDE + between * BETWEEN)
+    assert score_estimate(problem, seen).score > seen.cost + compute_backlash_phase_prior(
         seen
     )  # and the values' own beside it
 
@@ -167,6 +167,6 @@ def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
     turned = session(0, step=4.0, seed=1)
     back = replace(turned.runs[0], velocity=turned.runs[0].velocity * np.sign(np.arange(600) - 300))
     there = PredictionErrorProblem.from_records(
-        run_records(replace(turned, runs=(back, *turned.runs[1:])))
+        make_run_records(replace(turned, runs=(back, *turned.runs[1:])))
     )
     assert list_remarks(there, [one], [named("backlash")], ResidualSummary()) == ()

@@ -6,12 +6,17 @@ from reconcile_made import rubbing
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.model import Part
 from sim.reconcile import local_minimum
 from sim.reconcile.backward_elimination import simplify_effects
 from sim.reconcile.candidates import score_estimate
-from sim.reconcile.cross_validation import make_folds, open_loop_errors, rms_gap, validation_gap
+from sim.reconcile.cross_validation import (
+    compute_open_loop_errors,
+    compute_rms_gap,
+    compute_validation_gap,
+    make_folds,
+)
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
@@ -35,15 +40,20 @@ def at(problem, values, *effects, process_noise=1.0):
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
     wave = {"cosine": 0.19, "sine": 0.0, "turns": 3.0}  # ten of them to an error of 0.2 rad
     log = session(Part("cogging", wave), step=4.0, frictions=(1.05, 0.95, 0.96, 1.04))
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     values = {**GAINS, **{f"cogging.{name}": value for name, value in wave.items()}}
     truth, without = at(problem, values, "cogging"), at(problem, GAINS)
 
     plain = (
-        rms_gap(open_loop_errors(problem, truth, truth.nuisance)).velocity / problem.noise.velocity
+        compute_rms_gap(compute_open_loop_errors(problem, truth, truth.nuisance)).velocity
+        / problem.noise.velocity
     )
-    eased = rms_gap(open_loop_errors(problem, truth, truth.nuisance, eased=True)).velocity
-    bare = rms_gap(open_loop_errors(problem, without, without.nuisance, eased=True)).velocity
+    eased = compute_rms_gap(
+        compute_open_loop_errors(problem, truth, truth.nuisance, eased=True)
+    ).velocity
+    bare = compute_rms_gap(
+        compute_open_loop_errors(problem, without, without.nuisance, eased=True)
+    ).velocity
 
     assert plain > 5.0
     assert eased < 0.3 * plain * problem.noise.velocity
@@ -52,7 +62,7 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
 
 @pytest.mark.parametrize("off", [4.0, 0.3])
 def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
-    problem = PredictionErrorProblem.from_records(run_records(session(step=4.0)))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(step=4.0)))
     far = {"kS": 0.0, "kV": off * GAINS["kV"], "kA": 20.0 * GAINS["kA"]}
     begun = at(problem, far, process_noise=4.0**6)
 
@@ -64,7 +74,7 @@ def test_gains_that_are_far_off_are_found_from_where_much_seems_to_push(off):
 
 
 def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
-    problem = PredictionErrorProblem.from_records(run_records(session(step=4.0)))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(step=4.0)))
     begun = at(problem, {"kS": 0.3, "kV": 0.8, "kA": 0.1})
     costs = [begun.cost]
 
@@ -82,12 +92,12 @@ def test_a_search_goes_on_as_long_as_it_gains(monkeypatch):
 
 def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     log = session(Part("constant-load", {"load": 0.3}), step=4.0)
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
     taken = score_estimate(problem, minimize(problem, at(problem, spring, "spring")), "spring")
-    gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
+    gaps = [compute_validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
     told = simplify_effects(SelectionData(log, problem, parts), done)
@@ -99,12 +109,12 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
 
 def test_an_effect_that_needs_its_parameters_keeps_them():
     log = session(Part("spring", {"rate": 0.1, "preload": 0.0}), step=4.0)
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     parts = make_folds([one.session for one in problem.records])
     base = score_estimate(problem, minimize(problem, at(problem, GAINS)))
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
     taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
-    gaps = [validation_gap(problem, one.estimate, parts) for one in (base, taken)]
+    gaps = [compute_validation_gap(problem, one.estimate, parts) for one in (base, taken)]
     done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
 
     assert simplify_effects(SelectionData(log, problem, parts), done) == done

@@ -11,16 +11,16 @@ from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import join_records, run_records, session_length
+from sim.estimation.run_records import compute_session_length, join_records, make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
-from sim.physics.voltage_residual import compute_voltage_residual, run_start_times
+from sim.physics.voltage_residual import compute_voltage_residual, list_run_start_times
 from sim.reconcile import model_selection
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap, make_folds
 from sim.reconcile.findings import is_contradicted
-from sim.reconcile.local_minimum import minimize, predicted_improvement
+from sim.reconcile.local_minimum import minimize, rate_starts
 from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
@@ -53,9 +53,12 @@ def test_two_logs_in_a_row_have_the_clock_of_their_lanes(first, later):
 
     row = join_records(one, other)
 
-    begun = [record.clock for record in run_records(one)]
-    begun += [record.clock for record in run_records(other, session=1, since=session_length(one))]
-    assert run_start_times(row) == pytest.approx(begun, abs=1e-5)
+    begun = [record.clock for record in make_run_records(one)]
+    begun += [
+        record.clock
+        for record in make_run_records(other, session=1, since=compute_session_length(one))
+    ]
+    assert list_run_start_times(row) == pytest.approx(begun, abs=1e-5)
     assert begun[3] == pytest.approx(begun[2] + 1.0)  # no pause between the logs
 
 
@@ -77,7 +80,7 @@ def drives(*, onset, until):
 @pytest.fixture(scope="module")
 def third():
     """Beginning of the third run of a plain log, on the log's clock."""
-    return float(run_start_times(session(bench("drivetrain"), "log"))[2])
+    return float(list_run_start_times(session(bench("drivetrain"), "log"))[2])
 
 
 @pytest.mark.parametrize("until", [2.9, LATER], ids=["with its run", "for good"])
@@ -138,7 +141,7 @@ def log_with(parts):
 @pytest.fixture(scope="module")
 def dynamic():
     """[s] of the log's clock at which its third run began."""
-    return float(run_start_times(log_with(()))[2])
+    return float(list_run_start_times(log_with(()))[2])
 
 
 @pytest.mark.parametrize(
@@ -156,7 +159,7 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     until = dynamic + lasts if lasts < LATER else LATER
     values = {"extra": 0.02, "onset": dynamic + after, "until": until, "shared": shared}
     log = log_with((Part("inertia-change", values),))
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     begun = RunNuisance.at_first_samples(len(problem.records))
     point = minimize(
         problem, problem.evaluate(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
@@ -166,7 +169,7 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
     tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], kept=kept))
 
     likeliest = max(
-        predicted_improvement(problem, point, point.structure + "inertia-change", tried, kept=kept),
+        rate_starts(problem, point, point.structure + "inertia-change", tried, kept=kept),
         key=lambda one: one[0],
     )[1].values
     found = {name: likeliest[f"inertia-change.{name}"] for name in values}
@@ -177,7 +180,7 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
 
 
 def test_what_would_leave_the_whole_log_is_no_moment():
-    problem = PredictionErrorProblem.from_records(run_records(log_with(())))
+    problem = PredictionErrorProblem.from_records(make_run_records(log_with(())))
     point = problem.evaluate(
         ModelStructure("simple"), GAINS, RunNuisance.at_first_samples(4), problem.noise.velocity**2
     )
@@ -200,7 +203,7 @@ def test_what_would_leave_the_whole_log_is_no_moment():
 )
 def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, score, admitted):
     log = log_with(())
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     base = score_estimate(
         problem,
         problem.evaluate(
@@ -213,7 +216,7 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
     other = replace(base, effect=effect, score=base.score - score)
     gap = Gap(1.0, 1.0)
     monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: [other])
-    monkeypatch.setattr(model_selection, "validation_gap", lambda *_: Gap(0.9, 0.9))
+    monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: Gap(0.9, 0.9))
 
     (one,) = model_selection.weigh_candidates(
         SelectionData(log, problem, make_folds([0, 0, 0, 0])),
@@ -225,7 +228,7 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
 
 def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypatch):
     log = log_with(())
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     base = score_estimate(
         problem,
         problem.evaluate(
@@ -239,7 +242,7 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
     names = ("inertia-change", "drag")
     tried = [replace(base, effect=name, score=base.score - 500.0) for name in names]
     monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: tried)
-    monkeypatch.setattr(model_selection, "validation_gap", lambda *_: gap)
+    monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: gap)
 
     inertia, drag = model_selection.weigh_candidates(
         SelectionData(log, problem, make_folds([0, 0, 0, 0])),
@@ -254,7 +257,7 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
 def joined(dynamic):
     """A log in which inertia joins for good, and the point of it that has it over with its run."""
     part = Part("inertia-change", {"extra": 0.02, "onset": dynamic, "until": LATER, "shared": 0.0})
-    problem = PredictionErrorProblem.from_records(run_records(log_with((part,))))
+    problem = PredictionErrorProblem.from_records(make_run_records(log_with((part,))))
     ends = dynamic + float(np.ptp(problem.records[2].measurements.time)) + 1e-6
     over = {**part.parameters, "onset": dynamic + 1e-3, "until": ends}
     values = {**GAINS, **{f"inertia-change.{name}": value for name, value in over.items()}}
@@ -286,7 +289,7 @@ def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
     onset = dynamic + 0.0934
     given = {"extra": 0.03, "onset": onset, "until": LATER, "shared": shared}
     problem = PredictionErrorProblem.from_records(
-        run_records(log_with((Part("inertia-change", given),)))
+        make_run_records(log_with((Part("inertia-change", given),)))
     )
     begun = {
         **GAINS,
@@ -305,7 +308,7 @@ def test_a_moment_is_found_between_two_samples(dynamic, shared, off):
 
 
 def test_a_moment_stays_on_the_clock():
-    problem = PredictionErrorProblem.from_records(run_records(log_with(())))
+    problem = PredictionErrorProblem.from_records(make_run_records(log_with(())))
     given = {"extra": 0.01, "onset": 0.0, "until": LATER, "shared": 0.0}
     values = {**GAINS, **{f"inertia-change.{n}": v for n, v in given.items()}}
     structure = ModelStructure("simple") + "inertia-change"

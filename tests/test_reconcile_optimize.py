@@ -12,16 +12,16 @@ from sim.estimation.likelihood import LARGEST, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import make_joint_jacobian
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import ExcludedInterval, run_records
+from sim.estimation.run_records import ExcludedInterval, make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
 from sim.reconcile.candidates import rank_candidates
-from sim.reconcile.cross_validation import Gap, open_loop_errors, rms_gap
+from sim.reconcile.cross_validation import Gap, compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.forward_selection import select_effects
-from sim.reconcile.local_minimum import predicted_improvement
-from sim.reconcile.model_selection import WIDENS, rejection_reason
+from sim.reconcile.local_minimum import rate_starts
+from sim.reconcile.model_selection import WIDENS, explain_rejection
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import WeighedCandidate
 from sim.reconcile.story import TriedCandidate
@@ -49,7 +49,7 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
 def test_a_start_that_is_far_too_large_is_halved():
     built = bench("drivetrain", "compliance", size=SUBTLE)
     truth = built.hidden[0].parameters["softness"]
-    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
     point = problem.evaluate(
@@ -57,7 +57,7 @@ def test_a_start_that_is_far_too_large_is_halved():
     )
     far = {"compliance.softness": FAR * truth, "compliance.share": 0.25}
 
-    begun = predicted_improvement(
+    begun = rate_starts(
         problem, point, base + "compliance", [far], kept=make_joint_jacobian(problem, point)
     )
 
@@ -71,7 +71,9 @@ def test_a_start_that_is_far_too_large_is_halved():
 
 @pytest.mark.parametrize("far", [1e200, math.inf, -math.inf, math.nan])
 def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
-    problem = PredictionErrorProblem.from_records(run_records(session(bench("drivetrain"), "log")))
+    problem = PredictionErrorProblem.from_records(
+        make_run_records(session(bench("drivetrain"), "log"))
+    )
     table = np.zeros_like(problem.measured)
     table[3] = far
 
@@ -85,14 +87,14 @@ def test_what_a_change_makes_fly_off_is_large_and_its_squares_are_numbers(far):
 def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
     built = bench("drivetrain", "asymmetric-back-emf")
     truth = built.hidden[0].parameters["lean"]
-    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
     base, name = ModelStructure("simple"), "asymmetric-back-emf"
     values = {name: built.gains[name] for name in base.names}
     point = problem.evaluate(
         base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
 
-    begun = predicted_improvement(
+    begun = rate_starts(
         problem,
         point,
         base + name,
@@ -106,7 +108,7 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
 
 def test_what_cannot_be_negative_is_not_turned():
     built = bench("drivetrain", "drag")
-    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
     base = ModelStructure("simple")
     values = {name: built.gains[name] for name in base.names}
     point = problem.evaluate(
@@ -114,7 +116,7 @@ def test_what_cannot_be_negative_is_not_turned():
     )
     more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
 
-    begun = predicted_improvement(
+    begun = rate_starts(
         problem, point, base + "drag", more, kept=make_joint_jacobian(problem, point)
     )
 
@@ -128,7 +130,7 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
         one.exclude_interval(ExcludedInterval(number, 0.0, math.inf))
         if "dynamic" in one.test
         else one
-        for number, one in enumerate(run_records(log))
+        for number, one in enumerate(make_run_records(log))
     ]
     problem = PredictionErrorProblem.from_records(runs)
     base = ModelStructure("simple")
@@ -155,7 +157,7 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
 )
 def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, asked):
     log = session(bench("drivetrain"), "log")
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     moves = np.sqrt(np.nanmean(problem.measured[problem.moving, 1] ** 2))
     sizes = [Gap(share * float(moves), 1.0) for share in gaps]
     values = {"kS": 0.1, "kV": 2.0, "kA": 2.0 * inertia, "drag.drag": 0.1}
@@ -176,7 +178,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
 
     room = sys.modules["sim.reconcile.forward_selection"]
     monkeypatch.setattr(room, "weigh_candidates", weighed)
-    monkeypatch.setattr(room, "validation_gap", lambda *_: sizes[0])
+    monkeypatch.setattr(room, "compute_validation_gap", lambda *_: sizes[0])
     monkeypatch.setattr(room, "minimize_fully", lambda _, point: point)
     monkeypatch.setattr(room, "_collect_seeds", lambda _: {})
     for name in (
@@ -197,19 +199,21 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
 @pytest.mark.parametrize("gap", [math.nan, math.inf])
 @pytest.mark.parametrize("before", [1.0, math.inf])
 def test_a_model_that_runs_away_on_the_validation_widens_the_gap(gap, before):
-    assert rejection_reason(Gap(gap, 1.0), Gap(before, 1.0), 1000.0) == WIDENS
+    assert explain_rejection(Gap(gap, 1.0), Gap(before, 1.0), 1000.0) == WIDENS
 
 
 def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
-    problem = PredictionErrorProblem.from_records(run_records(session(bench("drivetrain"), "log")))
+    problem = PredictionErrorProblem.from_records(
+        make_run_records(session(bench("drivetrain"), "log"))
+    )
     out = np.tile(problem.measured, 4)
     out[-1] = np.nan
     monkeypatch.setattr(PredictionErrorProblem, "simulate", lambda *_, **__: Track.from_array(out))
     point = replace(NOWHERE, values={"kS": 0.1, "kV": 1.0, "kA": 0.1})
 
     assert (
-        rms_gap(
-            open_loop_errors(problem, point, RunNuisance.at_first_samples(4), eased=True)
+        compute_rms_gap(
+            compute_open_loop_errors(problem, point, RunNuisance.at_first_samples(4), eased=True)
         ).velocity
         == math.inf
     )
@@ -259,14 +263,14 @@ def test_a_ripple_that_any_robot_has_is_no_finding_however_much_of_the_gap_it_ta
 @pytest.mark.parametrize("effect", ["heating", "drag"])
 def test_a_start_moves_its_own_run_and_heats_as_the_runs_before_it_did(effect):
     built = bench("drivetrain", effect)
-    problem = PredictionErrorProblem.from_records(run_records(session(built, "log")))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
     base = ModelStructure("simple") + effect
     values = {name: built.gains[name] for name in base.names if name in built.gains}
     values |= {f"{effect}.{name}": one for name, one in built.hidden[0].parameters.items()}
     nuisance, count = RunNuisance.at_first_samples(len(problem.records)), len(problem.records)
     point = problem.evaluate(base, values, nuisance, problem.noise.velocity**2)
 
-    starts = problem.jacobian(point)[:, -2 * count : -count]
+    starts = problem.compute_jacobian(point)[:, -2 * count : -count]
 
     for number in range(count):
         by = np.zeros(count)

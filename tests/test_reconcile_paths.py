@@ -11,7 +11,7 @@ from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import SensorNoise
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import State
 from sim.physics.model import Model
@@ -20,9 +20,9 @@ from sim.reconcile.candidates import Candidate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.forward_selection import (
     add_pair,
-    admissible_candidates,
-    alternative_paths,
     choose_path,
+    list_alternative_paths,
+    select_admissible,
     take_nearest,
 )
 from sim.reconcile.model_selection import HARDLY, WIDENS, choose_simplest
@@ -59,7 +59,8 @@ QUICK = recorded(
     step=6.0, state=State.cold_at(0.0), noise=(1.0, 1.0), rng=np.random.default_rng(5),
 )  # fmt: skip
 ONE_NOISE = PredictionErrorProblem(
-    run_records(Log((QUICK,), units="meters", type="simple")), SensorNoise(1.0, 1.0, (0.0, 0.0))
+    make_run_records(Log((QUICK,), units="meters", type="simple")),
+    SensorNoise(1.0, 1.0, (0.0, 0.0)),
 )  # at a hundred times as much it runs: what is missed by some noises is not lost
 FIRST = [("drag", 400.0, True), ("delay", 300.0, True), ("spring", 200.0, False)]
 THEN = [("cogging", 90.0, True), ("stribeck", 80.0, True), ("delay", 10.0, True)]
@@ -74,7 +75,7 @@ def gone(*, end):
 
 
 def test_other_paths_turn_off_early_where_an_admitted_effect_came_near():
-    turned = alternative_paths(gone(end=4.0), lost=False)
+    turned = list_alternative_paths(gone(end=4.0), lost=False)
 
     # spring was not admitted, and a delay of 10 is no ninth of what cogging explained
     assert [(place, one.candidate.effect) for place, one in turned] == [
@@ -91,7 +92,7 @@ def test_a_path_that_is_lost_gives_way_to_what_comes_nearest_not_to_the_likelies
     tried = tuple(weighed(name, score, gap=gap) for name, (score, gap) in others.items())
     base = replace(model("", 1000.0, gap=9.0), candidates=tried)
 
-    turned = alternative_paths([base, model("backlash", 210.0, gap=8.2)], lost=lost)
+    turned = list_alternative_paths([base, model("backlash", 210.0, gap=8.2)], lost=lost)
 
     assert [one.candidate.effect for _, one in turned] == order
 
@@ -220,7 +221,7 @@ SAG = weighed("battery-sag", 283.0, share=0.6)
 def test_what_any_robot_has_a_little_of_goes_first_where_it_is_nearly_the_likeliest(
     other, admitted, quiet
 ):
-    found = admissible_candidates([LIMIT, SAG, other], most=2)
+    found = select_admissible([LIMIT, SAG, other], most=2)
 
     assert [[one.candidate.effect for one in some] for some in found] == [admitted, quiet]
 
@@ -250,11 +251,11 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     done = [base, model("battery-sag", 600.0, gap=1.1), last]
     path = sys.modules["sim.reconcile.backward_elimination"]
     monkeypatch.setattr(SelectionData, "voltage_residual", lambda *_: None)
-    monkeypatch.setattr(path, "refit_without", lambda *_: Candidate("", point, 900.0))
+    monkeypatch.setattr(path, "refit_without_effect", lambda *_: Candidate("", point, 900.0))
     monkeypatch.setattr(
         path, "rank_candidates", lambda *_, **__: [Candidate(other, point, 500.0 - gains)]
     )
-    monkeypatch.setattr(path, "validation_gap", lambda *_: one_gap)
+    monkeypatch.setattr(path, "compute_validation_gap", lambda *_: one_gap)
 
     found = replace_effects(SelectionData(None, ONE_NOISE, ()), done)
 

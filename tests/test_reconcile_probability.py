@@ -10,15 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.physics.effects import EFFECTS
-from sim.reconcile.findings import rival_scores
+from sim.reconcile.findings import list_rival_scores
 from sim.reconcile.probability import (
     FEATURES,
     FILE,
     Evidence,
-    log_gap_ratio,
-    log_size,
-    probability_of,
-    rival_share,
+    compute_log_ratio,
+    compute_log_size,
+    compute_probability,
+    compute_rival_share,
 )
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import SIZES
@@ -51,12 +51,12 @@ def test_every_feature_has_its_coefficient():
 def test_each_piece_of_evidence_counts_as_it_should(name, by, likelier):
     other = replace(PLAIN, **{name: getattr(PLAIN, name) + by})
 
-    assert (probability_of(other) > probability_of(PLAIN)) is likelier
+    assert (compute_probability(other) > compute_probability(PLAIN)) is likelier
 
 
 @given(st.lists(st.floats(-50, 50), min_size=len(FEATURES), max_size=len(FEATURES)))
 def test_a_probability_lies_between_0_and_1(values):
-    assert 0.0 <= probability_of(Evidence(*values)) <= 1.0
+    assert 0.0 <= compute_probability(Evidence(*values)) <= 1.0
 
 
 @given(times=st.floats(0.2, 10.0))
@@ -67,7 +67,7 @@ def test_the_size_is_told_in_everyday_sizes(times):
         (n for n in range(1, 2000) if EFFECTS["delay"].is_ordinary({lag.name: n * 1e-5})),
     )
 
-    found = log_size("delay", {f"delay.{lag.name}": times * largest * 1e-5})
+    found = compute_log_size("delay", {f"delay.{lag.name}": times * largest * 1e-5})
 
     low, high = SIZES
     assert low <= found <= high
@@ -81,11 +81,19 @@ def test_the_size_is_told_in_everyday_sizes(times):
     ),
 )
 def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
-    share = rival_share("battery-sag", own, {"battery-sag": own, **others})
+    share = compute_rival_share("battery-sag", own, {"battery-sag": own, **others})
     lasting = [score for name, score in others.items() if name != "inertia-change"]
 
     assert 0.0 <= share <= 1.0
     assert share == pytest.approx(min(max(max(lasting, default=0.0) / own, 0.0), 1.0))
+
+
+def test_what_is_the_same_in_motion_is_no_rival():
+    tried = {"constant-load": 90.0, "asymmetric-friction": 90.0, "drag": 30.0}
+
+    for name in ("constant-load", "asymmetric-friction"):
+        assert compute_rival_share(name, 90.0, tried) == pytest.approx(30.0 / 90.0)
+    assert compute_rival_share("drag", 30.0, tried) == 1.0
 
 
 @pytest.mark.parametrize(
@@ -100,7 +108,7 @@ def test_a_rival_counts_only_if_it_lasts_as_the_effect_does(own, others):
     ],
 )
 def test_gaps_that_are_no_numbers_say_nothing(with_, without, ratio):
-    assert log_gap_ratio(with_, without) == pytest.approx(ratio)
+    assert compute_log_ratio(with_, without) == pytest.approx(ratio)
 
 
 def test_no_other_effect_of_the_last_model_is_a_rival():
@@ -111,6 +119,6 @@ def test_no_other_effect_of_the_last_model_is_a_rival():
         ]
     )
 
-    found = rival_scores(before, ("heating", "battery-sag"), "battery-sag")
+    found = list_rival_scores(before, ("heating", "battery-sag"), "battery-sag")
 
     assert found == {"battery-sag": 80.0, "drag": 30.0}

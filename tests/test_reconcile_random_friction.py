@@ -9,13 +9,17 @@ from reconcile_made import rubbing
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import append_prior_rows, make_joint_jacobian
-from sim.estimation.random_friction import friction_sd, laplace_correction
+from sim.estimation.random_friction import compute_laplace_correction, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
 from sim.physics.model import Model, Part
-from sim.reconcile.cross_validation import open_loop_errors, parabola_minima, rms_gap
-from sim.reconcile.findings import standard_errors
+from sim.reconcile.cross_validation import (
+    compute_open_loop_errors,
+    compute_rms_gap,
+    find_parabola_minima,
+)
+from sim.reconcile.findings import compute_standard_errors
 from sim.reconcile.local_minimum import minimize, minimize_fully
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
@@ -25,7 +29,7 @@ SHARES = (1.06, 0.95, 0.98, 1.04)  # [1] of the friction that each run has
 
 def session(shares, *parts, step=4.0, seed=0):
     log = rubbing(GAINS, shares, *parts, noise=NOISE, step=step, seed=seed)
-    return PredictionErrorProblem.from_records(run_records(log))
+    return PredictionErrorProblem.from_records(make_run_records(log))
 
 
 def begun(problem, *effects, **values):
@@ -99,7 +103,8 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
     ]  # fmt: skip
 
     prices = [
-        laplace_correction(one.values, problem.friction_jacobian(one)) for one in (found, *nudged)
+        compute_laplace_correction(one.values, problem.compute_friction_jacobian(one))
+        for one in (found, *nudged)
     ]
 
     assert np.ptp(prices) < 8.0  # of 53: a run begins to move at a sample, or at the next
@@ -114,7 +119,7 @@ def test_a_standard_error_knows_of_frictions_that_differ():
         problem = session(1.0 + 0.04 * rng.standard_normal(4), seed=seed)
         found = minimize(problem, begun(problem))
         truths.append(found.values["kS"] - GAINS["kS"])
-        errors.append(standard_errors(problem, found)["kS"])
+        errors.append(compute_standard_errors(problem, found)["kS"])
 
     off = np.abs(truths) / np.array(errors)
 
@@ -134,10 +139,10 @@ def test_what_a_point_adjusts_to_is_what_the_priors_allow():
     left = rest - table @ by
     prior = rest[white.size :]
 
-    assert kept.residual_square(white) + float(prior @ prior) == pytest.approx(
+    assert kept.compute_residual_square(white) + float(prior @ prior) == pytest.approx(
         float(left @ left), rel=1e-6
     )
-    along, size = kept.residual_products(white, white)
+    along, size = kept.compute_residual_products(white, white)
     assert 0.0 < size <= float(white @ white)
     assert along == pytest.approx(size - kept.basis.T @ white @ kept.prior, rel=1e-6)
 
@@ -147,8 +152,10 @@ def test_a_gap_is_that_of_each_runs_own_friction_between_those_that_are_tried(sh
     problem = session((share,) * 4)
     point = begun(problem)
 
-    plain = rms_gap(open_loop_errors(problem, point, point.nuisance)).velocity
-    eased = rms_gap(open_loop_errors(problem, point, point.nuisance, eased=True)).velocity
+    plain = compute_rms_gap(compute_open_loop_errors(problem, point, point.nuisance)).velocity
+    eased = compute_rms_gap(
+        compute_open_loop_errors(problem, point, point.nuisance, eased=True)
+    ).velocity
 
     assert eased == pytest.approx(NOISE[1], rel=0.05)
     assert plain > 1.02 * eased
@@ -159,7 +166,9 @@ def test_a_gap_of_a_friction_that_is_beyond_all_bounds_stays_wide():
     point = begun(problem)
 
     assert (
-        rms_gap(open_loop_errors(problem, point, point.nuisance, eased=True)).velocity
+        compute_rms_gap(
+            compute_open_loop_errors(problem, point, point.nuisance, eased=True)
+        ).velocity
         > 3.0 * NOISE[1]
     )
 
@@ -174,7 +183,7 @@ def test_a_search_beside_an_effect_finds_both():
     assert found.values["cogging.cosine"] == pytest.approx(wave["cosine"], abs=0.01)
     frictions = (found.values["kS"] + found.nuisance.friction_offset) / GAINS["kS"]
     assert frictions == pytest.approx(SHARES, abs=0.015)
-    assert friction_sd(found.values) == pytest.approx(0.02, rel=0.05)
+    assert get_friction_sd(found.values) == pytest.approx(0.02, rel=0.05)
 
 
 @pytest.mark.parametrize(
@@ -191,4 +200,4 @@ def test_a_search_beside_an_effect_finds_both():
 def test_the_likeliest_friction_is_where_a_parabola_is_lowest(values, at):
     less, here, more = np.array(values)[:, None]
 
-    assert parabola_minima(less, here, more) == pytest.approx([at])
+    assert find_parabola_minima(less, here, more) == pytest.approx([at])

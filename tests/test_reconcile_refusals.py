@@ -11,7 +11,7 @@ from sim.cli import sysid
 from sim.core.errors import BadRequest, NotIdentifiable, Refusal
 from sim.core.log import Log
 from sim.reconcile import reconcile
-from sim.reconcile.dropout_intervals import dropout_intervals
+from sim.reconcile.dropout_intervals import find_dropout_intervals
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.recordings import Recordings
 from sim.support.command_line import run_command
@@ -203,7 +203,7 @@ def dropped(one, *, felt):
 def test_between_drop_outs_that_the_motor_felt_a_log_is_believed():
     spoilt, low = dropped(LOG.runs[2], felt=True)
 
-    found = dropout_intervals(spoilt, start=low[0], end=low[-1])
+    found = find_dropout_intervals(spoilt, start=low[0], end=low[-1])
 
     assert [start for start, _ in found] == low
     assert all(end == start for start, end in found)
@@ -212,7 +212,7 @@ def test_between_drop_outs_that_the_motor_felt_a_log_is_believed():
 def test_a_record_that_lost_its_voltage_is_left_out_from_the_first_to_the_last():
     spoilt, low = dropped(LOG.runs[2], felt=False)
 
-    assert dropout_intervals(spoilt, start=low[0], end=low[-1]) == ((low[0], low[-1]),)
+    assert find_dropout_intervals(spoilt, start=low[0], end=low[-1]) == ((low[0], low[-1]),)
 
 
 # -- command -------------------------------------------------------------------------------------

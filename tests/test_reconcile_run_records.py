@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.core.log import Log, Run
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 
 TIME = np.arange(0.0, 4.0, 0.02)
 ROUGH = 6e-4  # [m]
@@ -17,7 +17,7 @@ def record(way, *, rough=ROUGH):
     position = 0.16 + way + noise
     position[0] = 0.16
     run = Run("quasistatic-forward", TIME, TIME, position, np.gradient(way, TIME))
-    (only,) = run_records(Log((run,), units="meters"))
+    (only,) = make_run_records(Log((run,), units="meters"))
     return only
 
 
@@ -70,6 +70,6 @@ def test_uneven_samples_of_a_fast_run_are_no_roughness():
     there = 3.0 * np.sin(np.clip((time - 0.5) / 2.5, 0.0, 1.0) * np.pi)
     position = there - 0.01 * np.clip(time - 3.0, 0.0, 1.0)
     run = Run("multistep-forward", time, time, position, np.gradient(position, time))
-    (only,) = run_records(Log((run,), units="meters"))
+    (only,) = make_run_records(Log((run,), units="meters"))
 
     assert math.isinf(only.low)

@@ -7,7 +7,7 @@ from sim.core.log import Log, Run
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.inspect.fault import rescale_motion
 from sim.physics.engine import State, simulate_run
 from sim.physics.model import Model
@@ -59,7 +59,7 @@ def slips(scale, *, test="quasistatic-forward", lost=(), reads=(), lasts=1.0):
             runs.append(Run(name, clock + run.time, run.voltage, run.position, run.velocity))
             clock = float(runs[-1].time[-1]) + 2.0
     problem = PredictionErrorProblem.from_records(
-        run_records(Log(tuple(runs), units="meters", type="simple"))
+        make_run_records(Log(tuple(runs), units="meters", type="simple"))
     )
     nuisance = RunNuisance.at_first_samples(len(problem.records))
     return list(

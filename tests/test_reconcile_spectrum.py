@@ -13,7 +13,7 @@ from sim.core.units import find_unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
@@ -94,9 +94,9 @@ def test_runs_that_are_too_short_have_none():
         Run(r.test, r.time[:last], r.voltage[:last], r.position[:last], r.velocity[:last])
         for r in log.runs
     ]
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     brief = PredictionErrorProblem(
-        tuple(run_records(replace(log, runs=tuple(short)))), problem.noise
+        tuple(make_run_records(replace(log, runs=tuple(short)))), problem.noise
     )
     seen = RunNuisance.at_first_samples(len(brief.records))
 

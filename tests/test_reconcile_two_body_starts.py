@@ -11,7 +11,7 @@ from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
@@ -31,7 +31,7 @@ def built(effect="", **values):
 def looked(mechanism):
     """The lively runs of a log, the best model of one body, and what the log shows."""
     log = session(mechanism, "log")
-    problem = PredictionErrorProblem.from_records(run_records(log))
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
     values = {name: mechanism.gains[name] for name in BASE.names}
     begun = problem.evaluate(
         BASE, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2

@@ -13,7 +13,7 @@ from sim.core.units import find_unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import run_records
+from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
@@ -45,7 +45,7 @@ def problem():
         for test in ("dynamic-forward", "dynamic-reverse")
     ]
     return PredictionErrorProblem.from_records(
-        run_records(Log(tuple(runs), units="meters", type="simple"))
+        make_run_records(Log(tuple(runs), units="meters", type="simple"))
     )
 
 

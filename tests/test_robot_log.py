@@ -56,7 +56,10 @@ def test_a_real_routine_comes_back_as_its_four_runs(log: Log) -> None:
 
 
 def test_what_a_real_routine_applies_is_seen(log: Log) -> None:
-    ramp, step = log.runs_of_test("quasistatic-reverse")[0], log.runs_of_test("dynamic-forward")[0]
+    ramp, step = (
+        log.list_runs_of_test("quasistatic-reverse")[0],
+        log.list_runs_of_test("dynamic-forward")[0],
+    )
 
     np.testing.assert_allclose(np.diff(ramp.voltage), -0.02, atol=1e-5)
     assert np.all(step.voltage == 7.0)
@@ -65,7 +68,7 @@ def test_what_a_real_routine_applies_is_seen(log: Log) -> None:
 def test_turns_become_radians(log: Log) -> None:
     """At the end of the step the wheel turns at (7 V - kS) / kV rotations per second."""
     final = (7.0 - KS) / KV * 2 * math.pi
-    run = log.runs_of_test("dynamic-forward")[0]
+    run = log.list_runs_of_test("dynamic-forward")[0]
 
     assert run.velocity[-1] == pytest.approx(final, rel=1e-3)
     assert run.position[-1] - run.position[-2] == pytest.approx(final * 0.02, rel=1e-3)

@@ -182,7 +182,7 @@ def test_the_same_code_shows_the_same_to_the_last_digit(tmp_path):
 @needs_robot
 def test_a_follower_in_no_field_is_seen_and_mirrored_leaders_are_no_fault():
     path = ROOT / "tests" / "robotcode" / "pwm_drive.py"  # right inverted, one follower is local
-    run = bench.run(path, "Drive")
+    run = bench.run_sysid_routine(path, "Drive")
 
     assert [(one.name, one.own) for one in run.motors] == [
         ("left", True),

@@ -64,7 +64,7 @@ def each_level(request, monkeypatch):
 @needs_robot
 @pytest.mark.usefixtures("each_level")
 def test_what_a_program_wrote_that_left_early_is_not_believed(mine):
-    run = bench.run(mine(WRITE + LEAVE), "ExampleSubsystem")
+    run = bench.run_sysid_routine(mine(WRITE + LEAVE), "ExampleSubsystem")
 
     assert run.outcome is RunOutcome.CRASHED
     assert run.said == "your code ended the robot program in the middle of a test"
@@ -74,7 +74,7 @@ def test_what_a_program_wrote_that_left_early_is_not_believed(mine):
 @pytest.mark.usefixtures("each_level")
 def test_a_file_that_was_changed_after_the_tests_is_not_believed(mine):
     late = "import atexit\natexit.register(lambda: open('seen.json', 'w').write(FORGED))\n"
-    run = bench.run(mine(WRITE + late), "ExampleSubsystem")
+    run = bench.run_sysid_routine(mine(WRITE + late), "ExampleSubsystem")
 
     assert run.outcome is RunOutcome.CRASHED
 

@@ -43,7 +43,7 @@ def tried(tmp_path):
         path = folder / "mine.py"
         path.write_text(changed((SEND, f"import trick; {SEND}")), "utf-8")
         (folder / "trick.py").write_text(trick, "utf-8")
-        return bench.run(path, "ExampleSubsystem", start=start, seconds=seconds)
+        return bench.run_sysid_routine(path, "ExampleSubsystem", start=start, seconds=seconds)
 
     return run
 

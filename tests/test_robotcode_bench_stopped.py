@@ -162,5 +162,8 @@ def test_whoever_confines_the_child_starts_it(tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(changed(), "utf-8")
 
-    assert bench.run(path, "ExampleSubsystem", start=start, seconds=8).outcome is RunOutcome.RAN
+    assert (
+        bench.run_sysid_routine(path, "ExampleSubsystem", start=start, seconds=8).outcome
+        is RunOutcome.RAN
+    )
     assert started == [(sys.executable, True, [], 8 + sandboxed_run.GRACE)]

@@ -6,7 +6,7 @@ import pytest
 from robot_phrase import java, python
 
 from grader.robotcode.facts import Output, Source
-from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, is_motor, java_spelling
+from grader.robotcode.vocabulary import DIRECTIONS, is_motor, normalize_enum_constant, spell_as_java
 
 FIELDS = """
   private final TalonFX m_motor = new TalonFX(1);
@@ -199,6 +199,8 @@ def test_motor_controllers_are_known_by_their_types() -> None:
 
 
 def test_the_names_of_2026_and_2027_are_one() -> None:
-    assert {java_spelling(name) for name in ("setVoltage", "set_voltage")} == {"setVoltage"}
-    assert {enum_constant(name) for name in ("kForward", "FORWARD", "Forward")} <= DIRECTIONS
-    assert enum_constant("kDutyCycle") == enum_constant("DUTY_CYCLE")
+    assert {spell_as_java(name) for name in ("setVoltage", "set_voltage")} == {"setVoltage"}
+    assert {
+        normalize_enum_constant(name) for name in ("kForward", "FORWARD", "Forward")
+    } <= DIRECTIONS
+    assert normalize_enum_constant("kDutyCycle") == normalize_enum_constant("DUTY_CYCLE")

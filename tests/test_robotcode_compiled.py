@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from authored import load
 from java_compiler import STUBS, JavaError, JavaProgram, compile_java
+from robot_corpus import whole_corpus
 from robot_mistakes import needs_robot
 from test_commands_v3 import BINDINGS, RIGHT, RUN_OF_V2
 from test_robot_code_snippet import found
@@ -28,7 +29,7 @@ from grader.robotcode.symbol_table import SymbolTable
 from sim.report.robot_code_snippet import write_robot_code
 
 ROOT = Path(__file__).resolve().parents[1]
-CORPUS = Path(__file__).with_name("robotcode")
+CORPUS = whole_corpus()
 # A lesson's block that is no whole file, by a line it contains, and what a file of it looks like.
 IMPORTS = """package frc.robot;
 
@@ -386,7 +387,7 @@ def test_the_python_of_the_answer_to_practice_runs_in_simulation(tmp_path):
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
 
-    ran = bench.run(tmp_path / "example_subsystem.py", "ExampleSubsystem")
+    ran = bench.run_sysid_routine(tmp_path / "example_subsystem.py", "ExampleSubsystem")
     pressed = bench.press_buttons(tmp_path / "robotcontainer.py", "RobotContainer")
 
     assert ran.outcome is RunOutcome.RAN, ran.said

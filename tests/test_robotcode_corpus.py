@@ -5,15 +5,15 @@ reading the code, not by running the reader.
 """
 
 import tomllib
-from pathlib import Path
 
 import pytest
+from robot_corpus import whole_corpus
 
 from grader.robotcode import read
 from grader.robotcode.facts import Certainty, ConfigQuantity, DriveCall, LoggedSignal, RoutineFacts
 from sim.core.errors import UnreadableFile
 
-CORPUS = Path(__file__).with_name("robotcode")
+CORPUS = whole_corpus()
 SUFFIXES = {".java", ".py"}
 LEAST = {".java": 60, ".py": 50}  # files of each language: what a reader of both has to stand
 

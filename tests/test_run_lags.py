@@ -15,7 +15,7 @@ from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.fit import fit
 from sim.fit.run_lags import fit_run_lags
-from sim.fit.search import fit_problem, fit_tracking
+from sim.fit.search import fit_tracking, make_fit_problem
 from sim.physics.engine import NO_CORRECTION, RunBatch, filter_runs
 from sim.physics.model import Model, Part
 
@@ -29,7 +29,7 @@ def recorded(name, recorder, *, seed):
 
 
 def simple_problem(log):
-    problem = fit_problem(log, measure_runs(log, friction=None))
+    problem = make_fit_problem(log, measure_runs(log, friction=None))
     truth = MECHANISMS["drivetrain"].gains
     return problem, fit_tracking(problem, ModelStructure("simple"), truth)
 

@@ -16,7 +16,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import FOUR_TESTS
 from sim.fit import fit
 from sim.physics.battery import Battery
-from sim.physics.motors import MOTORS, find_motor, theoretical_kv
+from sim.physics.motors import MOTORS, compute_theoretical_kv, find_motor
 
 GAINS = {"kS": 0.25, "kV": 2.0, "kA": 0.3}
 QUIET = Sensor(resolution=1e-12, velocity_noise=0.0, noise_speed=1.0, jitter=0.0)
@@ -86,14 +86,16 @@ def test_a_motor_has_the_constants_of_its_data_sheet(name, resistance, volts_per
     found = MOTORS[name]
 
     assert found.resistance == pytest.approx(resistance, abs=5e-5)
-    assert theoretical_kv(found, ratio=1.0) * 2 * math.pi == pytest.approx(volts_per_turn, abs=5e-5)
+    assert compute_theoretical_kv(found, ratio=1.0) * 2 * math.pi == pytest.approx(
+        volts_per_turn, abs=5e-5
+    )
     assert found.back_emf * 2 * math.pi == pytest.approx(exact, abs=1e-4)
 
 
 def test_theoretical_kv_counts_gears_and_wheel():
-    assert theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508) == pytest.approx(
-        2.538, abs=1e-3
-    )
+    assert compute_theoretical_kv(
+        find_motor("krakenX60"), ratio=6.75, radius=0.0508
+    ) == pytest.approx(2.538, abs=1e-3)
 
 
 def test_an_unknown_motor_lists_the_known():
@@ -203,7 +205,7 @@ def test_a_test_ends_where_the_travel_does():
     log = simulate(short, Routine(ramp=0.5, step=3.5), rng=rng())
 
     assert all(np.ptp(run.position) <= 2.0 for run in log.runs)
-    assert len(log.runs_of_test("dynamic-forward")[0]) < 100
+    assert len(log.list_runs_of_test("dynamic-forward")[0]) < 100
 
 
 @pytest.mark.parametrize(
@@ -234,7 +236,7 @@ def test_a_brownout_is_said_and_only_then():
 
 def test_a_recorded_voltage_is_what_reached_the_motors():
     # a Kraken's 120 A are 120·12/366 V = 3.93 V from rest, whatever is asked for
-    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).runs_of_test(
+    step = simulate(MECHANISMS["drivetrain"], Routine(step=7.0), rng=rng()).list_runs_of_test(
         "dynamic-forward"
     )[0]
 

@@ -37,7 +37,7 @@ def test_the_mechanism_moves_as_in_the_engine(kind, loop):
     plant = PLANTS[kind]
     gains = Feedback(3.0, 0.0) if loop == "velocity" else Feedback(50.0, 4.0)
     took = simulate_step_response(
-        plant, loop=loop, feedback=gains, target=plant.target_step(loop), delay=0.01
+        plant, loop=loop, feedback=gains, target=plant.choose_target_step(loop), delay=0.01
     )
 
     track = simulate_run(
@@ -139,7 +139,7 @@ def test_what_sysid_suggests_without_a_delay_settles(kind, loop):
 
     told = judge_step_response(
         simulate_step_response(
-            plant, loop=loop, feedback=suggested, target=plant.target_step(loop), delay=0.0
+            plant, loop=loop, feedback=suggested, target=plant.choose_target_step(loop), delay=0.0
         )
     )
 

@@ -4,7 +4,7 @@ import pytest
 
 from grader.check import WrongAnswer
 from grader.choice_answer import check_choice, read_choice
-from grader.mistake import change_number, exchange_numbers, scale_numbers, set_answer
+from grader.mistake import change_number, exchange_numbers, make_wrong_answer, scale_numbers
 from grader.student_files import write_student_files
 from grader.variant import derive_student_seed, make_folder_name, use_class_secret
 from sim.core.errors import BadRequest
@@ -76,7 +76,7 @@ def test_a_wrong_word_is_told_why():
         (scale_numbers(2, "kV"), "kS = 0.1\nkV = 4\n"),
         (exchange_numbers("kS", "kV"), "kS = 2\nkV = 0.1\n"),
         (change_number("kS", lambda all_: all_["kS"] + all_["kV"]), "kS = 2.1\nkV = 2\n"),
-        (set_answer("kV", '"2 V"'), 'kS = 0.1\nkV = "2 V"\n'),
+        (make_wrong_answer("kV", '"2 V"'), 'kS = 0.1\nkV = "2 V"\n'),
     ],
 )
 def test_answers_are_changed(change, made):
@@ -87,7 +87,7 @@ def test_a_change_that_changes_nothing_is_refused():
     with pytest.raises(ValueError, match="none of the numbers"):
         scale_numbers(1, "kV")("kV = 2\n")
     with pytest.raises(ValueError, match="no kA"):
-        set_answer("kA", "1")("kV = 2\n")
+        make_wrong_answer("kA", "1")("kV = 2\n")
 
 
 def test_a_class_draws_numbers_of_its_own():

@@ -15,7 +15,7 @@ from sim.bench.mechanism import Sensor
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
-from sim.bench.slip import slip_voltage
+from sim.bench.slip import compute_slip_voltage
 from sim.bench.swerve import GRAVITY, SWERVE, SwerveDrive
 from sim.bench.swerve_logs import (
     MODULES,
@@ -32,7 +32,7 @@ from sim.bench.swerve_logs import (
 from sim.cli import sysid
 from sim.core.errors import BadRequest
 from sim.fit import fit
-from sim.fit.physics.inertia import moment_of_inertia
+from sim.fit.physics.inertia import compute_moment_of_inertia
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
 from sim.inspect.faults import FAULTS
@@ -96,7 +96,7 @@ def test_both_ways_of_it_are_mechanisms_of_the_bench():
 def test_the_catalogues_own_never_slip_at_the_step_of_wpilib(name):
     drawn = [MECHANISMS[name].draw(rng(seed)) for seed in range(200)]
 
-    assert min(slip_voltage(one) for one in drawn) > 7.0
+    assert min(compute_slip_voltage(one) for one in drawn) > 7.0
 
 
 # ---- slip ----
@@ -124,7 +124,7 @@ def test_wheels_that_slip_follow_the_closed_form(step, grip):
 
     expected = wheel * -np.expm1(-since / tau)
 
-    assert slip_voltage(one) < 2.6
+    assert compute_slip_voltage(one) < 2.6
     assert run.velocity[slipping] == pytest.approx(expected[slipping], abs=0.01 * wheel)
     assert run.velocity[-1] == pytest.approx((step - gains["kS"]) / gains["kV"], rel=0.01)
 
@@ -148,7 +148,7 @@ def test_the_step_of_ctres_generator_slips_a_kraken_drive_and_is_found_out(step,
     log = simulate(KRAKEN.translation, Routine(ramp=0.5, step=step), rng=rng())
 
     assert {one.fault for one in inspect(log).damages} == found
-    assert (step > slip_voltage(KRAKEN.translation)) == bool(found)
+    assert (step > compute_slip_voltage(KRAKEN.translation)) == bool(found)
 
 
 def test_the_rotation_step_of_ctres_generator_slips_too_and_two_radians_a_second_do_not():
@@ -157,8 +157,8 @@ def test_the_rotation_step_of_ctres_generator_slips_too_and_two_radians_a_second
     theirs, gentle = (rate * KRAKEN.lever_arm / top * 12.0 for rate in (math.pi, 2.0))
 
     assert theirs == pytest.approx(3.4, abs=0.05)
-    assert gentle < slip_voltage(KRAKEN.rotation) < theirs
-    assert slip_voltage(KRAKEN.rotation) == pytest.approx(2.4, abs=0.05)
+    assert gentle < compute_slip_voltage(KRAKEN.rotation) < theirs
+    assert compute_slip_voltage(KRAKEN.rotation) == pytest.approx(2.4, abs=0.05)
 
 
 def test_slip_makes_ka_too_large_and_leaves_kv():
@@ -208,9 +208,9 @@ def test_two_tests_tell_the_moment_of_inertia(mass, inertia, trackwidth, wheel, 
     drive = replace(
         KRAKEN, mass=mass, inertia=inertia, trackwidth=trackwidth, wheel_inertia=wheel, scrub=scrub
     )
-    step = Routine(ramp=0.5, step=0.9 * slip_voltage(drive.translation))
+    step = Routine(ramp=0.5, step=0.9 * compute_slip_voltage(drive.translation))
 
-    found = moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever_arm)
+    found = compute_moment_of_inertia(*both(drive, step), mass=mass, lever=drive.lever_arm)
 
     assert found.value == pytest.approx(own_share(drive), rel=0.01)
     assert found.error < 0.02 * found.value
@@ -226,8 +226,8 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
     light = replace(KRAKEN, wheel_inertia=0.0)
     turning, straight = both(light)
 
-    right = moment_of_inertia(turning, straight, mass=60.0, lever=light.lever_arm)
-    wrong = moment_of_inertia(turning, straight, mass=60.0, lever=0.3)
+    right = compute_moment_of_inertia(turning, straight, mass=60.0, lever=light.lever_arm)
+    wrong = compute_moment_of_inertia(turning, straight, mass=60.0, lever=0.3)
 
     assert (right.value, right.doubts) == (pytest.approx(5.0, rel=0.01), ())
     assert wrong.value == pytest.approx(3.54, abs=0.03)
@@ -248,14 +248,14 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
 def test_a_wrong_lever_is_named(times, says):
     turning, straight = both(KRAKEN)
 
-    found = moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever_arm * times)
+    found = compute_moment_of_inertia(turning, straight, mass=60.0, lever=KRAKEN.lever_arm * times)
 
     assert [doubt.code for doubt in found.doubts] == ["lever"]
     assert says in found.doubts[0].message
 
 
 def test_without_a_lever_the_speeds_tell_it():
-    found = moment_of_inertia(*both(KRAKEN), mass=60.0)
+    found = compute_moment_of_inertia(*both(KRAKEN), mass=60.0)
 
     assert found.lever == found.lever_seen == pytest.approx(KRAKEN.lever_arm, rel=1e-3)
     assert found.value == pytest.approx(own_share(KRAKEN), rel=0.01)
@@ -273,21 +273,21 @@ def test_a_robot_there_cannot_be_is_refused(change, says):
     turning, straight = both(KRAKEN)
 
     with pytest.raises(BadRequest, match=says):
-        moment_of_inertia(turning, straight, **{"mass": 60.0, **change})
+        compute_moment_of_inertia(turning, straight, **{"mass": 60.0, **change})
 
 
 def test_logs_that_changed_places_are_refused():
     turning, straight = both(KRAKEN)
 
     with pytest.raises(BadRequest, match="the log of turning is in meters"):
-        moment_of_inertia(straight, turning, mass=60.0)
+        compute_moment_of_inertia(straight, turning, mass=60.0)
     with pytest.raises(
         BadRequest, match="is in radians, so the lever cannot be computed from the speeds"
     ):
-        moment_of_inertia(turning, turning, mass=60.0)
+        compute_moment_of_inertia(turning, turning, mass=60.0)
     bad = replace(turning, gains={**turning.gains, "kA": -0.1})
     with pytest.raises(BadRequest, match="kA of turning is -0.1"):
-        moment_of_inertia(bad, straight, mass=60.0)
+        compute_moment_of_inertia(bad, straight, mass=60.0)
 
 
 # ---- its logs ----

@@ -28,7 +28,7 @@ def test_rows_of_four_are_one_mechanism(tmp_path: Path, test: str, type_: str) -
     assert [run.test for run in log.runs] == list(RUNS.values())[::-1]
     for key, name in RUNS.items():
         time, voltage, position, velocity = motion(key)
-        (run,) = log.runs_of_test(name)
+        (run,) = log.list_runs_of_test(name)
         assert run.time.tolist() == time.tolist()
         assert run.voltage.tolist() == voltage.tolist()
         assert run.position.tolist() == (position * 0.5).tolist()
@@ -51,7 +51,7 @@ def test_rotations_become_the_units_of_the_file_and_these_si(
 ) -> None:
     log = read_json(tmp_path, sysid(4, "Simple", units=units, unitsPerRotation=per_rotation))
 
-    (run,) = log.runs_of_test("dynamic-forward")
+    (run,) = log.list_runs_of_test("dynamic-forward")
     assert log.units == units.lower()
     assert run.velocity[-1] == pytest.approx(3.0 * si, rel=1e-15)
 
@@ -63,7 +63,7 @@ def test_rows_of_six_have_the_battery_and_no_word_about_units(tmp_path: Path) ->
     assert only_doubt(log).code == "units-unknown"
     assert "taken as meters" in only_doubt(log).message
     assert "--units" in only_doubt(log).message
-    (run,) = log.runs_of_test("dynamic-forward")
+    (run,) = log.list_runs_of_test("dynamic-forward")
     assert run.voltage[-1] == 6.0
     assert run.velocity[-1] == 3.0
     assert run.bus_voltage is not None
@@ -90,7 +90,9 @@ def test_units_one_says_go_before_those_of_the_file_with_a_doubt(tmp_path: Path)
     log = read_json(tmp_path, sysid(4, "Simple"), units="feet")
 
     assert log.units == "feet"
-    assert log.runs_of_test("dynamic-forward")[0].velocity[-1] == pytest.approx(3.0 * 0.5 * 0.3048)
+    assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] == pytest.approx(
+        3.0 * 0.5 * 0.3048
+    )
     assert only_doubt(log).code == "contradicting-units"
     assert "Meters" in only_doubt(log).message
     assert read_json(tmp_path, sysid(4, "Simple"), units="meters").doubts == ()
@@ -109,7 +111,7 @@ def test_a_drivetrain_is_the_mean_of_its_sides_or_the_one_asked_for(
     share = {"left": 1.0, "right": 1.1}.get(motor or "", 1.05)
     for key, name in RUNS.items():
         time, voltage, position, velocity = motion(key)
-        (run,) = log.runs_of_test(name)
+        (run,) = log.list_runs_of_test(name)
         assert run.time.tolist() == time.tolist()
         assert run.voltage.tolist() == voltage.tolist()
         np.testing.assert_allclose(run.position, share * 0.5 * position, rtol=1e-14)
@@ -136,7 +138,7 @@ def test_a_row_of_ten_whose_right_side_is_unused_is_one_mechanism(
     log = read_json(tmp_path, made)
 
     assert log.type == words.get("test", "").lower()
-    assert log.runs_of_test("dynamic-forward")[0].voltage[-1] == 6.0
+    assert log.list_runs_of_test("dynamic-forward")[0].voltage[-1] == 6.0
     assert log.doubts == ()
 
 
@@ -145,12 +147,12 @@ def test_the_nine_columns_of_2019_are_told_from_those_of_sysid_by_the_battery(
 ) -> None:
     made = {key: [row[:9] for row in rows] for key, rows in document(10).items()}
 
-    (run,) = read_json(tmp_path, made, motor="left").runs_of_test("dynamic-forward")
+    (run,) = read_json(tmp_path, made, motor="left").list_runs_of_test("dynamic-forward")
     assert run.voltage[-1] == 6.0
     assert run.bus_voltage is not None
     assert run.bus_voltage[-1] == 12.5
 
-    (run,) = read_json(tmp_path, document(9), motor="left").runs_of_test("dynamic-forward")
+    (run,) = read_json(tmp_path, document(9), motor="left").list_runs_of_test("dynamic-forward")
     assert run.voltage[-1] == 6.0
     assert run.bus_voltage is None
 
@@ -189,7 +191,7 @@ def test_repeated_rows_are_dropped_with_a_doubt(tmp_path: Path) -> None:
 
     log = read_json(tmp_path, made)
 
-    assert len(log.runs_of_test("dynamic-forward")[0]) == COUNT
+    assert len(log.list_runs_of_test("dynamic-forward")[0]) == COUNT
     assert only_doubt(log).code == "repeated-time"
 
 

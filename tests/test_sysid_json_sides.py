@@ -17,7 +17,7 @@ def test_an_angular_drivetrain_is_half_the_difference_of_its_sides(tmp_path: Pat
 
     log = read_json(tmp_path, made)
 
-    (run,) = log.runs_of_test("quasistatic-reverse")
+    (run,) = log.list_runs_of_test("quasistatic-reverse")
     _, voltage, _, velocity = motion("slow-backward")
     assert run.voltage.tolist() == voltage.tolist()
     np.testing.assert_allclose(run.velocity, 1.05 * 0.5 * velocity, rtol=1e-14)
@@ -124,7 +124,7 @@ def test_other_signs_of_one_mechanism_are_left_to_later_checks(
     assert log.doubts == ()
     for key, test in RUNS.items():
         sign = -1.0 if key in keys else 1.0
-        assert np.array_equal(log.runs_of_test(test)[0].voltage, sign * motion(key)[1])
+        assert np.array_equal(log.list_runs_of_test(test)[0].voltage, sign * motion(key)[1])
 
 
 def test_both_sides_against_the_tests_name_stay_as_recorded(tmp_path: Path) -> None:
@@ -134,7 +134,7 @@ def test_both_sides_against_the_tests_name_stay_as_recorded(tmp_path: Path) -> N
     log = read_json(tmp_path, made)
 
     assert log.doubts == ()
-    assert log.runs_of_test("dynamic-forward")[0].velocity[-1] < 0
+    assert log.list_runs_of_test("dynamic-forward")[0].velocity[-1] < 0
 
 
 def test_a_side_that_does_not_move_is_refused_unless_the_other_is_chosen(tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_a_side_that_does_not_move_is_refused_unless_the_other_is_chosen(tmp_pat
     with pytest.raises(MissingSignal, match="right encoder .*stands still.* --motor left"):
         read_json(tmp_path, made)
     assert (
-        read_json(tmp_path, made, motor="left").runs_of_test("dynamic-forward")[0].velocity[-1]
+        read_json(tmp_path, made, motor="left").list_runs_of_test("dynamic-forward")[0].velocity[-1]
         == 1.5
     )
 

@@ -26,7 +26,7 @@ from sim.inspect.detect_faults import inspect
 from sim.io import read, write
 from sim.io.entries.state import FOREVER
 from sim.io.formats.wpilog.growing import GrowingLog
-from sim.report.next_test import ENOUGH, advise_next, find_voltage_limit, settled_step
+from sim.report.next_test import ENOUGH, advise_next, find_settled_step, find_voltage_limit
 
 READ = PartReader().read_file
 SYSID = [sys.executable, "-c", "from sim.cli import main; main()"]
@@ -190,7 +190,7 @@ def test_a_run_that_is_damaged_is_repeated_before_others_are_asked_for():
 def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_through():
     robot = replace(MECHANISMS["drivetrain"], stator=40.0)
     log = simulate(robot, Routine(step=5.0), rng=np.random.default_rng(1), electrical=True)
-    run = log.runs_of_test("dynamic-forward")[0]
+    run = log.list_runs_of_test("dynamic-forward")[0]
     lasts, volts = find_voltage_limit(run)
     said = advise(log, last="dynamic-forward")
     freed = simulate(
@@ -200,7 +200,7 @@ def test_a_step_that_a_current_limit_held_down_is_repeated_with_what_it_let_thro
     assert 0.02 <= lasts < 0.5
     assert volts < 3.0
     assert said.startswith("dynamic-forward met a current limit or a weak battery: for ")
-    assert find_voltage_limit(freed.runs_of_test("dynamic-forward")[0]) is None
+    assert find_voltage_limit(freed.list_runs_of_test("dynamic-forward")[0]) is None
 
 
 def test_a_step_without_a_limit_is_not_one():
@@ -238,7 +238,7 @@ def test_a_step_that_met_its_end_is_repeated_with_one_that_settles_before():
     way=st.floats(0.01, 10.0),
 )  # fmt: skip
 def test_a_settled_step_has_95_percent_of_its_speed_at_the_end_of_the_way(kv, ka, ks, way):
-    volts = settled_step({"kS": ks, "kV": kv, "kA": ka}, way)
+    volts = find_settled_step({"kS": ks, "kV": kv, "kA": ka}, way)
     time_ = np.linspace(0.0, 3.0 * ka / kv, 2001)
     speed = (volts - ks) / kv * -np.expm1(-time_ * kv / ka)
     gone = float(np.sum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time_)))

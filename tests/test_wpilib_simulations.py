@@ -17,7 +17,7 @@ from wpilib_twins import simulation as wpilib
 from sim.bench.mechanism import Mechanism, Sensor
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
-from sim.bench.simulate import power_path_arrays, simulate
+from sim.bench.simulate import make_power_path_array, simulate
 from sim.core.log import KINDS
 from sim.physics.battery import Battery
 from sim.physics.engine import State, simulate_run
@@ -96,7 +96,7 @@ def apart_at_stops(built: Mechanism, name: str, twin, step: float | None = None)
     begin = 0.5 * (low + high)
     theirs = twin(bare(name), begin).follow(time, voltage)
     assert (theirs["position"].min(), theirs["position"].max()) == (low, high)
-    state, wires = State.cold_at(begin), power_path_arrays(built)
+    state, wires = State.cold_at(begin), make_power_path_array(built)
     ours = simulate_run(
         built.model, time=time, voltage=voltage, state=state, wires=wires, step=step
     )

@@ -74,7 +74,7 @@ def test_the_first_loop_is_left_out_where_the_state_is_stamped_later(tmp_path: P
     """On a robot every value has its own time; SysId draws lines to the times of the voltage."""
     log = sim.read(saved(tmp_path, Motor("main", late=(0, 30, 60)), state_late=100))
 
-    run = log.runs_of_test("quasistatic-forward")[0]
+    run = log.list_runs_of_test("quasistatic-forward")[0]
     u, x, v = expected("quasistatic-forward", range(1, 40))
     assert log.doubts == ()
     assert np.array_equal(run.voltage, u)
@@ -223,7 +223,7 @@ def test_dashes_in_names_are_split_by_the_mechanism(
 
     assert log.mechanism == mechanism
     assert log.doubts == ()
-    assert log.runs_of_test("dynamic-forward")[0].voltage[0] == 7.0 * sign
+    assert log.list_runs_of_test("dynamic-forward")[0].voltage[0] == 7.0 * sign
 
 
 def test_of_two_mechanisms_one_is_asked_for(tmp_path: Path, reads) -> None:
@@ -246,7 +246,7 @@ def test_two_motors_count_as_their_mean(tmp_path: Path, reads) -> None:
     log = sim.read(saved(tmp_path, LEFT, RIGHT))
 
     u, x, v = expected("dynamic-forward", range(39))
-    run = log.runs_of_test("dynamic-forward")[0]
+    run = log.list_runs_of_test("dynamic-forward")[0]
     np.testing.assert_allclose(run.voltage, 0.75 * u)
     np.testing.assert_allclose(run.position, 0.75 * x)
     np.testing.assert_allclose(run.velocity, 0.75 * v)
@@ -259,7 +259,7 @@ def test_two_motors_count_as_their_mean(tmp_path: Path, reads) -> None:
 def test_a_motor_is_chosen_by_its_name_or_its_end(tmp_path: Path, name: str) -> None:
     log = sim.read(saved(tmp_path, LEFT, RIGHT), motor=name)
 
-    assert log.runs_of_test("dynamic-forward")[0].voltage[0] == 3.5
+    assert log.list_runs_of_test("dynamic-forward")[0].voltage[0] == 3.5
     assert log.doubts == ()
 
 
@@ -282,7 +282,7 @@ def test_motors_against_each_other_are_not_averaged(tmp_path: Path, reads) -> No
     with pytest.raises(BadRequest) as refused:
         sim.read(path)
     reads(refused.value)
-    assert sim.read(path, motor="right").runs_of_test("dynamic-forward")[0].voltage[0] == -7.0
+    assert sim.read(path, motor="right").list_runs_of_test("dynamic-forward")[0].voltage[0] == -7.0
 
 
 def test_a_motor_that_lacks_a_signal_is_left_out_with_a_word(tmp_path: Path, reads) -> None:
@@ -290,4 +290,4 @@ def test_a_motor_that_lacks_a_signal_is_left_out_with_a_word(tmp_path: Path, rea
 
     assert codes(log) == ["incomplete-motor"]
     reads(log.doubts[0].message)
-    assert log.runs_of_test("dynamic-forward")[0].voltage[0] == 7.0
+    assert log.list_runs_of_test("dynamic-forward")[0].voltage[0] == 7.0

@@ -19,7 +19,7 @@ METERS = ("volt", "meter", "meters_per_second")
 
 def scales(log: Log) -> tuple[float, float, float]:
     """What the little robot's numbers were multiplied by: voltage, position, velocity."""
-    run = log.runs_of_test("dynamic-forward")[0]
+    run = log.list_runs_of_test("dynamic-forward")[0]
     x, v = motion("dynamic-forward", 3)
     return run.voltage[3] / 7.0, run.position[3] / x, run.velocity[3] / v
 

@@ -39,10 +39,10 @@ def draw(student: str) -> Variant:
 
 def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
+    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
 
     per = find_unit(UNITS[kind])
-    found = gains_per(MECHANISMS[kind].draw(rng).gains, factor=per.si)
+    found = convert_gains(MECHANISMS[kind].draw(rng).gains, factor=per.si)
     gains = {name: _rounded(found[name]) for name in ("kS", "kV", "kA")}
     moments = {}
     for name, volts in SPEED.items():

@@ -43,14 +43,14 @@ def draw(student: str) -> Variant:
 
 def _drawn(kind: str, rng: "np.random.Generator") -> Variant:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
-    from sim.core.units import gains_per  # noqa: PLC0415 - the same
+    from sim.core.units import convert_gains  # noqa: PLC0415 - the same
 
     analysis, pairs = KINDS[kind]
     shown_in, used_in = pairs[int(rng.integers(len(pairs)))]
     made = MECHANISMS[kind].draw(rng)
     if kind == "shooter":
         made = replace(made, ratio=made.ratio * GEARED)
-    found = gains_per(made.gains, factor=UNITS[shown_in][1])
+    found = convert_gains(made.gains, factor=UNITS[shown_in][1])
     found["kP"] = found["kV"] * rng.uniform(*KP)
     names = ("kS", *(("kG",) if "kG" in found else ()), "kV", "kA", "kP")
     shown = {name: float(f"{found[name]:.{DIGITS}g}") for name in names}

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import cache_draw_on_disk
+from grader.draw_cache import cache_generated_data
 from grader.variant import cache_draws, make_student_rng
 
 from .gap import gap, noise, with_effects
@@ -75,7 +75,7 @@ class Variant:
 
 
 @cache_draws
-@cache_draw_on_disk
+@cache_generated_data
 def draw(student: str) -> Variant:
     """A learner's mechanism, always the same one."""
     return draw_determined(make_student_rng(student, "exercise12"), HIDDEN)

@@ -17,7 +17,7 @@ from grader.course import find_course, load_progress
 from grader.exercise import Exercise, find_exercise
 from sim import read
 from sim.core.errors import Refusal
-from sim.core.units import find_unit, gains_per
+from sim.core.units import convert_gains, find_unit
 from sim.physics.replay import replay_log
 from sim.reconcile.residual_map import map_residuals
 
@@ -45,7 +45,7 @@ def main() -> int:
     names = room.names_of(asked.effects) if asked.effects else ()
     model = room.with_effects(logs["log"], names)
     per = find_unit(logs["log"].units)
-    gains = gains_per(model.gains, factor=per.si)
+    gains = convert_gains(model.gains, factor=per.si)
     _say(", ".join(f"{name} = {value:.4g}" for name, value in gains.items()))
     for part in model.parts:
         for name, one in part.to_json(per).items():

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import AnswerKey, judge_number, number_check, read_answer_number
+from grader.answer import AnswerKey, judge_number, make_number_check, read_answer_number
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.student_files import Made, write_student_files
@@ -70,7 +70,7 @@ def made(variant: Variant) -> dict[str, Made]:
 
         one = record_wall_push(variant.drive, rng=np.random.default_rng([variant.seed, 3]))
         rows = zip(one.time, one.voltage, one.current, one.velocity, strict=True)
-        head = "time_s,motor_voltage,stator_current,wheel_velocity\n"
+        head = "time_s,compute_motor_voltage,stator_current,wheel_velocity\n"
         text = "".join(f"{t:.2f},{u:.3f},{i:.1f},{v:.3f}\n" for t, u, i, v in rows)
         path.write_bytes((head + text).encode())
 
@@ -133,9 +133,9 @@ def read(path: Path, *, student: str) -> Answers:
     return Answers({**given, **named}, AnswerKey(variant.asked, scene), variant)
 
 
-ks = number_check("kS", "The kS of going straight, the voltage that friction takes.", points=1)
-kv = number_check("kV", "The kV of going straight, in V·s/m.", points=1)
-ka = number_check("kA", "The kA of going straight, in V·s²/m.", points=1)
+ks = make_number_check("kS", "The kS of going straight, the voltage that friction takes.", points=1)
+kv = make_number_check("kV", "The kV of going straight, in V·s/m.", points=1)
+ka = make_number_check("kA", "The kA of going straight, in V·s²/m.", points=1)
 
 
 @check(points=2)
@@ -151,10 +151,10 @@ def worn(answers: Answers) -> None:
     check_choice(answers.given.get("worn"), answers.variant.worn, MODULES, why=why)
 
 
-worn_radius = number_check(
+worn_radius = make_number_check(
     "worn_radius", "The radius of the worn wheel, from the slow spin.", points=2
 )
-lever = number_check(
+lever = make_number_check(
     "lever",
     "The lever: from the middle of the robot to the line along which a wheel pushes.",
     points=1,
@@ -180,7 +180,9 @@ def rate_unit(answers: Answers) -> None:
     check_choice(answers.given.get("rate_unit"), RATES[1], RATES, why=why, also=also)
 
 
-ka_turning = number_check("kA_turning", "The kA of turning on the spot, in V·s²/rad.", points=2)
+ka_turning = make_number_check(
+    "kA_turning", "The kA of turning on the spot, in V·s²/rad.", points=2
+)
 
 
 @check(points=2)
@@ -189,7 +191,7 @@ def inertia(answers: Answers) -> str | None:
     return _computed("inertia", answers, points=2)
 
 
-slip_current = number_check(
+slip_current = make_number_check(
     "slip_current", "The current of one motor at which the wheels begin to slip.", points=1
 )
 

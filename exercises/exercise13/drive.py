@@ -80,17 +80,17 @@ class Variant:
     @property
     def step(self) -> float:
         """[V] of the dynamic tests: well below what makes the wheels slip."""
-        from sim.bench.slip import slip_voltage  # noqa: PLC0415 - numpy only where it is needed
+        from sim.bench.slip import compute_slip_voltage  # noqa: PLC0415 - numpy only where it is needed
 
-        return math.floor(8.0 * slip_voltage(self.drive.translation)) / 10.0
+        return math.floor(8.0 * compute_slip_voltage(self.drive.translation)) / 10.0
 
     @property
     def volts_per_angular_speed(self) -> float:
         """[V·s/rad] by which the program turns a rate into a voltage."""
-        from sim.physics.motors import theoretical_kv  # noqa: PLC0415 - the same
+        from sim.physics.motors import compute_theoretical_kv  # noqa: PLC0415 - the same
 
         drive = self.drive
-        paper = theoretical_kv(drive.motor, ratio=drive.ratio, radius=drive.wheel_radius)
+        paper = compute_theoretical_kv(drive.motor, ratio=drive.ratio, radius=drive.wheel_radius)
         return paper * drive.lever_arm
 
     @property

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.answer import HALF, AnswerKey, number_check, read_answer_number
+from grader.answer import HALF, AnswerKey, make_number_check, read_answer_number
 from grader.check import WrongAnswer, check
 from grader.choice_answer import check_choice
 from grader.consequence import Consequence
@@ -83,10 +83,10 @@ def consequence(answers: Answers) -> Consequence | None:
     return outcome(answers.given, answers.variant)
 
 
-elevator_kg = number_check(
+elevator_kg = make_number_check(
     "elevator_kG", "The elevator's kG, the voltage that gravity takes.", points=1
 )
-elevator_ks = number_check(
+elevator_ks = make_number_check(
     "elevator_kS", "The elevator's kS, the voltage that friction takes.", points=1
 )
 
@@ -103,10 +103,10 @@ def elevator_class(answers: Answers) -> None:
     _word("elevator_class", "ElevatorFeedforward", answers, choices=CLASSES)
 
 
-arm_kg = number_check(
+arm_kg = make_number_check(
     "arm_kG", "The arm's kG, the voltage that gravity takes while the arm is horizontal.", points=1
 )
-arm_ks = number_check("arm_kS", "The arm's kS, the voltage that friction takes.", points=1)
+arm_ks = make_number_check("arm_kS", "The arm's kS, the voltage that friction takes.", points=1)
 
 
 @check(points=1)

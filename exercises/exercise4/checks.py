@@ -88,7 +88,7 @@ def read(path: Path, *, student: str, run: bool = True) -> Code:  # noqa: ARG001
         bench.refuse_tampering(path)
     code = Code(facts)
     if run and facts.language == "python" and bench.is_robotpy_installed() and not _mistaken(code):
-        return Code(facts, bench.run(path, facts.class_name))
+        return Code(facts, bench.run_sysid_routine(path, facts.class_name))
     return code
 
 

@@ -91,10 +91,10 @@ def _built(kind: str, rng: "np.random.Generator") -> "Mechanism":
 
 
 def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machine:
-    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - numpy only where it is needed
+    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - numpy only where it is needed
 
     per = find_unit(UNITS.get(kind, "rotations"))
-    found = gains_per(built.gains, factor=per.si)
+    found = convert_gains(built.gains, factor=per.si)
     gains = [_rounded(found.get(name, 0.0)) for name in ("kS", "kV", "kA", "kG")]
     machine = Machine(
         kind,

@@ -25,7 +25,7 @@ from wpilib.sysid import SysIdRoutineLog
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
 from sim.bench.sensor_model import read_sensor
-from sim.bench.simulate import power_path_arrays
+from sim.bench.simulate import make_power_path_array
 from sim.core.vocabulary import FOUR_TESTS
 from sim.physics.engine import State, simulate_run
 
@@ -90,7 +90,7 @@ class Bench:
 
     def __init__(self, drive: Drive, mechanism: Mechanism) -> None:
         self.drive, self.mechanism = drive, mechanism
-        self.state, self.wires = State(), power_path_arrays(mechanism)
+        self.state, self.wires = State(), make_power_path_array(mechanism)
         self.encoder = EncoderSim(drive.encoder)
         self.rng = np.random.default_rng(6)
 

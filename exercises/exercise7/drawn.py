@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from grader.draw_cache import cache_draw_on_disk
+from grader.draw_cache import cache_generated_data
 from grader.variant import cache_draws, make_student_rng
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class Case:
 
 
 @cache_draws
-@cache_draw_on_disk
+@cache_generated_data
 def draw(student: str) -> tuple[Case, ...]:
     """A learner's logs, always the same ones."""
     rng = make_student_rng(student, "exercise7")

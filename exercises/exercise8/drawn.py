@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from grader.answer import AskedNumber, ask_gains
-from grader.draw_cache import cache_draw_on_disk
+from grader.draw_cache import cache_generated_data
 from grader.variant import cache_draws, make_student_rng
 
 from .left import left
@@ -66,7 +66,7 @@ class Variant:
 
 
 @cache_draws
-@cache_draw_on_disk
+@cache_generated_data
 def draw(student: str) -> Variant:
     """A learner's log, always the same one."""
     rng = make_student_rng(student, "exercise8")
@@ -83,7 +83,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
     from sim.core.errors import Refusal  # noqa: PLC0415 - the same
-    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
+    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
     from sim.inspect.contaminate import contaminate  # noqa: PLC0415 - numpy only where it is needed
 
     mechanism = MECHANISMS[kind].draw(rng)
@@ -106,7 +106,7 @@ def _one(kind: str, rng: "np.random.Generator") -> Variant | None:
     return Variant(
         mechanism,
         replace(log, runs=spiky),
-        ask_gains(gains_per(mechanism.gains, factor=per.si), position=per.symbol),
+        ask_gains(convert_gains(mechanism.gains, factor=per.si), position=per.symbol),
         valid,
         clean,
         Preparation(

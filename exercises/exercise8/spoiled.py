@@ -31,7 +31,7 @@ def stopped(log: "Log", *, rng: "np.random.Generator") -> "tuple[Log, dict[str, 
     impacts = {}
     for kind, share in STOPS.items():
         test = f"{kind}-{rng.choice(('forward', 'reverse'))}"
-        (run,) = log.runs_of_test(test)
+        (run,) = log.list_runs_of_test(test)
         at = float(rng.uniform(*share) * (run.time[-1] - run.time[0]))
         severity = float(rng.uniform(*PRESSED))
         log = contaminate(log, "hard-stop", severity=severity, test=test, at=at, rng=rng).log

@@ -94,7 +94,7 @@ def draw_solvable(
     """
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
+    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
     from sim.fit import fit  # noqa: PLC0415 - numpy only where it is needed
 
     for attempt in range(MOST_DRAWS):
@@ -105,7 +105,7 @@ def draw_solvable(
         log = simulate(mechanism, routine, rng=rng, period=PERIOD)
         found = fit(log, type=mechanism.type, method="sysid").in_units(mechanism.units)
         per = find_unit(mechanism.units)
-        gains = gains_per(mechanism.gains, factor=per.si)
+        gains = convert_gains(mechanism.gains, factor=per.si)
         asked = ask_gains(gains, position=per.symbol)
         found_all = all(one.is_right(found.gains[name]) for name, one in asked.items())
         if found_all and not _alike(asked):

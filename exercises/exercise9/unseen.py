@@ -108,7 +108,7 @@ def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
     from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
     from sim.bench.routine import Routine  # noqa: PLC0415 - the same
     from sim.bench.simulate import simulate  # noqa: PLC0415 - the same
-    from sim.core.units import find_unit, gains_per  # noqa: PLC0415 - the same
+    from sim.core.units import convert_gains, find_unit  # noqa: PLC0415 - the same
 
     routine = Routine(ramp=RAMP, step=STEPS.get(recipe.kind, USUAL_STEP), timeout=TIMEOUT)
     for attempt in range(MOST_DRAWS):
@@ -119,7 +119,7 @@ def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
         log = simulate(built, routine, rng=rng, period=recipe.period)
         log = replace(log, runs=tuple(run for run in log.runs if run.test != recipe.without))
         per = find_unit(built.units)
-        asked = ask_gains(gains_per(built.gains, factor=per.si), position=per.symbol)
+        asked = ask_gains(convert_gains(built.gains, factor=per.si), position=per.symbol)
         if _fair(log, asked, si=per.si, noisy=recipe.noisy):
             around = scene(built, log, asked, ramp=RAMP, period=recipe.period)
             around = replace(around, ratio=1.0, motors=1)  # a function knows of neither

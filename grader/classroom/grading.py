@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from grader.check import Status
 from grader.classroom.bundle import unpack_course
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
 
-Record = dict[str, object]
+Record = dict[str, Any]  # as JSON holds it
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
 
 
 def make_ungraded_record(job: GradingJob, name: str, reason: str) -> Record:
-    """The record of an exercise whose grading came to no end.
+    """The record of an exercise whose grading did not end.
 
     Args:
         job: the student's.
@@ -148,9 +148,8 @@ def make_grade_record(grade: Grade) -> Record:
 
 
 def make_ungraded_student(
-    student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str,
-    digest: str = "",
-) -> GradedStudent:  # fmt: skip
+    student: str, asked: Sequence[Exercise], *, handed_in: Collection[str], reason: str
+) -> GradedStudent:
     """The results of a student of whom nothing could be graded.
 
     Args:
@@ -158,7 +157,6 @@ def make_ungraded_student(
         asked: the exercises.
         handed_in: of which exercises there was something.
         reason: why it could not be graded, one line.
-        digest: as in ``Graded``; empty keeps the results from being taken for final.
     """
     records = tuple(
         make_missing_record(one, student, status="ungradable", reason=reason)
@@ -166,4 +164,4 @@ def make_ungraded_student(
         else make_missing_record(one, student, status=MISSING, reason=NOTHING)
         for one in asked
     )
-    return GradedStudent(student, digest, records)
+    return GradedStudent(student, "", records)  # no digest: it is not taken for final

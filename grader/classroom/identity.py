@@ -23,7 +23,7 @@ def check_identities(
         secret: of the class; None where everybody's numbers are those of self-study.
 
     Returns:
-        The same, with a problem where the numbers are not the student's own.
+        The submissions, with a problem where the numbers are not the student's own.
 
     Raises:
         BadRequest: a class issued packages with its secret, and no secret was named.
@@ -95,7 +95,7 @@ def _by_name(one: Submission, student: str) -> Submission:
 
 
 def _read_started_student(one: Submission) -> str:
-    """Who the course says is learning; empty where it says nothing that can be read."""
+    """The student that the course names; empty if it names none."""
     try:
         raw = tomllib.loads(one.identities[PROGRESS].decode("utf-8"))
         return check_student_name(str(raw["student"]))

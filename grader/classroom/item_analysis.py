@@ -25,7 +25,7 @@ class ItemStatistics:
         share: mean share of the points; NaN if nobody tried.
         discrimination: correlation of its points with those of everything else; None where it says
             nothing: too few students, or all alike.
-        misconceptions: code -> how many were told of it, most frequent first.
+        misconceptions: code -> how many students showed it, most frequent first.
         wrong: a wrong answer as it was given -> how often, only what occurred more than once.
     """
 
@@ -67,7 +67,7 @@ def analyze_items(students: Sequence[GradedStudent]) -> tuple[ItemStatistics, ..
     rows: dict[tuple[str, str], list[tuple[float, float, Mapping[str, Any]]]] = {}
     for one in students:
         graded = [record for record in one.records if _has_answer(record)]
-        total = sum(_read_number(record, "score") for record in graded)
+        total = sum(float(record["score"]) for record in graded)
         for record in graded:
             for check in _list_checks(record):
                 key = (str(record["exercise"]), str(check["id"]))
@@ -86,7 +86,7 @@ def summarize_exercises(students: Sequence[GradedStudent]) -> tuple[ExerciseStat
 
 
 def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, int], ...]:
-    """Code -> how many students were told of it, most frequent first."""
+    """Code -> how many students showed it, most frequent first."""
     return _rank_texts(
         code
         for one in students
@@ -100,14 +100,10 @@ def count_misconceptions(students: Sequence[GradedStudent]) -> tuple[tuple[str, 
 
 
 def _summarize_exercise(name: str, records: Sequence[Mapping[str, Any]]) -> ExerciseStatistics:
-    shares = [
-        _read_number(one, "score") / _read_number(one, "max_score")
-        for one in records
-        if _has_answer(one)
-    ]
+    shares = [float(one["score"]) / float(one["max_score"]) for one in records if _has_answer(one)]
     return ExerciseStatistics(
         name,
-        max(_read_number(one, "max_score") for one in records),
+        max(float(one["max_score"]) for one in records),
         sum(one["status"] != MISSING for one in records),
         sum(one["status"] == "passed" for one in records),
         sum(one["status"] == "ungradable" for one in records),
@@ -136,7 +132,7 @@ def _analyze_item(
 
 
 def _correlate(one: Sequence[float], other: Sequence[float]) -> float | None:
-    """Pearson's; None where it cannot be told."""
+    """Pearson's correlation; None if it is undefined."""
     if len(one) < FEWEST:
         return None
     mean_one, mean_other = fmean(one), fmean(other)
@@ -155,10 +151,6 @@ def _has_answer(record: Mapping[str, Any]) -> bool:
 def _list_checks(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
     found: Sequence[Mapping[str, Any]] = record["checks"]
     return found
-
-
-def _read_number(record: Mapping[str, Any], name: str) -> float:
-    return float(record[name])
 
 
 def _rank_texts(texts: Iterable[str]) -> tuple[tuple[str, int], ...]:

@@ -105,7 +105,7 @@ def _fill_class_page(results: ClassResults) -> dict[str, Any]:
 def _explain_misconception(code: str) -> str:
     """What puts a misconception right, and which lesson shows it; empty for a code of no list."""
     known = MISCONCEPTIONS.get(code)
-    return f"{known.says} See {known.where}." if known else ""
+    return f"{known.says} See {known.reference}." if known else ""
 
 
 def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from grader.classroom.submission_names import Identities
-from sim.bench.dataset.roster import distinct_names
-from sim.bench.dataset.roster_file import read_roster
+from sim.bench.dataset.roster import make_distinct_names, read_roster
 from sim.core.errors import BadRequest
 
 COLUMNS = ("student", "sis login id", "login", "email", "sis user id", "id", "name")
@@ -52,7 +51,7 @@ def read_class_roster(path: Path) -> Roster:
         (f"{path}, line {number}", row[place].strip() if place < len(row) else "")
         for number, row in roster.rows
     ]
-    names = distinct_names(cells)
+    names = make_distinct_names(cells)
     rows = {
         name: dict(zip(roster.header, row, strict=False))
         for name, (_, row) in zip(names, roster.rows, strict=True)

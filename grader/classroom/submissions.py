@@ -133,7 +133,7 @@ def find_submissions(
 
 
 def find_stray_files(folder: Path) -> tuple[str, ...]:
-    """Names of files in a class's folder that no student can be told from."""
+    """Names of files in a class's folder that belong to no known student."""
     taken = {part.path for part in _list_parts(folder)}
     return tuple(
         _format_name(path.name)

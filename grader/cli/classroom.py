@@ -7,6 +7,7 @@ import click
 
 from grader.terminal import print_error, print_lines, style_line, wrap_text
 from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT
+from sim.support.printable import list_first
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,9 +70,8 @@ def class_(  # noqa: PLR0917 - click passes options by name
 
     FOLDER contains a folder or zip file for each student. In it, each answer is in a folder with
     the name of its exercise (exercise4/answers.toml). Downloads of Canvas, Moodle, Google Classroom
-    and GitHub Classroom can be graded as they are. The command writes an overview (index.html), a
-    page for each student, gradebook.csv and the files of --export. Results are kept: if the command
-    was stopped, run it again to continue.
+    and GitHub Classroom can be graded as they are. The command writes index.html (overview), a page
+    for each student, gradebook.csv and the files of --export. Run it again to continue after a stop.
 
     Exit codes: 0 all answers were graded, 1 some could not be graded, 2 could not do it.
     """
@@ -154,7 +154,7 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
     if nameless:
         print_error(
             "these students worked without a name, so they are graded on the numbers for no name: "
-            f"{_format_first_names(nameless)}"
+            f"{list_first(nameless, most=SHOWN, separator='; ')}"
         )
     matched = [
         f"{one.place.name} as {one.student}"
@@ -162,17 +162,11 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
         if not one.problem and one.student.casefold() not in one.place.name.casefold()
     ]
     if matched:
-        print_error(f"found on the roster: {_format_first_names(matched)}")
-
-
-def _format_first_names(names: "Sequence[str]") -> str:
-    """The first few of many, and how many more there are."""
-    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-    return "; ".join(names[:SHOWN]) + more
+        print_error(f"found on the roster: {list_first(matched, most=SHOWN, separator='; ')}")
 
 
 def _decide_running(asked: "Sequence[Exercise]", *, run: bool | None, cluster: str | None) -> bool:
-    """Whether students' code is run: as told, else where it does no harm; says what that means."""
+    """Whether students' code is run: as chosen, else where it is safe; prints what that means."""
     from grader.isolation import find_isolation_level  # noqa: PLC0415 - --help must not wait for it
 
     if run is False or not any(one.runs_code for one in asked):
@@ -201,7 +195,7 @@ def _run(
     from grader.classroom.class_grading import grade_class, plan_grading  # noqa: PLC0415 - --help must not wait
     from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import available_cores  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import count_available_cores  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     store = ResultStore(out)
@@ -218,7 +212,8 @@ def _run(
 
         try:  # one more than there are cores, for while one waits for a learner's code
             return grade_class(
-                work, left, store, processes=processes or available_cores() + 1, cluster=cluster,
+                work, left, store, cluster=cluster,
+                processes=processes or count_available_cores() + 1,
                 say=say, stop_if_asked=stop_if_noted,
             )  # fmt: skip
         except KeyboardInterrupt:

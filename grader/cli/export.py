@@ -117,7 +117,7 @@ def github(output: Path, only: tuple[str, ...]) -> int:
 
 
 def _find_asked_exercises(only: tuple[str, ...]) -> "tuple[Path, tuple[Exercise, ...]]":
-    """The course folder, and the exercises asked for.
+    """The course folder, and the chosen exercises.
 
     Raises:
         BadRequest: there is no such exercise, or none at all.

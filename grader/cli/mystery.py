@@ -31,7 +31,7 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     from grader.mystery import (  # noqa: PLC0415 - --help has to start at once
         draw_mystery,
         find_mystery_folder,
-        grade_mystery,
+        grade_mystery_answer,
         load_state,
         open_mystery,
         save_state,
@@ -60,7 +60,7 @@ def mystery(answer: tuple[str, ...], student: str | None, *, give_up: bool, plai
     if not answer:
         print_lines(_format_task(state, one, place))
         return DONE
-    result = grade_mystery(one, " ".join(answer), student=who)
+    result = grade_mystery_answer(one, " ".join(answer), student=who)
     print_lines(format_checks(result, plain=plain))
     if result.status != "passed":
         print_lines(

@@ -9,6 +9,7 @@ from grader.terminal import print_error, print_lines, style_line
 from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 from sim.support.command_line import DONE, NOT_RIGHT
+from sim.support.printable import list_first
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -98,10 +99,9 @@ def refuse_secret_inside(secret: Path, folders: "Mapping[str, Path]") -> None:
 
 
 def report_left_out(left_out: "Sequence[str]") -> None:
-    """Say which files of the course folder students do not get."""
+    """Print which files of the course folder students do not get."""
     if left_out:
-        more = f" and {len(left_out) - NAMED} more" if len(left_out) > NAMED else ""
-        print_error(f"left out, as no part of the course: {', '.join(left_out[:NAMED])}{more}")
+        print_error(f"left out, as no part of the course: {list_first(left_out, most=NAMED)}")
 
 
 def _release(
@@ -119,7 +119,7 @@ def _release(
     from grader.package_files import select_package_files  # noqa: PLC0415 - the same
     from grader.release import StudentPackage, make_student_package, zip_files  # noqa: PLC0415 - the same
     from grader.variant import make_folder_name  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import count_available_cores, run_jobs_locally  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     students = tuple(read_class_roster(roster).rows) if roster else ()
@@ -139,7 +139,10 @@ def _release(
     write_file(output / "course.zip", everybody)
     with progress_bar("students", len(packages)) as (step, _):
         made = run_jobs_locally(
-            make_student_package, packages, processes=processes or available_cores(), worth=WORTH
+            make_student_package,
+            packages,
+            processes=processes or count_available_cores(),
+            worth=WORTH,
         )
         for student, content in made:
             write_file(output / "students" / f"{make_folder_name(student)}.zip", content)
@@ -161,7 +164,7 @@ def _release(
 
 
 def write_file(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all.
+    """Write a file atomically.
 
     Raises:
         BadRequest: it cannot be written.

@@ -8,7 +8,7 @@ from grader.classroom.atomic_files import write_private_file
 from grader.edition.notebook_execution import execute_notebook
 from grader.edition.notebook_html import LessonPart, split_notebook
 from sim.core.errors import BadRequest
-from sim.plot.animation import allow_script, read_script
+from sim.plot.animation import make_script_source, read_script
 from sim.report.page_file import load_templates
 
 FOLDER = Path(__file__).parent
@@ -30,17 +30,17 @@ class Lesson:
 
     @property
     def title(self) -> str:
-        """Its first heading."""
+        """The lesson's first heading."""
         return self.parts[0].heading
 
     @property
-    def page(self) -> str:
-        """The name of its page."""
+    def page_file(self) -> str:
+        """The file name of the lesson's page."""
         return f"{self.name}.html"
 
     @property
-    def slides(self) -> str:
-        """The name of its slides."""
+    def slides_file(self) -> str:
+        """The file name of the lesson's slides."""
         return f"{self.name}-slides.html"
 
 
@@ -67,11 +67,11 @@ def build_pages(
         say(path.stem)
         lessons.append(Lesson(path.stem, split_notebook(execute_notebook(path))))
     for place, lesson in enumerate(lessons):
-        before = lessons[place - 1].page if place else ""
-        after = lessons[place + 1].page if place + 1 < len(lessons) else ""
+        before = lessons[place - 1].page_file if place else ""
+        after = lessons[place + 1].page_file if place + 1 < len(lessons) else ""
         for slides in (False, True):
             text = _write_page(lesson, before=before, after=after, slides=slides)
-            write_private_file(folder / (lesson.slides if slides else lesson.page), text)
+            write_private_file(folder / (lesson.slides_file if slides else lesson.page_file), text)
     write_private_file(folder / "handout.html", _write_handout(lessons))
     text = _fill("index.html.jinja", lessons=lessons)
     return write_private_file(folder / "index.html", text)
@@ -85,9 +85,9 @@ def _write_page(lesson: Lesson, *, before: str, after: str, slides: bool) -> str
         before=before,
         after=after,
         slides=slides,
-        scripts=" ".join(allow_script(text) for text in (read_script(), SLIDES)),
+        scripts=" ".join(make_script_source(text) for text in (read_script(), SLIDES)),
         slides_script=SLIDES,
-        other=lesson.page if slides else lesson.slides,
+        other=lesson.page_file if slides else lesson.slides_file,
     )
 
 

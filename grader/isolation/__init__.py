@@ -14,7 +14,7 @@ What has to run as a whole program, as a robot does, is confined in the same way
 others to judge.
 """
 
-from grader.isolation.result_parsing import CallResult, one_line
+from grader.isolation.result_parsing import CallResult, format_one_line
 from grader.isolation.sandbox_parent import (
     FunctionCall,
     Limits,
@@ -31,7 +31,7 @@ __all__ = [
     "Limits",
     "SandboxOutcome",
     "find_isolation_level",
-    "one_line",
+    "format_one_line",
     "run_functions",
     "run_program",
     "scratch_folder",

@@ -39,10 +39,10 @@ def find_abi_version() -> int:
     return max(found, 0)
 
 
-def restrict_files(
+def restrict_file_access(
     *, readable: Iterable[Path], folder: Path, hidden: Path, newest: int | None = None
 ) -> int:
-    """From here on this process reads only Python and ``readable``, and writes only ``folder``.
+    """Let this process only read Python's files and ``readable``, and write only ``folder``.
 
     Args:
         readable: files and folders besides Python's own library and the system's.

@@ -41,7 +41,7 @@ class ParsedResults:
 
 
 def parse_results(raw: bytes, *, nonce: str, file: str) -> ParsedResults:
-    """Read the lines of a child.
+    """Parse the result lines that a child process wrote.
 
     Args:
         raw: what came through the pipe.
@@ -86,7 +86,7 @@ def _read_answer(said: Mapping[str, object], file: str) -> CallResult:
     for pair in pairs:
         if not (isinstance(pair, list) and len(pair) == 2 and isinstance(pair[0], str)):  # noqa: PLR2004 - a name and what it stands for
             continue
-        name, value = one_line(pair[0]), pair[1]
+        name, value = format_one_line(pair[0]), pair[1]
         if type(value) in {int, float} and _require_finite(value):
             numbers[name] = float(value)
         else:
@@ -116,11 +116,11 @@ def _describe_kind(value: object) -> str:
 
 def _describe_type(told: Mapping[str, object]) -> str:
     """What the child says of the type of something, in words."""
-    name, of = one_line(told.get("is")), told.get("of")
+    name, of = format_one_line(told.get("is")), told.get("of")
     if name == "ndarray":
-        return f"an array of shape {one_line(of)}"
+        return f"an array of shape {format_one_line(of)}"
     if name == "str":
-        return f'the text "{one_line(of)}"'
+        return f'the text "{format_one_line(of)}"'
     poses = isinstance(of, list) and ("int" in of or "float" in of)
     return f"a {name}, which only poses as a number" if poses else f"a {name}"
 
@@ -131,10 +131,10 @@ def _describe_crash(told: object, file: str) -> str:
         return f"{file} stopped"
     line = told.get("line")
     where = f"{file}, line {line}" if type(line) is int else file
-    return f"{where}: {one_line(told.get('says'))}"
+    return f"{where}: {format_one_line(told.get('says'))}"
 
 
-def one_line(text: object) -> str:
-    """One line of what can be printed, and not too much of it."""
+def format_one_line(text: object) -> str:
+    """Text in one line of printable characters, and not too long."""
     kept = "".join(sign if sign.isprintable() else " " for sign in str(text)[: 2 * LONGEST])
     return kept if len(kept) <= LONGEST else f"{kept[:LONGEST]}…"

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from grader.isolation.landlock import restrict_files
+from grader.isolation.landlock import restrict_file_access
 from grader.isolation.limits import end_with_parent, set_limits
 from grader.isolation.seccomp import forbid_syscalls
 
@@ -107,7 +107,7 @@ def confine_process(orders: Mapping[str, Any]) -> dict[str, object]:
     hidden = HERE.parents[1]
     asked, confined = orders["limits"], orders["confined"]
     newest = orders["landlock_abi"]
-    landlock = confined and restrict_files(
+    landlock = confined and restrict_file_access(
         readable=readable, folder=Path.cwd(), hidden=hidden, newest=newest
     )
     limited = set_limits(**asked, processes=True)

@@ -1,12 +1,13 @@
 """Robot code in, facts out: Java and RobotPy are parsed, never executed.
 
-    file ──source──▶ text ──java | python──▶ common syntax ──names──▶ routine ──▶ RoutineFacts
+    file ──source──▶ text ──java | python──▶ ir ──symbol_table──▶ routine ──▶ RoutineFacts
 
-``source`` refuses what is no text, ``java`` and ``python`` bring both languages to the small
-``syntax``, and everything after that is written once: ``names`` and ``meaning`` find what a name
-stands for, ``measure`` works out a constant, ``trace`` follows a callback (``statements`` and
-``flow`` step by step; ``drive`` and ``logged`` note what they are after), ``motors`` knows who
-follows whom, and ``routine`` collects the facts. Words that change with the season are in
+``source`` refuses what is no text, ``java`` and ``python`` bring both languages to the small syntax
+of ``ir``, and everything after that is written once: ``symbol_table`` and ``name_resolution`` find
+what a name stands for, ``constant_folding`` works out a constant, ``callback_interpreter`` follows
+a callback (``statement_interpreter`` and ``transfer_functions`` step by step; ``drive_callback``
+and ``log_callback`` note what they are after), ``motors`` knows who follows whom, and ``routine``
+collects the facts. Words that change with the season are in
 ``vocabulary``. What cannot be read, ``bench`` can run: RobotPy only, and only when asked to.
 """
 

@@ -38,12 +38,12 @@ class Value:
         origin: the node it comes from, variables followed.
         scope: where that stands.
         me: the object whose code that is: empty for the subsystem, ``m_left.`` for one it owns.
-        carries: whether the callback's parameter is in it; None if it cannot be told.
-        factor: what the parameter was multiplied with; CHANGED, or None if it cannot be told.
+        carries: whether the callback's parameter is in it; None if unknown.
+        factor: what the parameter was multiplied with; CHANGED, or None if unknown.
         closed: whether a feedback controller made it.
         marks: its sources.
         readings: the numbers of devices in it.
-        scale: what a reading was multiplied with; None if it cannot be told.
+        scale: what a reading was multiplied with; None if unknown.
         unit: the unit it was wrapped in, as written.
         log: set if it is the routine's log, or the part of it for one motor.
         captured: for a lambda, the variables around it.
@@ -64,7 +64,7 @@ class Value:
 
     @property
     def is_scaled(self) -> bool | None:
-        """Whether the parameter is changed in it, a sign apart; None if it cannot be told."""
+        """Whether the parameter is changed in it, a sign apart; None if unknown."""
         if not self.carries:
             return self.carries
         return None if self.factor is None else not math.isclose(abs(self.factor), 1.0)
@@ -75,7 +75,7 @@ class Value:
         return self.carries is not False or bool(self.marks) or self.closed or self.log is not None
 
     def times(self, factor: float | None) -> "Value":
-        """The value multiplied; None for a factor that cannot be told."""
+        """The value multiplied by a factor; None if the factor is unknown."""
         known = None if factor is None or self.factor is None else self.factor * factor
         scale = None if factor is None or self.scale is None else self.scale * factor
         return replace(self, factor=known, scale=scale)

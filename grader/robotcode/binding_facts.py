@@ -33,7 +33,7 @@ class Guard(Enum):
 
 
 class HindranceKind(Enum):
-    """Why a test that is bound may not start, or not last."""
+    """Why a test that is bound may not start, or may end early."""
 
     NEVER = "never"  # a condition that never holds, or a wait before it
     CLOSED = "closed"  # the trigger never becomes true
@@ -81,7 +81,7 @@ class Binding:
     Args:
         tests: the tests the command runs; more than one if it runs several.
         hold: how long it lets them run.
-        trigger: the same text for the same trigger; empty if it cannot be told.
+        trigger: the same text for the same trigger; empty if unknown.
         controllers: the controllers whose buttons are in the trigger.
         guards: what else has to be true.
         scheduled: whether the command only hands the test to the scheduler, and ends at once.
@@ -111,7 +111,7 @@ class Controller:
 
     Args:
         name: its variable.
-        port: its number at the driver station; None if it cannot be told.
+        port: its number at the driver station; None if unknown.
         uses: where it does something else than start a test: text and line.
     """
 

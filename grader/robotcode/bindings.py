@@ -35,12 +35,11 @@ from grader.robotcode.controllers import find_controllers
 from grader.robotcode.factories import find_factories, is_private
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
-from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Member, Node, SourceSpan
-from grader.robotcode.name_resolution import last_name
+from grader.robotcode.ir import Branch, Call, Class, Function, Items, Loop, Node, SourceSpan
+from grader.robotcode.name_resolution import Method, get_last_name, get_method_name
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.triggers import TriggerKind, TriggerPart, Triggers
-from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 120  # pieces of code one inside the other
 LEAVES = re.compile(r"if\s*\(?\s*true\s*\)?\s*[:{]?\s*return", re.IGNORECASE)
@@ -206,49 +205,45 @@ class _Reader:
             return node.items
         if not isinstance(node, Call):
             return ()
-        if last_name(node.target) == "zip":
+        if get_last_name(node.target) == "zip":
             columns = [
                 self._items(resolve_bound(several.with_node(arg), self._names)) for arg in node.args
             ]
             return tuple(Items(row[0].place, row) for row in zip(*columns, strict=False))
-        return node.args if last_name(node.target) in {"of", "asList"} else ()
+        return node.args if get_last_name(node.target) in {"of", "asList"} else ()
 
     def _call(self, seen: BoundNode, call: Call, way: _Way) -> None:
-        name = java_spelling(last_name(call.target))
-        args = [*call.args, *(node for _, node in call.named)]
+        name = get_method_name(call)
         functions = resolve_call(seen, self._names)
-        if name == "clear" and isinstance(call.target, Member) and not functions:
-            self._cleared(seen, call, call.target.owner)
-        elif name in SWITCHES and isinstance(call.target, Member) and not functions:
-            self._switched(seen, call, call.target.owner)
-        elif name == "cancelAll" and isinstance(call.target, Member) and not functions:
-            self._cancelled(seen, call, call.target.owner, way)
-        elif name in HOLDS and isinstance(call.target, Member) and args and not functions:
-            self._bound(seen, call, seen.with_node(args[-1]), way)
-        elif name in CHOOSERS and not functions:
-            self._chosen(seen, call, args)
+        if not functions and name in CHOOSERS:
+            self._chosen(seen, call)
+        elif not functions and call.owner is not None:
+            owner = call.owner
+            if name == "clear" and self._call_at_start(seen, owner) in LOOPS:
+                # all bindings made so far are lost where the loop that asks the buttons is cleared
+                self._hinder_all(Hindrance(HindranceKind.CLEARED, call.place.text))
+            elif name in SWITCHES and self._call_at_start(seen, owner) in SCHEDULER:
+                off = Hindrance(HindranceKind.DISABLED, call.place.text)
+                self._disabled = off if name == "disable" else None
+            elif name == "cancelAll":
+                self._cancelled(seen, call, owner, way)
+            elif name in HOLDS and call.all_args:
+                self._bound(seen, call, owner, way)
         elif len(functions) == 1 and functions[0][1].module is self._names.main:
-            function = functions[0][0]
-            if function in way.functions or len(way.functions) > MOST_CALLS:
-                return
-            into = replace(
-                way,
-                places=(*way.places, call.place) if args else way.places,
-                functions=(*way.functions, function),
-                depth=way.depth + 1,
-            )
-            self._several(function.body, enter_call(seen, functions[0]), into)
+            self._entered(seen, call, functions[0], way)
 
-    def _cleared(self, seen: BoundNode, call: Call, owner: Node) -> None:
-        """All bindings made so far are lost where the loop that asks the buttons is cleared."""
-        if self._call_at_start(seen, owner) in LOOPS:
-            self._hinder_all(Hindrance(HindranceKind.CLEARED, call.place.text))
-
-    def _switched(self, seen: BoundNode, call: Call, owner: Node) -> None:
-        """No command runs where the scheduler is turned off and not on again."""
-        if self._call_at_start(seen, owner) in SCHEDULER:
-            off = java_spelling(last_name(call.target)) == "disable"
-            self._disabled = Hindrance(HindranceKind.DISABLED, call.place.text) if off else None
+    def _entered(self, seen: BoundNode, call: Call, method: Method, way: _Way) -> None:
+        """Go through a function of this file, with what it is called with."""
+        function = method[0]
+        if function in way.functions or len(way.functions) > MOST_CALLS:
+            return
+        into = replace(
+            way,
+            places=(*way.places, call.place) if call.all_args else way.places,
+            functions=(*way.functions, function),
+            depth=way.depth + 1,
+        )
+        self._several(function.body, enter_call(seen, method), into)
 
     def _cancelled(self, seen: BoundNode, call: Call, owner: Node, way: _Way) -> None:
         """A test ends at once where every loop of the robot cancels all commands."""
@@ -260,9 +255,7 @@ class _Reader:
         """The method that a node calls while the program starts; empty in a lambda."""
         found = resolve_bound(seen.with_node(owner), self._names).node
         later = any(not one.name for one in seen.scope.functions)
-        return (
-            "" if later or not isinstance(found, Call) else java_spelling(last_name(found.target))
-        )
+        return get_method_name(found) if isinstance(found, Call) and not later else ""
 
     def _hinder_all(self, lost: Hindrance) -> None:
         """Every binding that the method which is gone through has made gets a hindrance."""
@@ -271,35 +264,34 @@ class _Reader:
             for one in self._bindings[self._start :]
         ]
 
-    def _chosen(self, seen: BoundNode, call: Call, args: list[Node]) -> None:
+    def _chosen(self, seen: BoundNode, call: Call) -> None:
         """A test that somebody chooses instead of holding a button."""
-        owner = [call.target.owner] if isinstance(call.target, Member) else []
-        runs = [self._commands.find_tests(seen.with_node(node)) for node in [*args, *owner]]
-        if any(one.tests for one in runs):
+        owner = () if call.owner is None else (call.owner,)
+        parts = (*call.all_args, *owner)
+        if any(self._commands.find_tests(seen.with_node(node)).tests for node in parts):
             self._elsewhere.setdefault(call.place.text, call.target.place.line)
 
-    def _bound(self, seen: BoundNode, call: Call, command: BoundNode, way: _Way) -> None:
+    def _bound(self, seen: BoundNode, call: Call, owner: Node, way: _Way) -> None:
+        command = seen.with_node(call.all_args[-1])
         runs = self._commands.find_tests(command)
         line = call.target.place.line
-        said = f"{last_name(call.target)}({command.node.place.text})"
+        said = f"{get_last_name(call.target)}({command.node.place.text})"
         if runs.either or (runs.unclear is not None and not runs.tests):
             self._unread.append(ParseProblem(f"the grader cannot see which test {said} runs", line))
-        if runs.either or not runs.tests or not isinstance(call.target, Member):
+        if runs.either or not runs.tests:
             return
-        parts = self._triggers.find_parts(seen.with_node(call.target.owner))
+        trigger = seen.with_node(owner)
+        parts = self._triggers.find_parts(trigger)
+        kinds = {part.asks for part in parts}
         silent = {TriggerKind.NOTHING, TriggerKind.DELAYED}
         keys = sorted({part.key for part in parts if part.asks not in silent})
-        unknown = any(part.asks is TriggerKind.UNKNOWN for part in parts)
-        hold = HOLDS[java_spelling(last_name(call.target))]
-        kinds = {part.asks for part in parts}
-        if TriggerKind.RELEASED in kinds and TriggerKind.BUTTON not in kinds:
-            hold = Hold.RELEASED
+        released = TriggerKind.RELEASED in kinds and TriggerKind.BUTTON not in kinds
         controllers = (part.controller for part in parts if part.controller)
         self._bindings.append(
             Binding(
                 runs.tests,
-                hold,
-                "" if unknown else " + ".join(keys),
+                Hold.RELEASED if released else HOLDS[get_method_name(call)],
+                "" if TriggerKind.UNKNOWN in kinds else " + ".join(keys),
                 tuple(dict.fromkeys(controllers)),
                 self._guards(parts, runs, way),
                 runs.scheduled,
@@ -307,7 +299,7 @@ class _Reader:
                 self._said((*way.places, call.place)),
                 said,
                 way.places[-1].line if seen.given and way.places else line,
-                (*runs.hindrances, *self._hindered(seen.with_node(call.target.owner), parts, runs)),
+                (*runs.hindrances, *self._hindered(trigger, parts, runs)),
             )
         )
 
@@ -351,13 +343,8 @@ class _Reader:
     def _said(self, places: tuple[SourceSpan, ...]) -> str:
         """The comments beside the places that led to a binding."""
         found = dict.fromkeys(
-            find_comments_near(self._comments, place.line, _last(place))
+            find_comments_near(self._comments, place.line, place.last_line)
             for place in places
             if place.source is self._names.main.source
         )
         return " ".join(filter(None, found))
-
-
-def _last(place: SourceSpan) -> int:
-    """The line a piece of code ends on."""
-    return place.line + place.source.count(b"\n", place.start, place.end)

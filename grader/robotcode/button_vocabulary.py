@@ -96,7 +96,7 @@ NUMBERED = (
 )
 
 
-def button_name(method: str) -> str:
+def find_button_name(method: str) -> str:
     """The name of a button, whichever method reads it: ``getAButton`` or ``a``."""
     bare = re.sub(r"^(get|k)(?=[A-Z])", "", method)
     bare = re.sub(r"(Button|Axis)?(Pressed|Released)?$", "", bare) or method

@@ -13,26 +13,27 @@ from types import MappingProxyType
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.ir import Call, Function, Member, Node, Reference, Self
-from grader.robotcode.motors import motor_label
+from grader.robotcode.motors import make_motor_label
 from grader.robotcode.name_resolution import (
     Method,
     find_called_functions,
     find_class,
     find_implementing_methods,
+    get_last_name,
+    get_method_name,
     infer_type,
-    last_name,
     resolve,
 )
 from grader.robotcode.scope import Scope
 from grader.robotcode.statement_interpreter import Frame, StatementInterpreter
-from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, java_spelling
+from grader.robotcode.vocabulary import LOOPS, RUNS, is_motor, spell_as_java
 
 MOST_CALLS = 4  # methods followed, one inside the other
 MOST_SPREAD = 8  # arguments that a list may be spread into
 
 
 class CallbackInterpreter(StatementInterpreter):
-    """Follows one callback.
+    """Interprets one callback.
 
     Args:
         names: the names of the program.
@@ -43,7 +44,7 @@ class CallbackInterpreter(StatementInterpreter):
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
-        """Note a call of library code, if this trace looks for it.
+        """Record a call of library code if this trace looks for it; its value, None if unknown.
 
         Returns:
             What the call gives; None if it is nothing to this trace.
@@ -54,7 +55,7 @@ class CallbackInterpreter(StatementInterpreter):
         """How many calls have been noted so far."""
 
     def run(self, callback: Node, scope: Scope, parameter: Value) -> bool:
-        """Follow a callback.
+        """Interpret a callback.
 
         Args:
             callback: a lambda, a method reference, or a variable that holds one.
@@ -69,29 +70,30 @@ class CallbackInterpreter(StatementInterpreter):
             self.note_unreadable(callback)
             return False
         frame = Frame(where)
-        callee = frame.unknown_value(node)
+        callee = frame.make_unknown_value(node)
         if isinstance(callback, Call):  # a function that makes one, with what it was given
             made = self.evaluate(callback, Frame(scope))
             callee = made if isinstance(made.origin, Function | Member) else callee
         self._invoked(callee, [parameter], frame)
         return True
 
-    def follow_method(self, method: Method) -> None:
-        """Follow another method of the class after the callback."""
+    def interpret_method(self, method: Method) -> None:
+        """Interpret another method of the class, once the callback is interpreted."""
         self.follow_call(method, [], {}, Frame(method[1].home), me="")
 
     def note_unreadable(self, node: Node) -> None:
         """Note that a call leads out of these files."""
         said = f"`{node.place.text}` calls code that is not in this file or in the files next to it"
-        self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
+        self.unread.setdefault(said, ParseProblem(said, self.find_line_of(node)))
 
     def evaluate_call(self, node: Call, frame: Frame) -> Value:
         """The value of a call, its arguments first."""
-        owner = node.target.owner if isinstance(node.target, Member) else None
-        receiver = None if owner is None else self.evaluate(owner, frame)
+        receiver = None if node.owner is None else self.evaluate(node.owner, frame)
         args = [self.evaluate(arg, frame) for arg in node.args]
         if node.spread:  # any of the arguments that are left may be in it
-            args += [replace(frame.unknown_value(node), carries=None, factor=None)] * MOST_SPREAD
+            args += [
+                replace(frame.make_unknown_value(node), carries=None, factor=None)
+            ] * MOST_SPREAD
         named = {word: self.evaluate(value, frame) for word, value in node.named}
         return self._applied(node, receiver, args, named, frame)
 
@@ -104,14 +106,9 @@ class CallbackInterpreter(StatementInterpreter):
         frame: Frame,
     ) -> Value:
         """A call, when what it is called on and with is known."""
-        name = last_name(call.target)
-        if receiver is None and name in frame.locals and frame.scope.module.language == "python":
-            return self._invoked(frame.locals[name], args, frame)
-        if receiver is not None and java_spelling(name) in RUNS and self._holds_lambda(receiver):
-            return self._invoked(receiver, args, frame)
-        if receiver is not None and java_spelling(name) in LOOPS and args:
-            several = self.loop_elements(receiver, frame)
-            return [self._invoked(args[0], [element], frame) for element in several][-1]
+        ran = self._runs_lambda(call, receiver, args, frame)
+        if ran is not None:
+            return ran
         owner = None if receiver is None else (receiver.origin, receiver.scope)
         methods = find_called_functions(call, frame.scope, self.names, owner=owner)
         fresh = next((method for method in methods if method[0] not in frame.around), None)
@@ -124,11 +121,26 @@ class CallbackInterpreter(StatementInterpreter):
             said = self._implemented(fresh, call, (receiver, args, named), frame)
         every = [*args, *named.values()]
         if said is None and (fresh is not None or not methods):
-            said = self.note_call(call, receiver, every, frame.unknown_value(call))
+            said = self.note_call(call, receiver, every, frame.make_unknown_value(call))
         if said is not None:
             return said
         self._keep(call, receiver, every, frame)
-        return self.flow.apply_library_call(call, receiver, every, frame.unknown_value(call))
+        return self.flow.apply_library_call(call, receiver, every, frame.make_unknown_value(call))
+
+    def _runs_lambda(
+        self, call: Call, receiver: Value | None, args: list[Value], frame: Frame
+    ) -> Value | None:
+        """A call that runs a lambda: by its name, by its interface, or once for each element."""
+        if receiver is None:
+            held = frame.locals.get(get_last_name(call.target))
+            python = frame.scope.module.language == "python"
+            return self._invoked(held, args, frame) if held is not None and python else None
+        if get_method_name(call) in RUNS and self._holds_lambda(receiver):
+            return self._invoked(receiver, args, frame)
+        if get_method_name(call) in LOOPS and args:
+            several = self.list_loop_elements(receiver, frame)
+            return [self._invoked(args[0], [element], frame) for element in several][-1]
+        return None
 
     def _implemented(
         self,
@@ -153,17 +165,19 @@ class CallbackInterpreter(StatementInterpreter):
             return self.follow_call(found[0], args, named, frame, me=me)
         ways = [partial(self.follow_call, one, args, named, frame, me=me) for one in found]
         return (
-            self.note_agreed_call(call, receiver, ways, frame.unknown_value(call)) if ways else None
+            self.note_ambiguous_call(call, receiver, ways, frame.make_unknown_value(call))
+            if ways
+            else None
         )
 
-    def note_agreed_call(
+    def note_ambiguous_call(
         self,
         call: Call,  # noqa: ARG002 - for a subclass that can compare
         receiver: Value | None,  # noqa: ARG002 - the same
         ways: Sequence[Callable[[], Value]],  # noqa: ARG002 - the same
         at: Value,  # noqa: ARG002 - the same
     ) -> Value | None:
-        """What a call comes to, whichever of several classes it runs in; None if that differs."""
+        """Record a call that several classes may run, if all do the same; its value, else None."""
         return None
 
     def _invoked(self, callee: Value, args: list[Value], frame: Frame) -> Value:
@@ -189,7 +203,7 @@ class CallbackInterpreter(StatementInterpreter):
         me: str,
         captured: Mapping[str, Value] = MappingProxyType({}),
     ) -> Value:
-        """Follow a function of these files."""
+        """Interpret a call of a function of these files; its value."""
         function, scope = method
         if len(frame.around) > MOST_CALLS:
             return self.stop_too_deep(function, frame)
@@ -197,7 +211,9 @@ class CallbackInterpreter(StatementInterpreter):
         inner.locals |= captured
         outer = Frame(replace(scope, functions=scope.functions[:-1]), me, around=inner.around)
         inner.locals |= {
-            one.name: self.evaluate(one.default, outer) if one.default else inner.unknown_value(one)
+            one.name: self.evaluate(one.default, outer)
+            if one.default
+            else inner.make_unknown_value(one)
             for one in function.parameters
         }
         inner.locals |= {one.name: arg for one, arg in zip(function.parameters, args, strict=False)}
@@ -208,17 +224,17 @@ class CallbackInterpreter(StatementInterpreter):
         self.condition = condition
         if len(inner.returned) == 1:
             return inner.returned[0]
-        return join_values(inner.returned, at=inner.unknown_value(function))
+        return join_values(inner.returned, at=inner.make_unknown_value(function))
 
     def _object(self, receiver: Value | None, frame: Frame) -> str:
         """The object whose code a method is, to be put before the names of its fields."""
         if receiver is None:
             return frame.me
-        if isinstance(receiver.origin, Self) or last_name(receiver.origin) == "super":
+        if isinstance(receiver.origin, Self) or get_last_name(receiver.origin) == "super":
             return receiver.me
         if self.names.find_home(receiver.origin, receiver.scope) is not None:
             return ""
-        return f"{receiver.me}{motor_label(receiver.origin)}."
+        return f"{receiver.me}{make_motor_label(receiver.origin)}."
 
     def _holds_lambda(self, value: Value) -> bool:
         node, _ = resolve(value.origin, value.scope, self.names)
@@ -232,7 +248,7 @@ class CallbackInterpreter(StatementInterpreter):
         foreign = bool(type_) and not is_motor(type_)
         if foreign and find_class(receiver.origin, receiver.scope, self.names) is not None:
             foreign = False
-        if foreign or java_spelling(call.target.name).startswith(("mut", "with")):
+        if foreign or spell_as_java(call.target.name).startswith(("mut", "with")):
             self.store_value(
-                call.target.owner, join_values(args, at=frame.unknown_value(call)), frame
+                call.target.owner, join_values(args, at=frame.make_unknown_value(call)), frame
             )

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from grader.robotcode.ir import (
     Call,
     Cast,
-    Class,
     Element,
     Function,
     FunctionParameter,
@@ -15,12 +14,19 @@ from grader.robotcode.ir import (
     Name,
     Node,
     Reference,
-    Return,
     Self,
-    iter_nodes,
 )
-from grader.robotcode.name_resolution import MOST_STEPS, Method, find_called_functions, find_class
-from grader.robotcode.scope import Definition, Scope
+from grader.robotcode.name_resolution import (
+    MOST_STEPS,
+    Method,
+    find_called_functions,
+    find_class,
+    find_single_return,
+    get_simple_type_name,
+    infer_type,
+    infer_type_from,
+)
+from grader.robotcode.scope import Definition, Scope, find_only_value
 from grader.robotcode.symbol_table import SymbolTable
 
 if TYPE_CHECKING:
@@ -41,7 +47,7 @@ class BoundNode:
 
 
 def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
-    """Follow variables, parameters and fields to what they stand for, as far as can be told."""
+    """Resolve variables, parameters and fields to their values, as far as possible."""
     for _ in range(MOST_STEPS):
         node = seen.node
         if isinstance(node, Cast):
@@ -60,12 +66,11 @@ def resolve_bound(seen: BoundNode, names: SymbolTable) -> BoundNode:
 
 def _value(seen: BoundNode, names: SymbolTable) -> BoundNode | None:
     """The one value of a variable; None if it has none or several, or is a parameter."""
-    valued = [one for one in find_definitions(seen, names) if one.value is not None]
-    if len(valued) != 1 or isinstance(valued[0].value, FunctionParameter | Element | Function):
+    found = find_only_value(find_definitions(seen, names))
+    if found is None or isinstance(found[0], FunctionParameter | Element | Function):
         return None
-    one = valued[0]
-    here, there = seen.scope.functions[:1], one.scope.functions[:1]
-    return BoundNode(one.value or seen.node, one.scope, seen.given if here == there else {})
+    here, there = seen.scope.functions[:1], found[1].functions[:1]
+    return BoundNode(*found, seen.given if here == there else {})
 
 
 def find_definitions(seen: BoundNode, names: SymbolTable) -> Sequence[Definition]:
@@ -104,10 +109,27 @@ def enter_call(seen: BoundNode, method: Method) -> BoundNode:
     return BoundNode(function, scope, given)
 
 
-def list_returned_nodes(function: Function) -> list[Node]:
-    """The nodes that a function may return."""
-    found = iter_nodes(*function.body, but=(Function, Class))
-    return [node.value for node in found if isinstance(node, Return)]
+def infer_bound_class(seen: BoundNode, names: SymbolTable) -> str:
+    """The class of an object, by its own name; empty if unknown."""
+    found = infer_type(seen.node, seen.scope, names)
+    return get_simple_type_name(
+        found or infer_type_from(tuple(find_definitions(seen, names)), names)
+    )
+
+
+def is_open_parameter(seen: BoundNode, names: SymbolTable) -> bool:
+    """Whether a name is a parameter without an argument so far."""
+    if not isinstance(seen.node, Name):
+        return False
+    found = names.find_local(seen.node.name, seen.scope)
+    return any(isinstance(one.value, FunctionParameter) for one in found)
+
+
+def find_bound_return(inside: BoundNode) -> BoundNode | None:
+    """The value that a function's body returns; None if there may be several."""
+    function = inside.node
+    returned = find_single_return(function) if isinstance(function, Function) else None
+    return None if returned is None else inside.with_node(returned)
 
 
 def list_called_functions(node: Node, scope: Scope, names: SymbolTable) -> list[Function]:

@@ -10,7 +10,8 @@ from grader.robotcode.closure import (
     BoundNode,
     enter_call,
     find_definitions,
-    list_returned_nodes,
+    infer_bound_class,
+    is_open_parameter,
     resolve_bound,
     resolve_call,
 )
@@ -33,13 +34,12 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     find_called_functions,
-    infer_type,
-    infer_type_from,
-    last_name,
-    simple_type_name,
+    get_last_name,
+    get_method_name,
+    list_returned_nodes,
 )
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import DIRECTIONS, enum_constant, java_spelling
+from grader.robotcode.vocabulary import DIRECTIONS, normalize_enum_constant
 
 DEEPEST = 12  # methods and compositions one inside the other
 KIND = re.compile(r"(quasi)|(dynamic)", re.IGNORECASE)
@@ -128,7 +128,7 @@ class CommandReader:
         return bool(find_called_functions(call, seen.scope, self._names))
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> TestsRun:
-        name = java_spelling(last_name(call.target))
+        name = get_method_name(call)
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
             inner = enter_call(seen, functions[0])
@@ -136,23 +136,29 @@ class CommandReader:
             return self._one_of(map(inner.with_node, results), depth)
         if len(functions) > 1:
             return TestsRun(unclear=call)
-        args = [*call.args, *(node for _, node in call.named)]
-        owner = [call.target.owner] if isinstance(call.target, Member) else []
+        args = call.all_args
+        owner = () if call.owner is None else (call.owner,)
         if name in KINDS and len(args) == 1:
-            read = not owner or self._type(seen.with_node(owner[0])) in {"", "SysIdRoutine"}
+            of = [infer_bound_class(seen.with_node(node), self._names) for node in owner]
+            read = {*of} <= {"", "SysIdRoutine"}
             test = SysIdTest(name, self._direction(seen.with_node(args[0])), read=read)
             emptied = [one for node in owner for one in self._emptied(seen.with_node(node))]
             return TestsRun((test,), hindrances=tuple(emptied))
         return self._library(seen, name, owner, args, depth) or self._by_name(seen, name, args)
 
     def _library(
-        self, seen: BoundNode, name: str, owner: list[Node], args: list[Node], depth: int
+        self,
+        seen: BoundNode,
+        name: str,
+        owner: tuple[Node, ...],
+        args: tuple[Node, ...],
+        depth: int,
     ) -> TestsRun | None:
         """What a library's method makes of the commands it is given; None if there are none."""
         asked = CONDITIONED.get(name)
-        parts = [*owner, *args]
+        parts = (*owner, *args)
         if asked is not None:
-            parts = [*owner, *args[:asked]]
+            parts = (*owner, *args[:asked])
         several = [self.find_tests(seen.with_node(part), depth=depth) for part in parts]
         if name in DISCARDS:  # a function that only makes a command starts nothing
             several = [one for one in several if one.scheduled]
@@ -180,7 +186,7 @@ class CommandReader:
         condition = args[asked : asked + 1]
         second = asked > 1 and bool(args) and not self.find_tests(args[0], depth=depth).tests
         negated = name in EXCEPT or second
-        truth = self._decorators.constant_truth(condition[0]) if condition else None
+        truth = self._decorators.find_constant_truth(condition[0]) if condition else None
         if condition and truth is not None:  # it guards nothing
             if truth is not negated:
                 return found
@@ -195,17 +201,10 @@ class CommandReader:
         """Where the field of a routine is set to null after its declaration."""
         for one in find_definitions(routine, self._names):
             if isinstance(one.value, Null) and one.scope.functions:
-                text = f"{last_name(routine.node)} = {one.value.place.text}"
+                text = f"{get_last_name(routine.node)} = {one.value.place.text}"
                 yield Hindrance(HindranceKind.EMPTIED, text)
 
-    def _type(self, seen: BoundNode) -> str:
-        """The class of what a method is called on, by its own name; empty if unknown."""
-        found = infer_type(seen.node, seen.scope, self._names)
-        return simple_type_name(
-            found or infer_type_from(tuple(find_definitions(seen, self._names)), self._names)
-        )
-
-    def _by_name(self, seen: BoundNode, name: str, args: list[Node]) -> TestsRun:
+    def _by_name(self, seen: BoundNode, name: str, args: tuple[Node, ...]) -> TestsRun:
         """A method of a class that is not in these files: only its name can tell."""
         kind = KIND.search(name)
         if kind is None or name[:1].isupper():
@@ -222,20 +221,14 @@ class CommandReader:
         if isinstance(node, Choice):
             ways = [self._direction(seen.with_node(one)) for one in self._chosen(seen, node)]
             asked = resolve_bound(seen.with_node(node.condition), self._names)
-            return ways[0] if len(ways) == 1 else "any" if self._is_open(asked) else ""
-        if self._is_open(seen):
+            either = "any" if is_open_parameter(asked, self._names) else ""
+            return ways[0] if len(ways) == 1 else either
+        if is_open_parameter(seen, self._names):
             return "any"
         if isinstance(node, Name | Member):
-            word = enum_constant(node.name)
+            word = normalize_enum_constant(node.name)
             return word if word in DIRECTIONS else ""
         return ""
-
-    def _is_open(self, seen: BoundNode) -> bool:
-        """Whether a name is a parameter that nobody has given anything yet."""
-        if not isinstance(seen.node, Name):
-            return False
-        found = self._names.find_local(seen.node.name, seen.scope)
-        return any(isinstance(one.value, FunctionParameter) for one in found)
 
 
 def join_tests_run(several: Iterable[TestsRun]) -> TestsRun:

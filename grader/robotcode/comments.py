@@ -1,4 +1,4 @@
-"""The comments of a file, which the common syntax leaves out, and those that belong to a line."""
+"""The comments of a file, which its syntax tree leaves out, and those that belong to a line."""
 
 import io
 import re

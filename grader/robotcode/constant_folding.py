@@ -5,6 +5,8 @@ the program to run has no value.
 """
 
 import math
+import operator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from grader.robotcode.conversions import FACTORS, NUMBERS
@@ -12,17 +14,26 @@ from grader.robotcode.ir import Assign, Call, Cast, Member, Name, Node, Number, 
 from grader.robotcode.name_resolution import (
     find_called_functions,
     find_single_return,
-    last_name,
-    simple_type_name,
+    get_last_name,
+    get_simple_type_name,
 )
-from grader.robotcode.scope import Scope
+from grader.robotcode.scope import Scope, find_only_value
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS, java_spelling
+from grader.robotcode.vocabulary import PYTHON_UNITS, UNITS, spell_as_java
 
 DEEPEST = 50  # expressions inside one another, names followed on the way
 LARGEST_INT = 2**31 - 1  # Java's; beyond it an int wraps around, which nobody means
 
 _DIMENSIONS = {(1, -1): "volts-per-second", (1, 0): "volts", (0, 1): "seconds", (0, 0): "number"}
+_BOTH: dict[str, Callable[[float, float], float]] = {  # what an operator does in both languages
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
+_JAVA = _BOTH | {"%": math.fmod}
+_PYTHON = _BOTH | {"%": operator.mod, "//": operator.floordiv}
+_DIVIDING = frozenset({"/", "//", "%"})
 _REAL = frozenset({"double", "float", "Double", "Float"})
 _WHOLE = frozenset({"int", "long", "short", "byte"})
 
@@ -64,7 +75,7 @@ class FoldedConstant:
 
 
 class ConstantFolder:
-    """Works out constants, each once.
+    """Computes constants from their source text, each once.
 
     Args:
         names: the names of the program.
@@ -75,7 +86,7 @@ class ConstantFolder:
         self._known: dict[Node, FoldedConstant | None] = {}
 
     def fold(self, node: Node, scope: Scope, *, depth: int = 0) -> FoldedConstant | None:
-        """The value and dimension of an expression; None if the text does not tell."""
+        """The value and dimension of an expression; None if it is no constant."""
         if node not in self._known:
             self._known[node] = None  # what depends on itself has no value
             if depth <= DEEPEST:
@@ -108,9 +119,9 @@ class ConstantFolder:
 
     def _named(self, node: Name | Member, scope: Scope, depth: int) -> FoldedConstant | None:
         definitions = self._names.find_definitions(node, scope)
-        valued = [d for d in definitions if d.value is not None]
-        if len(valued) == 1 and valued[0].value is not None:
-            found = self.fold(valued[0].value, valued[0].scope, depth=depth)
+        only = find_only_value(definitions)
+        if only is not None:
+            found = self.fold(*only, depth=depth)
             declared = next((d.type for d in definitions if d.type), "")
             return _typed(found, declared)
         number = None if definitions else _library_number(node, scope)
@@ -119,7 +130,7 @@ class ConstantFolder:
         unit = UNITS.get(node.name)
         if definitions or unit is None or scope.module.language != "java":
             return None
-        if isinstance(node, Member) and last_name(node.owner) != "Units":
+        if isinstance(node, Member) and get_last_name(node.owner) != "Units":
             return None
         return FoldedConstant(unit.si, unit.volts, unit.seconds, other=unit.other, unit=True)
 
@@ -130,17 +141,17 @@ class ConstantFolder:
             returned = find_single_return(function) if len(functions) == 1 else None
             found = None if returned is None else self.fold(returned, inside, depth=depth)
             return _typed(found, function.type)
-        name, target = last_name(call.target), call.target
+        name, target = get_last_name(call.target), call.target
         args = [self.fold(arg, scope, depth=depth) for arg in call.args]
         first = args[0] if len(args) == 1 else None
-        if first is not None and first.dimension == "number" and java_spelling(name) in FACTORS:
-            return FoldedConstant(first.value * FACTORS[java_spelling(name)])
+        if first is not None and first.dimension == "number" and spell_as_java(name) in FACTORS:
+            return FoldedConstant(first.value * FACTORS[spell_as_java(name)])
         if scope.module.language == "python":
             factor = PYTHON_UNITS.get(name)
             return None if first is None or factor is None else first.times(FoldedConstant(factor))
         if not isinstance(target, Member):
             return None
-        if last_name(target.owner) in {"Double", "Integer", "Float"} and name == "valueOf":
+        if get_last_name(target.owner) in {"Double", "Integer", "Float"} and name == "valueOf":
             return first
         owner = self.fold(target.owner, scope, depth=depth)
         return None if owner is None else _method(name, owner, first, count=len(args))
@@ -149,7 +160,7 @@ class ConstantFolder:
 def _library_number(node: Name | Member, scope: Scope) -> float | None:
     """π and its like, by their full name or brought in by an import."""
     if isinstance(node, Member):
-        return NUMBERS.get((last_name(node.owner), node.name))
+        return NUMBERS.get((get_last_name(node.owner), node.name))
     for one in scope.module.imports:
         path = f"{one.path}.{node.name}" if one.name == "*" else one.path
         owner, _, name = path.rpartition(".")
@@ -216,19 +227,12 @@ def _operated(
     if {left.dimension, right.dimension} != {"number"}:
         return None
     whole = left.integer and right.integer and java
-    one, other = left.value, right.value
-    if sign in {"/", "//", "%"} and other == 0.0:
+    operate = (_JAVA if java else _PYTHON).get(sign)
+    if operate is None or (sign in _DIVIDING and right.value == 0.0):
         return None
-    if sign == "/":
-        value = float(math.trunc(one / other)) if whole else one / other
-    elif sign == "%":
-        value = math.fmod(one, other) if java else one % other
-    elif sign == "//" and not java:
-        value = float(one // other)
-    elif sign in {"+", "-", "*"}:
-        value = {"+": one + other, "-": one - other, "*": one * other}[sign]
-    else:
-        return None
+    value = operate(left.value, right.value)
+    if whole and sign == "/":
+        value = float(math.trunc(value))
     return None if whole and abs(value) > LARGEST_INT else FoldedConstant(value, integer=whole)
 
 
@@ -236,8 +240,8 @@ def _typed(found: FoldedConstant | None, type_: str) -> FoldedConstant | None:
     """A number as a variable of some type keeps it."""
     if found is None or found.dimension != "number":
         return found
-    if simple_type_name(type_) in _REAL:
+    if get_simple_type_name(type_) in _REAL:
         return replace(found, integer=False)
-    if simple_type_name(type_) in _WHOLE:
+    if get_simple_type_name(type_) in _WHOLE:
         return replace(found, value=float(math.trunc(found.value)), integer=True)
     return found

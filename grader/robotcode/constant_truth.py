@@ -4,13 +4,15 @@ A literal behind a name is no constant here. A team sets such a constant before 
 so it serves as a switch.
 """
 
+import operator
 from collections.abc import Callable
+from dataclasses import replace
 
 from grader.robotcode.button_vocabulary import BOTH, EITHER, NOT, UNCHANGED, WRAPPERS
 from grader.robotcode.closure import (
     BoundNode,
     enter_call,
-    list_returned_nodes,
+    find_bound_return,
     resolve_bound,
     resolve_call,
 )
@@ -26,23 +28,19 @@ from grader.robotcode.ir import (
     Operation,
     Return,
 )
-from grader.robotcode.name_resolution import last_name
+from grader.robotcode.name_resolution import get_method_name
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
 
 DEEPEST = 12  # conditions made of conditions
 JOINING = {"&": "and", "&&": "and", "and": "and", "|": "or", "||": "or", "or": "or"}
 NEGATING = frozenset({"not", "!", "~"})
 COMPARISONS: dict[str, Callable[[float, float], bool]] = {
-    "==": lambda one, other: one == other,
-    "is": lambda one, other: one == other,
-    "!=": lambda one, other: one != other,
-    "is not": lambda one, other: one != other,
-    "^": lambda one, other: one != other,
-    "<": lambda one, other: one < other,
-    ">": lambda one, other: one > other,
-    "<=": lambda one, other: one <= other,
-    ">=": lambda one, other: one >= other,
+    **dict.fromkeys(("==", "is"), operator.eq),
+    **dict.fromkeys(("!=", "is not", "^"), operator.ne),
+    "<": operator.lt,
+    ">": operator.gt,
+    "<=": operator.le,
+    ">=": operator.ge,
 }
 
 
@@ -72,8 +70,7 @@ class TruthFolder:
         if isinstance(node, Name | Member):
             return self._method(seen, depth + 1)
         if isinstance(node, Function):
-            inside = BoundNode(node, seen.scope.within(node), seen.given)
-            return self._returned(inside, node, depth + 1)
+            return self._returned(replace(seen, scope=seen.scope.within(node)), depth + 1)
         if isinstance(node, Call):
             return self._call(seen, node, depth + 1)
         if isinstance(before, Name | Member):  # a constant by its name
@@ -86,20 +83,20 @@ class TruthFolder:
         functions = resolve_call(call, self._names)
         if len(functions) != 1 or functions[0][0] in seen.scope.functions:
             return None
-        return self._returned(enter_call(call, functions[0]), functions[0][0], depth)
+        return self._returned(enter_call(call, functions[0]), depth)
 
-    def _returned(self, inside: BoundNode, function: Function, depth: int) -> bool | None:
-        results = list_returned_nodes(function)
-        return self.fold(inside.with_node(results[0]), depth=depth) if len(results) == 1 else None
+    def _returned(self, inside: BoundNode, depth: int) -> bool | None:
+        returned = find_bound_return(inside)
+        return None if returned is None else self.fold(returned, depth=depth)
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> bool | None:
         """What a call of a trigger's method, or of a function of these files, gives."""
         functions = resolve_call(seen, self._names)
         if functions:
-            inside = enter_call(seen, functions[0])
-            return self._returned(inside, functions[0][0], depth) if len(functions) == 1 else None
-        name = java_spelling(last_name(call.target))
-        args = [*call.args, *(node for _, node in call.named)]
+            only = len(functions) == 1
+            return self._returned(enter_call(seen, functions[0]), depth) if only else None
+        name = get_method_name(call)
+        args = call.all_args
         if name in WRAPPERS:
             return self.fold(seen.with_node(args[-1]), depth=depth) if args else None
         if isinstance(call.target, Name):  # a variable that holds a supplier: testing()

@@ -11,10 +11,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.robotcode.ir import Assign, Call, Member, Node, Self
-from grader.robotcode.name_resolution import infer_type, last_name, resolve, simple_type_name
+from grader.robotcode.name_resolution import (
+    get_last_name,
+    get_simple_type_name,
+    infer_type,
+    resolve,
+)
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import enum_constant, java_spelling
+from grader.robotcode.vocabulary import normalize_enum_constant, spell_as_java
 
 SLOT0, FEED_FORWARD = "Slot0Configs", "FeedForwardConfig"
 SETTINGS = ("GravityType", "StaticFeedforwardSign")
@@ -75,14 +80,18 @@ def find_gain_settings(
 
 def _choice(name: str, value: Node, scope: Scope, names: SymbolTable) -> str:
     """The constant that a setting is given; empty of a gain."""
-    return enum_constant(last_name(resolve(value, scope, names)[0])) if name in SETTINGS else ""
+    return (
+        normalize_enum_constant(get_last_name(resolve(value, scope, names)[0]))
+        if name in SETTINGS
+        else ""
+    )
 
 
 def _called(
     call: Call, target: Member, scope: Scope, names: SymbolTable
 ) -> Iterator[tuple[str, str, Node]]:
     """What a call sets: kind, name, value."""
-    name = java_spelling(target.name)
+    name = spell_as_java(target.name)
     phoenix = WITH.fullmatch(name)
     if phoenix and len(call.args) == 1:
         field = _field(phoenix[1][:1].lower() + phoenix[1][1:])
@@ -93,7 +102,7 @@ def _called(
         return
     if not call.args or not _is_feed_forward(target.owner, scope, names):
         return
-    if enum_constant(last_name(call.args[-1])) in OTHER_SLOTS:
+    if normalize_enum_constant(get_last_name(call.args[-1])) in OTHER_SLOTS:
         return
     if name in FIELDS[FEED_FORWARD]:
         yield FEED_FORWARD, name, call.args[0]
@@ -104,7 +113,7 @@ def _called(
 
 def _field(name: str) -> str:
     """A field of Slot0Configs in Java's spelling; empty if it is none."""
-    bare = java_spelling(name).lower()
+    bare = spell_as_java(name).lower()
     return next((one for one in (*FIELDS[SLOT0], *SETTINGS) if one.lower() == bare), "")
 
 
@@ -117,15 +126,15 @@ def _is_slot0(node: Node, scope: Scope, names: SymbolTable) -> bool:
     node = _chain_root(node)
     if isinstance(node, Self):
         return False
-    made = simple_type_name(infer_type(node, scope, names))
-    return made == SLOT0 or (not made and "slot0" in _bare(last_name(node)))
+    made = get_simple_type_name(infer_type(node, scope, names))
+    return made == SLOT0 or (not made and "slot0" in _bare(get_last_name(node)))
 
 
 def _is_feed_forward(node: Node, scope: Scope, names: SymbolTable) -> bool:
     """Whether something is the feedforward of a Spark's configuration."""
     node = _chain_root(node)
-    made = simple_type_name(infer_type(node, scope, names))
-    return made == FEED_FORWARD or _bare(last_name(node)) == "feedforward"
+    made = get_simple_type_name(infer_type(node, scope, names))
+    return made == FEED_FORWARD or _bare(get_last_name(node)) == "feedforward"
 
 
 def _bare(name: str) -> str:
@@ -135,7 +144,7 @@ def _bare(name: str) -> str:
 def _chain_root(node: Node) -> Node:
     """What a chain of settings begins with: ``new Slot0Configs()`` of ``….withKS(1).withKV(2)``."""
     while isinstance(node, Call) and isinstance(node.target, Member):
-        name = java_spelling(node.target.name)
+        name = spell_as_java(node.target.name)
         if not (WITH.fullmatch(name) or name in FIELDS[FEED_FORWARD] or name in SEVERAL):
             break
         node = node.target.owner

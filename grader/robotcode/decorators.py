@@ -23,9 +23,8 @@ from grader.robotcode.closure import BoundNode, resolve_bound, resolve_call
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.constant_truth import TruthFolder
 from grader.robotcode.ir import Call, Function, Member, Node
-from grader.robotcode.name_resolution import last_name
+from grader.robotcode.name_resolution import get_method_name
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
 
 WHOLE = 10.0  # [s] a test's own timeout, in WPILib's defaults and in the exercises
 LONGEST_WAIT = 5.0  # [s] longer, and whoever holds the button waits in vain
@@ -44,12 +43,12 @@ class Decorators:
         self._measures = measures
         self._truth = TruthFolder(names, measures)
 
-    def constant_truth(self, condition: BoundNode) -> bool | None:
+    def find_constant_truth(self, condition: BoundNode) -> bool | None:
         """The constant value of a condition; None if it may change."""
         return self._truth.fold(condition)
 
     def find_hindrance(
-        self, seen: BoundNode, name: str, parts: list[Node], first: int
+        self, seen: BoundNode, name: str, parts: tuple[Node, ...], first: int
     ) -> Hindrance | None:
         """Why a command may not start, or not last; None if nothing keeps it from that.
 
@@ -70,7 +69,9 @@ class Decorators:
             return self._raced(seen, name, parts, first)
         return Hindrance(HindranceKind.UNREAD, _shown(call))
 
-    def _waits(self, seen: BoundNode, name: str, parts: list[Node], first: int) -> Hindrance | None:
+    def _waits(
+        self, seen: BoundNode, name: str, parts: tuple[Node, ...], first: int
+    ) -> Hindrance | None:
         """What a test has to wait for that comes before it."""
         before = parts[1:] if name == "beforeStarting" else parts[:first]
         for part in before:
@@ -79,7 +80,9 @@ class Decorators:
                 return make_hindrance(HindranceKind.NEVER, "", part)
         return None
 
-    def _raced(self, seen: BoundNode, name: str, parts: list[Node], first: int) -> Hindrance | None:
+    def _raced(
+        self, seen: BoundNode, name: str, parts: tuple[Node, ...], first: int
+    ) -> Hindrance | None:
         """Another command whose end is the end of the test, too."""
         call = seen.node
         static = isinstance(call, Call) and isinstance(call.target, Member) and name not in CHAINED
@@ -100,15 +103,14 @@ class Decorators:
         return None if lasts >= WHOLE else make_hindrance(HindranceKind.CUT, "", node)
 
     def _duration(self, seen: BoundNode) -> float | None:
-        """How long a command lasts [s]; None if it cannot be told."""
+        """How long a command lasts [s]; None if unknown."""
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if isinstance(node, Function):  # a function that runs once
             return 0.0
         if not isinstance(node, Call) or resolve_call(seen, self._names):
             return None
-        name, args = java_spelling(last_name(node.target)), [*node.args]
-        args += [part for _, part in node.named]
+        name, args = get_method_name(node), node.all_args
         if name in INSTANT | ENDLESS:
             return 0.0 if name in INSTANT else math.inf
         if name in WAITING:
@@ -118,7 +120,7 @@ class Decorators:
             return 0.0 if truth else math.inf if truth is False else None
         return None
 
-    def _seconds(self, seen: BoundNode, args: list[Node]) -> float | None:
+    def _seconds(self, seen: BoundNode, args: tuple[Node, ...]) -> float | None:
         found = self._measures.fold(args[0], seen.scope) if args else None
         return None if found is None else found.value
 

@@ -1,6 +1,7 @@
 """The drive callback: which motors it commands, how, and whether the voltage gets there."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from grader.robotcode.abstract_value import Value, join_values
 from grader.robotcode.callback_interpreter import CallbackInterpreter
@@ -8,7 +9,13 @@ from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import DriveCall, Output
 from grader.robotcode.ir import Call, Element, Member, Name, Node, Self
 from grader.robotcode.motors import list_motor_names
-from grader.robotcode.name_resolution import find_class, infer_type, last_name, simple_type_name
+from grader.robotcode.name_resolution import (
+    find_class,
+    get_last_name,
+    get_method_name,
+    get_simple_type_name,
+    infer_type,
+)
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
@@ -21,15 +28,14 @@ from grader.robotcode.vocabulary import (
     SILENT,
     STOPS,
     WITHOUT_MODE,
-    enum_constant,
+    find_request_output,
     is_motor,
-    java_spelling,
-    request_output,
+    normalize_enum_constant,
 )
 
 
 class DriveTrace(CallbackInterpreter):
-    """Follows the drive callback and notes every command to a motor.
+    """Interprets the drive callback and records every command to a motor.
 
     Args:
         names: the names of the program.
@@ -45,56 +51,56 @@ class DriveTrace(CallbackInterpreter):
         self.calls: list[DriveCall] = []
 
     def entry_count(self) -> int:
-        """How many commands have been noted."""
+        """How many commands have been recorded."""
         return len(self.calls)
 
-    def note_agreed_call(
+    def note_ambiguous_call(
         self, call: Call, receiver: Value | None, ways: Sequence[Callable[[], Value]], at: Value
     ) -> Value | None:
-        """Note one command where all classes that a call may run in command their motors alike."""
+        """Record one command if all classes that a call may run in command their motors alike."""
         before = [*self.calls], dict(self.stored), dict(self.unread)
         outcomes = []
         for way in ways:
             way()
-            outcomes.append({_kind(one) for one in self.calls[len(before[0]) :]})
+            outcomes.append({_kind(one): one for one in self.calls[len(before[0]) :]})
             self.calls, self.stored, self.unread = [*before[0]], dict(before[1]), dict(before[2])
         first = outcomes[0]
-        if len(first) != 1 or any(one != first for one in outcomes):
+        if len(first) != 1 or any(one.keys() != first.keys() for one in outcomes):
             return None
-        output, carries, scaled, negative, condition = next(iter(first))
-        self.calls += [
-            DriveCall(
-                motor=motor,
-                method=last_name(call.target),
-                output=output,
-                uses_parameter=carries,
-                scaled=scaled,
-                text=call.place.text,
-                line=self.line_of(call),
-                negative=negative,
-                condition=condition,
-            )
-            for motor in self._motors(receiver, at)
-        ]
+        command = replace(
+            next(iter(first.values())),
+            method=get_last_name(call.target),
+            text=call.place.text,
+            line=self.find_line_of(call),
+        )
+        self.calls += [replace(command, motor=motor) for motor in self._motors(receiver, at)]
         return at
 
     def note_call(
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value | None:
-        """Note a command to a motor, or a call that may be one."""
-        method = java_spelling(last_name(call.target))
-        if any(map(self._is_motor, args)) and not (receiver and self._is_motor(receiver)):
+        """Record a command to a motor, or a call that may be one."""
+        method = get_method_name(call)
+        of_motor = receiver is not None and self._is_motor(receiver)
+        if not of_motor and any(map(self._is_motor, args)):
             self.note_unreadable(call)  # a motor is handed out: what it gets is not told here
             return None
         if method[:1].isupper():  # makes an object, a request perhaps
             return None
-        if not self._may_be_motor(method, receiver, at):
-            if receiver is not None and self._may_lead_to_one(method, receiver, args):
-                self.note_unreadable(call)
-            return None
+        if self._may_be_motor(method, receiver, at):
+            return self._command(call, receiver, args, at, of_motor=of_motor)
+        if receiver is not None and self._may_lead_to_one(method, receiver, args):
+            self.note_unreadable(call)
+        return None
+
+    def _command(
+        self, call: Call, receiver: Value | None, args: list[Value], at: Value, *, of_motor: bool
+    ) -> Value | None:
+        """Note a command to what is, or may be, a motor; None if it is no command."""
+        method = get_method_name(call)
         values = [arg for arg in args if _mode(arg) is None]
         sent = join_values(values[:1] if method in BY_MODE else values, at=at)
-        if method in STOPS and receiver is not None and self._is_motor(receiver):
+        if method in STOPS and of_motor:
             if self.sure:  # under a condition it is a limit that ends the test early
                 self._note(call, receiver, Output.VOLTAGE, sent)
             return at
@@ -112,8 +118,8 @@ class DriveTrace(CallbackInterpreter):
             mode = next(filter(None, map(_mode, args)), None)
             return WITHOUT_MODE[method] if mode is None else mode
         if method in BY_REQUEST and args:
-            type_ = simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
-            return request_output(type_)
+            type_ = get_simple_type_name(infer_type(args[0].origin, args[0].scope, self.names))
+            return find_request_output(type_)
         return COMMANDS.get(method, Output.UNKNOWN)
 
     def _note(self, call: Call, receiver: Value | None, output: Output, sent: Value) -> None:
@@ -123,12 +129,12 @@ class DriveTrace(CallbackInterpreter):
             self.calls.append(
                 DriveCall(
                     motor=motor,
-                    method=last_name(call.target),
+                    method=get_last_name(call.target),
                     output=output,
                     uses_parameter=sent.carries,
                     scaled=sent.is_scaled,
                     text=call.place.text,
-                    line=self.line_of(call),
+                    line=self.find_line_of(call),
                     negative=sent.factor is not None and sent.factor < 0,
                     condition=self.condition,
                 )
@@ -155,7 +161,7 @@ class DriveTrace(CallbackInterpreter):
         if receiver.carries is not False or not self._is_variable(origin, receiver.scope):
             return False
         type_ = infer_type(origin, receiver.scope, self.names)
-        known = is_motor(type_) or simple_type_name(type_) in GROUPS | DRIVES
+        known = is_motor(type_) or get_simple_type_name(type_) in GROUPS | DRIVES
         if known or not type_ or find_class(origin, receiver.scope, self.names) is not None:
             return True
         return named or method in BY_MODE - {"set"}  # much can be set that is no motor
@@ -182,7 +188,7 @@ class DriveTrace(CallbackInterpreter):
                 return bool(self.names.find_local(root.name, scope))
         if isinstance(node, Name) and node.name in brought:
             return bool(self.names.find_local(node.name, scope))
-        named = last_name(node).lstrip("_")  # in any script: most have no capitals
+        named = get_last_name(node).lstrip("_")  # in any script: most have no capitals
         return isinstance(node, Call) or (bool(named) and not named[:1].isupper())
 
 
@@ -194,7 +200,7 @@ def _kind(call: DriveCall) -> tuple[Output, bool | None, bool | None, bool, str]
 def _mode(value: Value) -> Output | None:
     """The control mode that an argument names, if it is one."""
     return (
-        MODES.get(enum_constant(last_name(value.origin)))
+        MODES.get(normalize_enum_constant(get_last_name(value.origin)))
         if isinstance(value.origin, Member)
         else None
     )

@@ -4,10 +4,10 @@ import re
 from collections.abc import Iterator, Sequence
 
 from grader.robotcode.binding_facts import Factory
-from grader.robotcode.closure import BoundNode, list_returned_nodes
+from grader.robotcode.closure import BoundNode
 from grader.robotcode.commands import CommandReader
 from grader.robotcode.ir import Class, Function, Member, Node, Self
-from grader.robotcode.name_resolution import find_class, infer_type
+from grader.robotcode.name_resolution import find_class, infer_type, list_returned_nodes
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 

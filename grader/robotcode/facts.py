@@ -10,7 +10,7 @@ from enum import Enum
 
 
 class Certainty(Enum):
-    """How a fact was come by."""
+    """How certain a fact is."""
 
     STATED = "stated"  # written in the code, through constants and arithmetic where need be
     DEFAULT = "default"  # left out, or null: the library's own value holds
@@ -38,7 +38,7 @@ class ConfigQuantity:
 
 
 class Output(Enum):
-    """What a motor is told in the drive callback."""
+    """The kind of command that a motor gets in the drive callback."""
 
     VOLTAGE = "voltage"  # setVoltage, setControl(VoltageOut), set_voltage
     DUTY = "duty"  # set(...), DutyCycleOut: a share of whatever the battery gives
@@ -54,9 +54,9 @@ class DriveCall:
         motor: the variable that is commanded: ``m_leftLeader``.
         method: the call as written: ``setVoltage``.
         output: what kind of command it is.
-        uses_parameter: whether the callback's voltage reaches the call; None if it cannot be told.
+        uses_parameter: whether the callback's voltage reaches the call; None if unknown.
         scaled: whether the voltage is changed on its way (``voltage.in(Volts) / 12``), a sign
-            apart; None if it cannot be told.
+            apart; None if unknown.
         negative: whether its sign is changed on its way.
         text: the call's source text.
         line: line in the source, from 1; 0 if it stands in another file.
@@ -100,7 +100,7 @@ class LoggedSignal:
         quantity: what the device reports: ``position``, ``velocity``, ``voltage``, ...
         native: the unit in which the device reports it, as ``readings.native_unit`` says.
         scale: what the device's number is multiplied with before the log gets it, the factor
-            included that the device is set to; None if it cannot be told.
+            included that the device is set to; None if unknown.
         unsigned: whether its sign is lost on its way, as by ``Math.abs``.
         condition: as of a DriveCall.
     """
@@ -123,7 +123,7 @@ class LoggedSignal:
 
 @dataclass(frozen=True)
 class ParseProblem:
-    """A place the parser stumbled over.
+    """A place in the code that cannot be parsed or compiled.
 
     Args:
         message: one sentence a student understands: ``a ')' is missing``.
@@ -151,7 +151,7 @@ class RoutineFacts:
         drive: the commands in the drive callback, followed through methods of the same class.
         logged: the values recorded in the log callback, followed likewise.
         log_is_null: the log callback is explicitly null/None (vendors' own loggers do that).
-        subsystem_passed: whether the Mechanism gets ``this``/``self``; None if it cannot be told.
+        subsystem_passed: whether the Mechanism gets ``this``/``self``; None if unknown.
         config_argument, mechanism_argument: positions of the two in the constructor call (0 and 1
             when right), -1 if absent.
         routine_lost: line where the field that holds the routine is set to null after that; 0 if

@@ -54,7 +54,7 @@ class Files:
         return self._found[key]
 
     def find_by_word(self, word: str) -> list[Module]:
-        """The Java files of the program whose text has a word, in the order of their paths."""
+        """The Java files of the program whose text contains a word, in the order of their paths."""
         paths = sorted(path for several in self._java_files().values() for path in several)
         found = (self._module(path) for path in paths if _has_word(path, word))
         return [module for module in found if module is not None]

@@ -13,10 +13,15 @@ from grader.robotcode.controller_gains import RATIO, GainSetting, find_gain_sett
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.files import Files
 from grader.robotcode.ir import Assign, Call, Cast, Member, Module, Name, Node, Self, iter_nodes
-from grader.robotcode.name_resolution import MOST_STEPS, find_constructed_class, last_name
-from grader.robotcode.scope import Definition, Scope, walk_with_scopes
+from grader.robotcode.name_resolution import (
+    MOST_STEPS,
+    Placed,
+    find_constructed_class,
+    get_last_name,
+)
+from grader.robotcode.scope import Scope, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 HOLDER = re.compile(r"characteri[sz]ation", re.IGNORECASE)
 # kS, K_S, ks, kSVolts, kvVoltSecondsPerMeter; not kStatic, kAngle.
@@ -37,7 +42,7 @@ class GainConstant:
         gain: ``kS``, ``kV``, ``kA``, ``kG`` or ``kP``.
         name: as written.
         holder: the class it is in; empty at the top of a file.
-        value: the number; None if it cannot be told.
+        value: the number; None if unknown.
         text: what it is given, as written.
         comment: the comments beside it and directly above it.
         line: its line, from 1.
@@ -58,7 +63,7 @@ class Argument:
 
     Args:
         gain: whose constant it is made of; empty if of none, or of several.
-        value: the number; None if it cannot be told.
+        value: the number; None if unknown.
         text: as written.
     """
 
@@ -118,7 +123,7 @@ class DeployFacts:
         return next((one for one in self.constants if one.gain == gain), None)
 
 
-def gain_from_name(name: str) -> str:
+def find_gain_of_name(name: str) -> str:
     """The gain that a name stands for; empty if for none."""
     found = GAIN.fullmatch(name.lstrip("_").removeprefix("m_"))
     return f"k{found[1].upper()}" if found else ""
@@ -181,18 +186,15 @@ class _Reader:
             mine = isinstance(target, Member) and isinstance(target.owner, Self)
             if not (mine or (isinstance(target, Name) and not scope.functions)):
                 continue
-            gain = gain_from_name(last_name(target))
+            gain = find_gain_of_name(get_last_name(target))
             if gain:
-                last = node.place.line + node.place.source.count(
-                    b"\n", node.place.start, node.place.end
-                )
                 yield GainConstant(
                     gain,
-                    last_name(target),
+                    get_last_name(target),
                     scope.classes[-1].name if scope.classes else "",
                     self._value(node.value, scope),
                     node.value.place.text,
-                    find_comments_near(said, node.place.line, last),
+                    find_comments_near(said, node.place.line, node.place.last_line),
                     node.place.line,
                 )
 
@@ -208,7 +210,7 @@ class _Reader:
             kind = made.partition("Feedforward")[0] + "Feedforward"
             words = ARGUMENTS[kind]
             given = dict(zip(words, call.args, strict=False))
-            given |= {gain_from_name(java_spelling(word)): node for word, node in call.named}
+            given |= {find_gain_of_name(spell_as_java(word)): node for word, node in call.named}
             arguments = {
                 word: self._argument(node, scope) for word, node in given.items() if word in words
             }
@@ -249,13 +251,13 @@ class _Reader:
 
     def _of_object(self, node: Node, scope: Scope) -> float | None:
         """The value of an object's field; None where the object may have been made with others."""
-        one = self._one(node, scope) if isinstance(node, Member) else None
-        if one is None or one.value is None or not isinstance(node, Member):
+        one = self._only_value(node, scope) if isinstance(node, Member) else None
+        if one is None or not isinstance(node, Member):
             return None
         owner = resolve_bound(BoundNode(node.owner, scope), self._names).node
         if isinstance(owner, Call) and (owner.args or owner.named or owner.spread):
             return None
-        return self._value(one.value, one.scope)
+        return self._value(*one)
 
     def _gain(self, node: Node, scope: Scope) -> str:
         """The gain whose constant a value is made of, names followed."""
@@ -273,13 +275,13 @@ class _Reader:
                 continue
             if not isinstance(node, Name | Member):
                 break
-            gain = gain_from_name(node.name)
+            gain = find_gain_of_name(node.name)
             if gain:
                 return gain
-            one = self._one(node, scope)
-            if one is None or one.value is None:
+            one = self._only_value(node, scope)
+            if one is None:
                 return ""
-            node, scope = one.value, one.scope
+            node, scope = one
         found = {
             self._gain(part, scope)
             for part in iter_nodes(node, but=(Member,))
@@ -287,29 +289,24 @@ class _Reader:
         } - {""}
         return found.pop() if len(found) == 1 else ""
 
-    def _one(self, node: Node, scope: Scope) -> Definition | None:
-        valued = [
-            one
-            for one in find_definitions(BoundNode(node, scope), self._names)
-            if one.value is not None
-        ]
-        return valued[0] if len(valued) == 1 else None
+    def _only_value(self, node: Node, scope: Scope) -> Placed | None:
+        return find_only_value(find_definitions(BoundNode(node, scope), self._names))
 
     def _others(self, calls: list[tuple[Call, Scope]]) -> Iterator[Module]:
         """Other files that hold gains which are handed to something here."""
         for call, scope in calls:
-            for node in (*call.args, *(value for _, value in call.named)):
+            for node in call.all_args:
                 for part in iter_nodes(node, but=(Member,)):
-                    if isinstance(part, Name | Member) and gain_from_name(part.name):
-                        one = self._one(part, scope)
+                    if isinstance(part, Name | Member) and find_gain_of_name(part.name):
+                        one = self._only_value(part, scope)
                         if one is not None:
-                            yield one.scope.module
+                            yield one[1].module
 
     def _feedback(self, calls: list[tuple[Call, Scope]]) -> Argument | None:
         for call, scope in calls:
             if FEEDFORWARD.fullmatch(find_constructed_class(call, scope, self._names)):
                 continue
-            for node in (*call.args, *(value for _, value in call.named)):
+            for node in call.all_args:
                 if self._gain(node, scope) == "kP":
                     return self._argument(node, scope)
         return None
@@ -319,6 +316,4 @@ def _around(holder: Node | None, said: tuple[Comment, ...]) -> str:
     """The comments in a class and directly above it."""
     if holder is None:
         return ""
-    place = holder.place
-    last = place.line + place.source.count(b"\n", place.start, place.end)
-    return find_comments_near(said, place.line, last)
+    return find_comments_near(said, holder.place.line, holder.place.last_line)

@@ -32,6 +32,11 @@ class SourceSpan:
     line: int
 
     @property
+    def last_line(self) -> int:
+        """The line on which it ends."""
+        return self.line + self.source.count(b"\n", self.start, self.end)
+
+    @property
     def text(self) -> str:
         """The source text on one line."""
         stretch = self.source[self.start : min(self.end, self.start + 4 * LONGEST)]
@@ -159,6 +164,16 @@ class Call(Node):
     named: tuple[tuple[str, Node], ...] = ()
     spread: bool = False
 
+    @property
+    def all_args(self) -> tuple[Node, ...]:
+        """The positional arguments and the values of the keyword arguments."""
+        return (*self.args, *(node for _, node in self.named))
+
+    @property
+    def owner(self) -> Node | None:
+        """The object on which a method is called; None for a bare function."""
+        return self.target.owner if isinstance(self.target, Member) else None
+
 
 @dataclass(frozen=True, eq=False)
 class Operation(Node):
@@ -212,7 +227,7 @@ class Loop(Node):
 
 @dataclass(frozen=True, eq=False)
 class FunctionParameter(Node):
-    """One parameter of a function; ``type`` as written, empty if not; ``default`` if it has one."""
+    """One parameter of a function; ``type`` as written, or empty; ``default`` or None."""
 
     name: str
     type: str

@@ -1,4 +1,4 @@
-"""Whether an object still holds, once it is made, what one of its fields was given."""
+"""Whether an object still holds what one of its fields was given."""
 
 from collections.abc import Iterator
 

@@ -8,18 +8,18 @@ from grader.robotcode.callback_interpreter import CallbackInterpreter
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.facts import LoggedSignal, Source
 from grader.robotcode.ir import Call, Function, FunctionParameter, Member, Name
-from grader.robotcode.name_resolution import fold_text, last_name
+from grader.robotcode.name_resolution import fold_text, get_method_name
 from grader.robotcode.readings import DeviceReading, DeviceSettings, find_native_unit
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.statement_interpreter import Frame
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import SIGNALS, UNITS, java_spelling
+from grader.robotcode.vocabulary import SIGNALS, UNITS
 
 LINEAR = "linear"
 
 
 class LogTrace(CallbackInterpreter):
-    """Follows the log callback and notes every value it records.
+    """Interprets the log callback and records every value that it logs.
 
     Args:
         names: the names of the program.
@@ -44,7 +44,7 @@ class LogTrace(CallbackInterpreter):
         self._changes: dict[Scope, dict[str, list[tuple[Call, Scope]]]] = {}
 
     def entry_count(self) -> int:
-        """How many values have been noted."""
+        """How many values have been recorded."""
         return len(self.signals)
 
     def note_call(
@@ -54,8 +54,8 @@ class LogTrace(CallbackInterpreter):
         args: list[Value],
         at: Value,  # noqa: ARG002 - the log is what the call is made on, or nothing
     ) -> Value | None:
-        """Note a value that is recorded."""
-        name = java_spelling(last_name(call.target))
+        """Record a value that is logged."""
+        name = get_method_name(call)
         if receiver is None or receiver.log is None:
             if any(arg.log is not None for arg in args):
                 self.note_unreadable(call)
@@ -67,10 +67,10 @@ class LogTrace(CallbackInterpreter):
             self._note(call, name, receiver.log.name, args)
         return receiver
 
-    def evaluate_variable(self, node: Name | Member, frame: Frame) -> Value:
-        """The value of a field: what it is given anywhere in the class."""
-        key = self.storage_key(node, frame)
-        at = frame.unknown_value(node)
+    def evaluate_unassigned_variable(self, node: Name | Member, frame: Frame) -> Value:
+        """The value of a field: whatever it is given anywhere in the class."""
+        key = self.make_storage_key(node, frame)
+        at = frame.make_unknown_value(node)
         if key in self._commanded:
             return replace(at, marks=frozenset({Mark.COMMANDED}))
         if key in self._open:
@@ -120,7 +120,7 @@ class LogTrace(CallbackInterpreter):
                 unit=value.unit,
                 source=_source(signal, value.marks),
                 text=call.target.place.text,
-                line=self.line_of(call.target),
+                line=self.find_line_of(call.target),
                 device=reading.device,
                 type=reading.type,
                 quantity=reading.quantity,

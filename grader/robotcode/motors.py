@@ -19,11 +19,11 @@ from grader.robotcode.ir import (
 )
 from grader.robotcode.name_resolution import (
     Placed,
+    get_last_name,
+    get_simple_type_name,
     infer_type,
     infer_type_from,
-    last_name,
     resolve,
-    simple_type_name,
 )
 from grader.robotcode.scope import Scope, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
@@ -32,9 +32,9 @@ from grader.robotcode.vocabulary import (
     DRIVES,
     FOLLOWERS,
     GROUPS,
-    enum_constant,
     is_motor,
-    java_spelling,
+    normalize_enum_constant,
+    spell_as_java,
 )
 
 DEEPEST = 3  # a list of groups of motors
@@ -42,7 +42,7 @@ MOST = 16  # motors in one list
 MOST_NODES = 200  # of an expression that may make settings
 
 
-def motor_label(node: Node) -> str:
+def make_motor_label(node: Node) -> str:
     """The name of a motor in messages: ``m_left``, ``io.motor``."""
     if isinstance(node, Name):
         return node.name
@@ -65,8 +65,8 @@ def _listed(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> 
     if isinstance(value, Items):
         several = value.items
     elif isinstance(value, Call):
-        maker = last_name(value.target)
-        owner = last_name(value.target.owner) if isinstance(value.target, Member) else ""
+        maker = get_last_name(value.target)
+        owner = get_last_name(value.target.owner) if isinstance(value.target, Member) else ""
         if maker in GROUPS | DRIVES or owner in COLLECTIONS:
             several = value.args
             if len(several) == 1 and depth < DEEPEST:  # Arrays.stream(m_modules)
@@ -79,13 +79,13 @@ def _listed(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> 
 
 def _paired(call: Call, scope: Scope, names: SymbolTable, depth: int) -> tuple[Placed, ...]:
     """What Python's enumerate, zip and a dictionary's items and values run over."""
-    name = last_name(call.target)
+    name = get_last_name(call.target)
     lists: list[tuple[Placed, ...]] = []
     if isinstance(call.target, Name) and name in {"enumerate", "zip"}:
         lists = [_listed(arg, scope, names, depth=depth) for arg in call.args]
     elif isinstance(call.target, Member) and name in {"items", "values"}:
         table, scope = resolve(call.target.owner, scope, names)
-        if isinstance(table, Call) and last_name(table.target) == "dict":
+        if isinstance(table, Call) and get_last_name(table.target) == "dict":
             lists = [_listed(arg, scope, names, depth=depth) for arg in table.args]
     if not lists or name == "values":
         return lists[-1] if lists else ()
@@ -115,7 +115,7 @@ def list_motor_names(
         if members:
             several = (list_motor_names(n, s, names, depth=depth + 1) for n, s in members[:MOST])
             return tuple(dict.fromkeys(name for some in several for name in some))
-    return (motor_label(node),)
+    return (make_motor_label(node),)
 
 
 def _motor_behind(node: Node, scope: Scope, names: SymbolTable) -> tuple[Placed, ...]:
@@ -139,14 +139,14 @@ def list_owned_motors(home: Scope, names: SymbolTable) -> tuple[str, ...]:
                 first and first.value and list_group_members(first.value, first.scope, names)
             )
             type_ = infer_type_from(definitions, names)
-            if (is_motor(type_) or simple_type_name(type_) in GROUPS) and not named:
+            if (is_motor(type_) or get_simple_type_name(type_) in GROUPS) and not named:
                 found[name] = None
     following = {name for place in classes for name in _Followers(names).of(place)}
     return tuple(name for name in found if name not in following)
 
 
 class _Followers:
-    """Finds the motors of a class that are told to follow another, in the order of the text."""
+    """Finds the motors of a class that are set to follow another, in the order of the text."""
 
     def __init__(self, names: SymbolTable) -> None:
         self._names = names
@@ -167,7 +167,7 @@ class _Followers:
 
     def _followers(self, call: Call, target: Member, scope: Scope) -> list[Placed]:
         """The motors that one call makes followers."""
-        name = java_spelling(target.name)
+        name = spell_as_java(target.name)
         motor = (target.owner, scope)
         first = call.args[0] if call.args else None
         if name == "addFollower":
@@ -179,11 +179,11 @@ class _Followers:
         elif name == "setControl" and first is not None:
             return (
                 [motor]
-                if simple_type_name(infer_type(first, scope, self._names)) in FOLLOWERS
+                if get_simple_type_name(infer_type(first, scope, self._names)) in FOLLOWERS
                 else []
             )
         elif name == "set" and first is not None:
-            return [motor] if enum_constant(last_name(first)) == "follower" else []
+            return [motor] if normalize_enum_constant(get_last_name(first)) == "follower" else []
         elif name == "configure" and first is not None:
             follows = self._key(first, scope) in self._configs or self._settings_follow(
                 first, scope
@@ -201,12 +201,12 @@ class _Followers:
         if home is None or not home.classes or home.classes == scope.classes:
             return False
         calls = [call for node in home.classes[-1].body for call in _follow_calls(node)]
-        return last_name(settings) in {last_name(_root(call.target)) for call in calls}
+        return get_last_name(settings) in {get_last_name(_root(call.target)) for call in calls}
 
     def _key(self, node: Node, scope: Scope) -> tuple[str, Node | None]:
         """A variable, told apart from those of the same name in other methods."""
         local = self._names.find_local(node.name, scope) if isinstance(node, Name) else ()
-        return motor_label(node), local[0].scope.functions[-1] if local else None
+        return make_motor_label(node), local[0].scope.functions[-1] if local else None
 
     def _called_with(self, motor: Node, scope: Scope, home: Scope) -> Iterator[str]:
         """The motor's name; where it is a method's parameter, the motors it is called with."""
@@ -217,13 +217,13 @@ class _Followers:
         function = local[0].scope.functions[-1]
         at = function.parameters.index(local[0].value)
         for node in iter_nodes(*home.classes[-1].body):
-            if isinstance(node, Call) and last_name(node.target) == function.name:
-                yield from (motor_label(arg) for arg in node.args[at : at + 1])
+            if isinstance(node, Call) and get_last_name(node.target) == function.name:
+                yield from (make_motor_label(arg) for arg in node.args[at : at + 1])
 
 
 def _follow_calls(node: Node) -> list[Call]:
     nodes = islice(iter_nodes(node), MOST_NODES)
-    return [n for n in nodes if isinstance(n, Call) and last_name(n.target) == "follow"]
+    return [n for n in nodes if isinstance(n, Call) and get_last_name(n.target) == "follow"]
 
 
 def _root(node: Node) -> Node:

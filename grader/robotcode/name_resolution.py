@@ -1,4 +1,4 @@
-"""Names followed to what they stand for: a value, a type, a method."""
+"""Resolve names to what they stand for: a value, a type, a method."""
 
 import re
 
@@ -21,9 +21,9 @@ from grader.robotcode.ir import (
     Text,
     iter_nodes,
 )
-from grader.robotcode.scope import Definitions, Scope, walk_with_scopes
+from grader.robotcode.scope import Definitions, Scope, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import STAND_INS
+from grader.robotcode.vocabulary import STAND_INS, spell_as_java
 
 MOST_STEPS = 20  # names followed, one to the next
 MOST_PIECES = 5  # strings joined one into the other
@@ -32,18 +32,23 @@ Placed = tuple[Node, Scope]  # a node, and the scope it stands in
 Method = tuple[Function, Scope]  # a function, and the scope inside it
 
 
-def simple_type_name(type_: str) -> str:
-    """A type's own name: ``Config`` of ``SysIdRoutine.Config``, ``List`` of ``List<TalonFX>``."""
+def get_simple_type_name(type_: str) -> str:
+    """A type's name without owner and arguments: ``Config``, ``List`` of ``List<TalonFX>``."""
     return re.sub(r"[<\[|].*", "", type_, flags=re.DOTALL).strip(" \"'").rpartition(".")[2]
 
 
-def last_name(node: Node) -> str:
+def get_last_name(node: Node) -> str:
     """The last part of a dotted name, ``Config`` of ``SysIdRoutine.Config``; else empty."""
     return node.name if isinstance(node, Name | Member) else ""
 
 
+def get_method_name(call: Call) -> str:
+    """The name of the called method, in Java's spelling; empty if it has none."""
+    return spell_as_java(get_last_name(call.target))
+
+
 def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
-    """Follow constants, variables and plain getters to what they stand for.
+    """Resolve constants, variables and plain getters to what they stand for.
 
     Returns:
         The node where the way ends, and its scope: a value, or the last name that has none or
@@ -63,10 +68,10 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
             continue
         if isinstance(node, Reference):
             break
-        valued = [d for d in names.find_definitions(node, scope) if d.value is not None]
-        if len(valued) != 1 or valued[0].value is None:
+        found = find_only_value(names.find_definitions(node, scope))
+        if found is None:
             break
-        node, scope = valued[0].value, valued[0].scope
+        node, scope = found
         if isinstance(node, Function) and node.property:
             returned = find_single_return(node)
             if returned is None:
@@ -75,10 +80,16 @@ def resolve(node: Node, scope: Scope, names: SymbolTable) -> Placed:
     return node, scope
 
 
+def list_returned_nodes(function: Function) -> list[Node]:
+    """The nodes that a function may return."""
+    found = iter_nodes(*function.body, but=(Function, Class))
+    return [node.value for node in found if isinstance(node, Return)]
+
+
 def find_single_return(function: Function) -> Node | None:
     """The node that a function returns, if it has a single return."""
-    found = [n for n in iter_nodes(*function.body, but=(Function, Class)) if isinstance(n, Return)]
-    return found[0].value if len(found) == 1 else None
+    found = list_returned_nodes(function)
+    return found[0] if len(found) == 1 else None
 
 
 def infer_type(node: Node, scope: Scope, names: SymbolTable) -> str:
@@ -129,7 +140,7 @@ def find_constructed_class(call: Call, scope: Scope, names: SymbolTable) -> str:
         if brought:
             return brought
     target, _ = resolve(target, scope, names)  # Config = SysIdRoutine.Config
-    made = last_name(target)
+    made = get_last_name(target)
     return made if made[:1].isupper() else ""
 
 
@@ -144,7 +155,7 @@ def _made(node: Node, scope: Scope) -> str | None:
     node = _without_settings(node)
     if not isinstance(node, Call):
         return None
-    made = last_name(node.target)
+    made = get_last_name(node.target)
     if isinstance(node.target, Name):
         made = find_imported_name(made, scope) or made
     return made if made[:1].isupper() else ""
@@ -177,13 +188,13 @@ def find_class(node: Node, scope: Scope, names: SymbolTable) -> Scope | None:
     """The class that a node names or is an instance of, if these files hold it."""
     home = names.find_home(node, scope)
     if home is None:
-        type_ = simple_type_name(infer_type(node, scope, names))
+        type_ = get_simple_type_name(infer_type(node, scope, names))
         home = names.find_by_name(type_, scope) if type_ else None
     return home
 
 
 def fold_text(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
-    """A string constant, joined from several where need be; empty if it cannot be told."""
+    """A string constant, joined from several where need be; empty if unknown."""
     node, scope = resolve(node, scope, names)
     if isinstance(node, Text):
         return node.value
@@ -218,8 +229,8 @@ def find_called_functions(
     ]
     if functions or scope.module.language == "python":
         return functions
-    homes = (Scope(scope.module, scope.classes[:n]) for n in range(len(scope.classes), 0, -1))
-    return next(filter(None, (_fitting(target.name, h, names, count) for h in homes)), [])
+    found = (_fitting(target.name, home, names, count) for home in scope.homes)
+    return next(filter(None, found), [])
 
 
 def find_methods(name: str, home: Scope, names: SymbolTable) -> list[Method]:
@@ -240,10 +251,12 @@ def find_given_setting(node: Node, scope: Scope, names: SymbolTable) -> str:
         return ""
     setter = f"with{node.name}"
     found = {
-        last_name(resolve(inner.args[0], where, names)[0])
+        get_last_name(resolve(inner.args[0], where, names)[0])
         for module in names.list_modules_with(setter)
         for inner, where in walk_with_scopes(module.body, Scope(module))
-        if isinstance(inner, Call) and last_name(inner.target) == setter and len(inner.args) == 1
+        if isinstance(inner, Call)
+        and get_last_name(inner.target) == setter
+        and len(inner.args) == 1
     }
     return found.pop() if len(found) == 1 else ""
 

@@ -10,15 +10,15 @@ from dataclasses import dataclass, field
 
 from grader.robotcode.constant_folding import ConstantFolder
 from grader.robotcode.ir import Assign, Call, Member, Name, Node, Self, Text
-from grader.robotcode.motors import motor_label
+from grader.robotcode.motors import make_motor_label
 from grader.robotcode.name_resolution import (
+    get_last_name,
+    get_simple_type_name,
     infer_type,
     infer_type_from,
-    last_name,
     resolve,
-    simple_type_name,
 )
-from grader.robotcode.scope import Scope, collect_bindings, walk_with_scopes
+from grader.robotcode.scope import Scope, collect_bindings, find_only_value, walk_with_scopes
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.vocabulary import (
     APPLIED_DUTY,
@@ -28,7 +28,7 @@ from grader.robotcode.vocabulary import (
     ROTATIONS,
     SPARKS,
     is_motor,
-    java_spelling,
+    spell_as_java,
 )
 
 PARTS = {  # methods of a motor controller that hand out its encoder
@@ -71,8 +71,8 @@ class DeviceSettings:
     """The settings that the program gives its devices.
 
     Args:
-        per_pulse: encoder -> what it counts per pulse; None if that cannot be told.
-        position, velocity: the conversion factors of Spark encoders; None if one cannot be told.
+        per_pulse: encoder -> what it counts per pulse; None if unknown.
+        position, velocity: the conversion factors of Spark encoders; None if unknown.
         ratios: the source text of every sensor-to-mechanism ratio.
         inverted: the motors that are set to turn the other way round.
         configured: the devices that get a configuration.
@@ -101,14 +101,14 @@ def find_quantity(method: str, *, motor: bool) -> str:
 
 def find_device(node: Node, scope: Scope, names: SymbolTable) -> tuple[str, str]:
     """The name and the class of a motor controller or encoder; two empty texts for other nodes."""
-    type_ = simple_type_name(infer_type(node, scope, names))
+    type_ = get_simple_type_name(infer_type(node, scope, names))
     value, _ = resolve(node, scope, names)
     if isinstance(value, Call) and isinstance(value.target, Member):
-        made = PARTS.get(java_spelling(value.target.name), "")
+        made = PARTS.get(spell_as_java(value.target.name), "")
         if made and not value.target.name[:1].isupper():
-            return motor_label(value.target.owner), made
+            return make_motor_label(value.target.owner), made
     known = is_motor(type_) or bool(ENCODER.fullmatch(type_))
-    return (motor_label(node), type_) if known else ("", "")
+    return (make_motor_label(node), type_) if known else ("", "")
 
 
 def find_native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[str, float | None]:
@@ -116,8 +116,8 @@ def find_native_unit(reading: DeviceReading, settings: DeviceSettings) -> tuple[
 
     Returns:
         ``rotation``, ``rotation per second``, ``rpm``, ``pulse`` or ``set`` (whatever the program
-        set the device to), or empty if it cannot be told; and the factor that the program set,
-        None if it cannot be told.
+        set the device to), or empty if unknown; and the factor that the program set,
+        None if unknown.
     """
     moves = reading.quantity == "velocity"
     found: tuple[str, float | None] = ("", None)
@@ -164,23 +164,24 @@ class _SettingsReader:
         for module in dict.fromkeys((self._names.main, *(place.module for place in above))):
             for node, scope in walk_with_scopes(module.body, Scope(module)):
                 if isinstance(node, Assign) and node.value is not None:
-                    self._assigned(last_name(node.target), node.value)
+                    self._assigned(get_last_name(node.target), node.value)
                 elif isinstance(node, Call) and isinstance(node.target, Member):
-                    args = [*node.args, *(value for _, value in node.named)]
-                    if args:
-                        self._called(node.target, args[0], scope)
+                    for first in node.all_args[:1]:
+                        self._called(node.target, first, scope)
         return self._found
 
     def _assigned(self, name: str, value: Node) -> None:
         if _is_ratio(name):
             self._found.ratios.append(value.place.text)
-        elif java_spelling(name).lower() == "inverted":
+        elif spell_as_java(name).lower() == "inverted":
             self._found.inverted.add(ANY)
 
     def _called(self, target: Member, first: Node, scope: Scope) -> None:
-        name = java_spelling(target.name).removeprefix("set").removeprefix("with")
+        name = spell_as_java(target.name).removeprefix("set").removeprefix("with")
         name = name[:1].lower() + name[1:]
-        device = ANY if _is_open(target.owner, scope, self._names) else motor_label(target.owner)
+        device = (
+            ANY if _is_open(target.owner, scope, self._names) else make_motor_label(target.owner)
+        )
         measure = self._measures.fold(first, scope)
         amount = None if measure is None else measure.value
         if name == "distancePerPulse":
@@ -205,11 +206,11 @@ def _configured(node: Node) -> str:
     inner = node.target if isinstance(node, Call) else node
     if isinstance(inner, Member) and isinstance(node, Call):
         inner = inner.owner
-    return motor_label(inner)
+    return make_motor_label(inner)
 
 
 def _is_ratio(name: str) -> bool:
-    return java_spelling(name).lower().endswith(("sensortomechanismratio", "rotortosensorratio"))
+    return spell_as_java(name).lower().endswith(("sensortomechanismratio", "rotortosensorratio"))
 
 
 def _is_open(node: Node, scope: Scope, names: SymbolTable) -> bool:
@@ -233,7 +234,7 @@ def find_impossible_ids(
         amounts = [one.value for one in several if one is not None]
         wrong = [one for one in amounts if one != int(one) or not 0 <= one <= MOST_IDS]
         twice = len(amounts) > 1 and amounts[0] == amounts[1]
-        if wrong or (twice and last_name(value.target) == "Encoder"):
+        if wrong or (twice and get_last_name(value.target) == "Encoder"):
             found.append((name, (wrong or amounts)[0]))
     return found
 
@@ -243,7 +244,7 @@ def _made(home: Scope, names: SymbolTable) -> Iterator[tuple[str, Call]]:
     for name, definitions in (names.find_fields(home) if home.classes else {}).items():
         value = next((one.value for one in definitions if isinstance(one.value, Call)), None)
         if isinstance(value, Call) and value.args:
-            type_ = simple_type_name(infer_type(value, home, names))
+            type_ = get_simple_type_name(infer_type(value, home, names))
             if is_motor(type_) or type_ == "Encoder":
                 yield name, value
 
@@ -255,7 +256,7 @@ def find_shared_ids(
     made: dict[tuple[object, ...], str] = {}
     found: list[tuple[str, str]] = []
     for name, value in _made(home, names):
-        kind = simple_type_name(infer_type(value, home, names))
+        kind = get_simple_type_name(infer_type(value, home, names))
         amounts = [measures.fold(arg, home) for arg in value.args]
         known = [one.value for one in amounts if one is not None]
         texts = [arg.value for arg in value.args if isinstance(arg, Text)]
@@ -270,7 +271,7 @@ def find_devices(home: Scope, names: SymbolTable) -> Iterator[tuple[str, str]]:
     """The motor controllers and encoders that a class owns: name and class."""
     for place in names.list_base_classes(home) if home.classes else ():
         for name, definitions in names.find_fields(place).items():
-            type_ = simple_type_name(infer_type_from(definitions, names))
+            type_ = get_simple_type_name(infer_type_from(definitions, names))
             if is_motor(type_) or ENCODER.fullmatch(type_):
                 yield name, type_
 
@@ -282,8 +283,7 @@ def find_number_fields(
     at_top = collect_bindings(home.module.body, Scope(home.module))
     for several in (names.find_fields(home) if home.classes else {}, at_top):
         for name, definitions in several.items():
-            valued = [one for one in definitions if one.value is not None]
-            if len(valued) == 1 and valued[0].value is not None:
-                amount = measures.fold(valued[0].value, valued[0].scope)
-                if amount is not None and amount.dimension == "number":
-                    yield name, amount.value
+            only = find_only_value(definitions)
+            amount = None if only is None else measures.fold(*only)
+            if amount is not None and amount.dimension == "number":
+                yield name, amount.value

@@ -25,10 +25,10 @@ from grader.robotcode.name_resolution import (
     find_constructed_class,
     find_imported_name,
     find_methods,
+    get_last_name,
+    get_simple_type_name,
     infer_type,
-    last_name,
     resolve,
-    simple_type_name,
 )
 from grader.robotcode.readings import (
     find_devices,
@@ -50,8 +50,8 @@ from grader.robotcode.vocabulary import (
     ROUTINE,
     STOPS,
     SUBSYSTEMS,
-    config_defaults,
-    java_spelling,
+    find_config_defaults,
+    spell_as_java,
 )
 
 
@@ -139,22 +139,24 @@ def _routine(call: Call, scope: Scope, names: SymbolTable) -> _Routine:
 
 
 def _kind(node: Node, scope: Scope, names: SymbolTable) -> str:
-    """The class of an argument; empty if it cannot be told."""
+    """The class of an argument; empty if unknown."""
     value, where = resolve(node, scope, names)
     if isinstance(value, Call):
         return _part_made(value, where, names)
     if isinstance(value, Null | Text | Number | Function | Self):
         return "other"
-    return _part_name(simple_type_name(infer_type(node, scope, names)))
+    return _part_name(get_simple_type_name(infer_type(node, scope, names)))
 
 
 def _part_made(call: Call, scope: Scope, names: SymbolTable) -> str:
     """The part of a routine that a call makes: ``Config``, ``Mechanism``; else its class."""
     target = call.target
-    if last_name(target) in CONFIG_FACTORIES:
+    if get_last_name(target) in CONFIG_FACTORIES:
         owner = target.owner if isinstance(target, Member) else None
-        imported = next((i.path for i in scope.module.imports if i.name == last_name(target)), "")
-        made_by = last_name(owner) if owner else imported.rpartition(".")[0].rpartition(".")[2]
+        imported = next(
+            (i.path for i in scope.module.imports if i.name == get_last_name(target)), ""
+        )
+        made_by = get_last_name(owner) if owner else imported.rpartition(".")[0].rpartition(".")[2]
         return "Config" if made_by == "Config" else ""
     return _part_name(find_constructed_class(call, scope, names))
 
@@ -165,14 +167,14 @@ def _part_name(made: str) -> str:
 
 def _arguments(call: Call, words: tuple[str, ...]) -> dict[int, Node]:
     """Arguments by position, those given by keyword at the position of their word."""
-    named = ((java_spelling(word), node) for word, node in call.named)
+    named = ((spell_as_java(word), node) for word, node in call.named)
     by_word = {words.index(word): node for word, node in named if word in words}
     return dict(enumerate(call.args)) | by_word
 
 
 def _may_hide(call: Call, words: tuple[str, ...]) -> bool:
     """Whether an argument may be there unseen: spread from a variable, or its word misspelled."""
-    return call.spread or any(java_spelling(word) not in words for word, _ in call.named)
+    return call.spread or any(spell_as_java(word) not in words for word, _ in call.named)
 
 
 def _with_config(
@@ -188,7 +190,7 @@ def _with_config(
         return replace(facts, ramp=untold, step=untold, timeout=untold)
     given, season = _arguments(call, CONFIG), find_season(names.main.imports)
     found = dict.fromkeys(DEFAULTS, ConfigQuantity(Certainty.UNKNOWN))
-    for at, (name, default) in enumerate(config_defaults(season).items()):
+    for at, (name, default) in enumerate(find_config_defaults(season).items()):
         if at in given:
             found[name] = _quantity(given[at], scope, default, names, measures)
         elif not _may_hide(call, CONFIG):
@@ -203,12 +205,12 @@ def _changes(config: Node, names: SymbolTable) -> dict[str, Assign]:
     """Where a Config that a variable holds gets other numbers later, as Python lets it."""
     words = dict(zip(CONFIG, DEFAULTS, strict=False))
     return {
-        words[java_spelling(node.target.name)]: node
+        words[spell_as_java(node.target.name)]: node
         for node, _ in walk_with_scopes(names.main.body, Scope(names.main))
         if isinstance(node, Assign)
         and isinstance(node.target, Member)
-        and java_spelling(node.target.name) in words
-        and last_name(node.target.owner) == last_name(config) != ""
+        and spell_as_java(node.target.name) in words
+        and get_last_name(node.target.owner) == get_last_name(config) != ""
     }
 
 
@@ -227,9 +229,9 @@ def _quantity(
         known = Certainty.DEFAULT if taken else Certainty.UNKNOWN
         stated = default if known is Certainty.DEFAULT else ConfigQuantity(known)
         return replace(stated, text=place.text, line=line)
-    constant = NAMED_DEFAULTS.get(last_name(resolved))
+    constant = NAMED_DEFAULTS.get(get_last_name(resolved))
     if constant:
-        named = config_defaults(find_season(names.main.imports))[constant]
+        named = find_config_defaults(find_season(names.main.imports))[constant]
         return replace(named, text=place.text, line=line)
     measure = measures.fold(node, scope)
     if measure is None or measure.unit:
@@ -299,7 +301,7 @@ def _besides(
     loop = DriveTrace(names, measures, only_sure=True)
     driven = {call.motor for call in drive.calls if call.method not in STOPS}
     for method in find_methods("periodic", scope.home, names)[:1] if scope.classes else ():
-        loop.follow_method(method)
+        loop.interpret_method(method)
     followed = any(call.text == other.text for call in drive.calls for other in loop.calls)
     return () if followed else tuple(call for call in loop.calls if call.motor in driven)
 
@@ -310,4 +312,4 @@ def _in_periodic(drive: DriveTrace, scope: Scope, names: SymbolTable) -> None:
         return
     if any(value.carries for value in drive.stored.values()):
         for method in find_methods("periodic", scope.home, names)[:1]:
-            drive.follow_method(method)
+            drive.interpret_method(method)

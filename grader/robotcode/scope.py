@@ -1,6 +1,6 @@
 """Scopes: the file, classes and functions around a piece of code, and the names assigned there."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from grader.robotcode.ir import (
@@ -31,8 +31,14 @@ class Scope:
         """The class around it, without the functions."""
         return replace(self, functions=())
 
+    @property
+    def homes(self) -> "tuple[Scope, ...]":
+        """The classes around it, the innermost first."""
+        counts = range(len(self.classes), 0, -1)
+        return tuple(Scope(self.module, self.classes[:count]) for count in counts)
+
     def within(self, node: Node) -> "Scope":
-        """The scope of what is inside a node that stands in this one."""
+        """The scope inside a node of this scope."""
         if isinstance(node, Class):
             return Scope(self.module, (*self.classes, node))
         if isinstance(node, Function):
@@ -57,6 +63,12 @@ class Definition:
 
 
 Definitions = tuple[Definition, ...]
+
+
+def find_only_value(definitions: Sequence[Definition]) -> tuple[Node, Scope] | None:
+    """The one value that a variable gets, with its scope; None if it gets none or several."""
+    valued = [(one.value, one.scope) for one in definitions if one.value is not None]
+    return valued[0] if len(valued) == 1 else None
 
 
 def walk_with_scopes(nodes: tuple[Node, ...], scope: Scope) -> Iterator[tuple[Node, Scope]]:

@@ -28,8 +28,8 @@ from grader.robotcode.ir import (
     Return,
     Self,
 )
-from grader.robotcode.motors import list_group_members, motor_label
-from grader.robotcode.name_resolution import Method, find_given_setting, last_name
+from grader.robotcode.motors import list_group_members, make_motor_label
+from grader.robotcode.name_resolution import Method, find_given_setting, get_last_name
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
 from grader.robotcode.transfer_functions import TransferFunctions
@@ -62,7 +62,7 @@ class Frame:
     branches: int = 0
     returned: list[Value] = field(default_factory=list)
 
-    def unknown_value(self, node: Node) -> Value:
+    def make_unknown_value(self, node: Node) -> Value:
         """An unknown value, with its place in the code."""
         return Value(node, self.scope, me=self.me)
 
@@ -102,11 +102,11 @@ class StatementInterpreter(ABC):
     ) -> Value:
         """The value of a call of a function in these files."""
 
-    def evaluate_variable(self, node: Name | Member, frame: Frame) -> Value:
-        """The value of a variable that no statement so far has assigned."""
-        return frame.unknown_value(node)
+    def evaluate_unassigned_variable(self, node: Name | Member, frame: Frame) -> Value:
+        """The value of a variable that no statement has assigned so far."""
+        return frame.make_unknown_value(node)
 
-    def line_of(self, node: Node) -> int:
+    def find_line_of(self, node: Node) -> int:
         """The line of a node in the file in hand; 0 if it stands in another."""
         return node.place.line if node.place.source is self.names.main.source else 0
 
@@ -123,28 +123,30 @@ class StatementInterpreter(ABC):
         finally:
             self._depth -= 1
 
-    def storage_key(self, node: Node, frame: Frame) -> str:
+    def make_storage_key(self, node: Node, frame: Frame) -> str:
         """The key of a field's stored value; for a part of an object, the object's key."""
         while not isinstance(node, Name) and not _of_self(node):
             if not isinstance(node, Element | Member):
                 break
             node = node.owner
-        return frame.me + motor_label(node)
+        return frame.me + make_motor_label(node)
 
     def stop_too_deep(self, node: Node, frame: Frame) -> Value:
         """Give up on code that nests too deeply, and note it."""
         said = "the code is nested too deeply here for the grader"
-        self.unread.setdefault(said, ParseProblem(said, self.line_of(node)))
-        return replace(frame.unknown_value(node), carries=None)
+        self.unread.setdefault(said, ParseProblem(said, self.find_line_of(node)))
+        return replace(frame.make_unknown_value(node), carries=None)
 
     def _name(self, node: Name | Member, frame: Frame) -> Value:
         if isinstance(node, Name) and node.name in frame.locals:
             return frame.locals[node.name]
         if isinstance(node, Member) and self._is_part(node, frame):
-            return join_values([self.evaluate(node.owner, frame)], at=frame.unknown_value(node))
-        stored = self.stored.get(self.storage_key(node, frame))
+            return join_values(
+                [self.evaluate(node.owner, frame)], at=frame.make_unknown_value(node)
+            )
+        stored = self.stored.get(self.make_storage_key(node, frame))
         if stored is not None:
-            return join_values([stored], at=frame.unknown_value(node))
+            return join_values([stored], at=frame.make_unknown_value(node))
         definitions = self.names.find_definitions(node, frame.scope)
         value = definitions[0].value if len(definitions) == 1 else None
         if isinstance(value, Function) and value.property:
@@ -154,7 +156,7 @@ class StatementInterpreter(ABC):
         if local and isinstance(value, Name | Member | Function):
             outer = Frame(definitions[0].scope, frame.me, around=frame.around)
             return self.evaluate(value, outer)
-        return self.evaluate_variable(node, frame)
+        return self.evaluate_unassigned_variable(node, frame)
 
     def _is_part(self, node: Member, frame: Frame) -> bool:
         """Whether a member belongs to some object: not to this one, nor to a class or a file."""
@@ -163,17 +165,17 @@ class StatementInterpreter(ABC):
         return self.names.find_home(node.owner, frame.scope) is None
 
     def _self(self, node: Self, frame: Frame) -> Value:
-        return frame.unknown_value(node)
+        return frame.make_unknown_value(node)
 
     def _operation(self, node: Operation, frame: Frame) -> Value:
         left = None if node.left is None else self.evaluate(node.left, frame)
         right = self.evaluate(node.right, frame)
-        return self.flow.apply_operator(node, left, right, frame.unknown_value(node))
+        return self.flow.apply_operator(node, left, right, frame.make_unknown_value(node))
 
     def _choice(self, node: Choice, frame: Frame) -> Value:
         self.evaluate(node.condition, frame)
         several = [self.evaluate(node.one, frame), self.evaluate(node.other, frame)]
-        made = join_values(several, at=frame.unknown_value(node))
+        made = join_values(several, at=frame.make_unknown_value(node))
         alike = {one.carries for one in several} != {True, False}
         return made if alike else replace(made, factor=CHANGED)
 
@@ -183,17 +185,19 @@ class StatementInterpreter(ABC):
 
     def _element(self, node: Element, frame: Frame) -> Value:
         self.evaluate(node.index, frame)
-        return join_values([self.evaluate(node.owner, frame)], at=frame.unknown_value(node))
+        return join_values([self.evaluate(node.owner, frame)], at=frame.make_unknown_value(node))
 
     def _function(self, node: Function, frame: Frame) -> Value:
-        value = replace(frame.unknown_value(node), captured=dict(frame.locals))
+        value = replace(frame.make_unknown_value(node), captured=dict(frame.locals))
         if node.name:
             frame.locals[node.name] = value
         return value
 
     def _assign(self, node: Assign, frame: Frame) -> Value:
         value = (
-            frame.unknown_value(node) if node.value is None else self.evaluate(node.value, frame)
+            frame.make_unknown_value(node)
+            if node.value is None
+            else self.evaluate(node.value, frame)
         )
         target = node.target
         if isinstance(target, Name) and not self.names.find_field_name(target, frame.scope):
@@ -226,7 +230,7 @@ class StatementInterpreter(ABC):
         self.sure = sure
         if not LEAVES.search(node.place.text):
             self.condition = before
-        only = results[0] if len(results) == 1 else frame.unknown_value(node)
+        only = results[0] if len(results) == 1 else frame.make_unknown_value(node)
         return join_values(results, at=only)
 
     def _branch_parts(self, node: Branch, frame: Frame) -> list[tuple[Node, bool]]:
@@ -239,28 +243,28 @@ class StatementInterpreter(ABC):
         decides, *blocks = node.parts
         cases = [case.parts for block in blocks for case in block.parts if case.parts]
         given = find_given_setting(decides, frame.scope, self.names)
-        meant = [case for case in cases if given in map(last_name, case[:-1])]
+        meant = [case for case in cases if given in map(get_last_name, case[:-1])]
         several = meant if given and len(meant) == 1 else cases
         return [(decides, False), *((part, part is case[-1]) for case in several for part in case)]
 
     def _loop(self, node: Loop, frame: Frame) -> Value:
         result = []
         collection = self.evaluate(node.collection, frame)
-        for element in self.loop_elements(collection, frame):
+        for element in self.list_loop_elements(collection, frame):
             parts = [element] * len(node.variables)
             if len(parts) > 1 and isinstance(element.origin, Items):
                 inner = frame if element.scope == frame.scope else Frame(element.scope, element.me)
                 parts = [self.evaluate(item, inner) for item in element.origin.items]
             frame.locals |= dict(zip(node.variables, parts, strict=False))
             result += [self.evaluate(statement, frame) for statement in node.body]
-        return join_values(result, at=frame.unknown_value(node))
+        return join_values(result, at=frame.make_unknown_value(node))
 
     def _parts(self, node: Node, frame: Frame) -> Value:
         several = [self.evaluate(part, frame) for part in node.parts]
-        return join_values(several, at=frame.unknown_value(node)).times(None)
+        return join_values(several, at=frame.make_unknown_value(node)).times(None)
 
-    def loop_elements(self, collection: Value, frame: Frame) -> list[Value]:
-        """What a loop runs over, one by one; the whole if they have no names."""
+    def list_loop_elements(self, collection: Value, frame: Frame) -> list[Value]:
+        """The elements that a loop runs over; the whole collection if they have no names."""
         found = list_group_members(collection.origin, collection.scope, self.names)
         inner = Frame(collection.scope, collection.me, around=frame.around)
         values = [
@@ -275,7 +279,7 @@ class StatementInterpreter(ABC):
             before = frame.locals[target.name]
             frame.locals[target.name] = join_values([before, value], at=before)
             return
-        key = self.storage_key(target, frame)
+        key = self.make_storage_key(target, frame)
         if value.is_informative or key in self.stored:
             several = [self.stored[key], value] if key in self.stored else [value]
             self.stored[key] = join_values(several, at=value)

@@ -23,6 +23,7 @@ from grader.robotcode.scope import (
     Definitions,
     Scope,
     collect_bindings,
+    find_only_value,
     walk_with_scopes,
 )
 
@@ -111,7 +112,7 @@ class SymbolTable:
         return found[:MOST_CLASSES]
 
     def find_implementations(self, home: Scope) -> tuple[Scope, ...]:
-        """The classes of these files that say they implement or extend a class, themselves."""
+        """The classes of these files that directly implement or extend a class."""
         owner = home.classes[-1]
         if owner not in self._below:
             self._below[owner] = ()
@@ -170,19 +171,17 @@ class SymbolTable:
 
     def _other_name(self, name: str, scope: Scope) -> Scope | None:
         """The class that a variable of Python is another name for: ``C = constants.Drive``."""
-        valued = [one for one in self._variable(name, scope) if one.value is not None]
-        if scope.module.language == "java" or len(valued) != 1:
+        only = find_only_value(self._variable(name, scope))
+        if scope.module.language == "java" or only is None:
             return None
-        value = valued[0].value
-        if not isinstance(value, Name | Member) or not value.name[:1].isupper():
+        if not isinstance(only[0], Name | Member) or not only[0].name[:1].isupper():
             return None
         with self.limit_depth() as allowed:
-            return self.find_home(value, valued[0].scope) if allowed else None
+            return self.find_home(*only) if allowed else None
 
     def find_by_name(self, name: str, scope: Scope) -> Scope | None:
         """The class or file of a bare name, as seen from a scope."""
-        for count in range(len(scope.classes), 0, -1):
-            around = Scope(scope.module, scope.classes[:count])
+        for around in scope.homes:
             found = around if around.classes[-1].name == name else self._nested(name, around)
             if found is not None:
                 return found

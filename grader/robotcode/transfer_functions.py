@@ -7,7 +7,12 @@ from grader.robotcode.abstract_value import CHANGED, Mark, Value, join_values
 from grader.robotcode.constant_folding import ConstantFolder, FoldedConstant
 from grader.robotcode.conversions import FACTORS
 from grader.robotcode.ir import Call, Member, Node, Operation
-from grader.robotcode.name_resolution import infer_type, last_name, simple_type_name
+from grader.robotcode.name_resolution import (
+    get_last_name,
+    get_method_name,
+    get_simple_type_name,
+    infer_type,
+)
 from grader.robotcode.readings import COUNTS, PULSE_COUNT, DeviceReading, find_device, find_quantity
 from grader.robotcode.scope import Scope
 from grader.robotcode.symbol_table import SymbolTable
@@ -31,7 +36,12 @@ from grader.robotcode.vocabulary import (
     UNITS,
     UNSIGNED,
     is_motor,
-    java_spelling,
+)
+
+_MARKED_BY = (
+    (APPLIED_VOLTAGE, Mark.APPLIED),
+    (BUS_VOLTAGE, Mark.BUS),
+    (UNSIGNED, Mark.UNSIGNED),
 )
 
 
@@ -85,7 +95,7 @@ class TransferFunctions:
         self, call: Call, receiver: Value | None, args: list[Value], at: Value
     ) -> Value:
         """The value of a call whose function is not in these files."""
-        name = java_spelling(last_name(call.target))
+        name = get_method_name(call)
         several = [*args] if receiver is None else [receiver, *args]
         made = join_values(several, at=at)
         made = replace(made, marks=made.marks | self._marks(name, receiver))
@@ -132,7 +142,7 @@ class TransferFunctions:
         if name in FACTORS:
             return made.times(FACTORS[name]).scale
         if name == "in" and first is not None:
-            return made.times(_turns(made.unit) / _turns(last_name(first))).scale
+            return made.times(_turns(made.unit) / _turns(get_last_name(first))).scale
         kept = name in SAME | ARGUMENT | LIMITS | AMOUNTS | REPLACES or name.startswith("with")
         return made.scale if kept or name[:1].isupper() else None
 
@@ -182,16 +192,10 @@ class TransferFunctions:
         measure = self._measures.fold(node, scope)
         if measure is None or not measure.unit:
             return ""
-        return last_name(node) if last_name(node) in UNITS else node.place.text
+        return get_last_name(node) if get_last_name(node) in UNITS else node.place.text
 
     def _marks(self, name: str, receiver: Value | None) -> set[Mark]:
-        found = set()
-        if name in APPLIED_VOLTAGE:
-            found.add(Mark.APPLIED)
-        if name in BUS_VOLTAGE:
-            found.add(Mark.BUS)
-        if name in UNSIGNED:
-            found.add(Mark.UNSIGNED)
+        found = {mark for methods, mark in _MARKED_BY if name in methods}
         motor = receiver is not None and is_motor(
             infer_type(receiver.origin, receiver.scope, self._names)
         )
@@ -204,7 +208,7 @@ class TransferFunctions:
         return found
 
     def _is_controller(self, receiver: Value) -> bool:
-        type_ = simple_type_name(infer_type(receiver.origin, receiver.scope, self._names))
+        type_ = get_simple_type_name(infer_type(receiver.origin, receiver.scope, self._names))
         return bool(CONTROLLERS.fullmatch(type_ or receiver.origin.place.text))
 
 

@@ -1,6 +1,7 @@
 """Analyze triggers: which buttons, modes of the robot and switches they depend on."""
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -16,13 +17,14 @@ from grader.robotcode.button_vocabulary import (
     TEST_MODE,
     UNCHANGED,
     WRAPPERS,
-    button_name,
+    find_button_name,
 )
 from grader.robotcode.closure import (
     BoundNode,
     enter_call,
-    find_definitions,
-    list_returned_nodes,
+    find_bound_return,
+    infer_bound_class,
+    is_open_parameter,
     resolve_bound,
     resolve_call,
 )
@@ -41,13 +43,11 @@ from grader.robotcode.ir import (
     Return,
 )
 from grader.robotcode.name_resolution import (
-    infer_type,
-    infer_type_from,
-    last_name,
-    simple_type_name,
+    get_last_name,
+    get_method_name,
 )
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 DEEPEST = 12  # triggers made of triggers
 LONGEST_DEBOUNCE = 0.5  # [s] longer, and whoever holds the button waits in vain
@@ -70,6 +70,16 @@ class TriggerKind(Enum):
     NOTHING = "nothing"  # literally true
     ONCE = "asked once"  # test mode, asked while the program starts and kept in a variable
     UNKNOWN = "unknown"
+
+
+WEAK = (  # what decides about parts of which not all have to hold, the weakest first
+    TriggerKind.UNKNOWN,
+    TriggerKind.DELAYED,
+    TriggerKind.NOTHING,
+    TriggerKind.BUTTON,
+    TriggerKind.RELEASED,
+    TriggerKind.OTHER_MODE,
+)
 
 
 @dataclass(frozen=True)
@@ -107,23 +117,20 @@ class Triggers:
         seen = resolve_bound(seen, self._names)
         node = seen.node
         if depth > DEEPEST or self._truth.fold(before):
-            asks = TriggerKind.UNKNOWN if depth > DEEPEST else TriggerKind.NOTHING
-            return (TriggerPart(asks, node.place.text if asks is TriggerKind.NOTHING else ""),)
+            deep = TriggerPart(TriggerKind.UNKNOWN, "")
+            return (deep if depth > DEEPEST else TriggerPart(TriggerKind.NOTHING, node.place.text),)
         if isinstance(node, Call):
             found = self._call(seen, node, depth + 1)
             kept = node is not before.node and isinstance(before.node, Name | Member)
-            asked = last_name(node.target).lower().startswith("is")
+            asked = get_last_name(node.target).lower().startswith("is")
             return tuple(map(_kept, found)) if kept and asked else found
         if isinstance(node, Function):
-            return self._function(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
-        if isinstance(node, Operation | Opaque | Choice):
+            return self._returned(replace(seen, scope=seen.scope.within(node)), node, depth + 1)
+        if isinstance(node, Operation | Opaque):
             return self._operation(seen, node, depth + 1, named=node is not before.node)
-        if isinstance(node, Name | Member):
-            return self._named(seen, node, depth + 1)
-        unknown = isinstance(node, FunctionParameter)
-        return (
-            TriggerPart(TriggerKind.UNKNOWN if unknown else TriggerKind.SWITCH, node.place.text),
-        )
+        if isinstance(node, Choice):
+            return self._choice(seen, node, depth + 1)
+        return self._named(seen, node, depth + 1)
 
     def find_negated_parts(self, seen: BoundNode) -> tuple[TriggerPart, ...]:
         """The parts of a negated condition."""
@@ -134,16 +141,17 @@ class Triggers:
         node = seen.node
         if isinstance(node, Name) and node.name in seen.given:
             return self.find_controller(seen.given[node.name])
-        if isinstance(node, Call) and java_spelling(last_name(node.target)) == "getHID":
-            owner = node.target.owner if isinstance(node.target, Member) else node
-            return self.find_controller(seen.with_node(owner))
-        if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(self._type(seen)):
+        if isinstance(node, Call) and get_method_name(node) == "getHID":
+            return self.find_controller(seen.with_node(node.owner or node))
+        if not isinstance(node, Name | Member) or not CONTROLLER.fullmatch(
+            infer_bound_class(seen, self._names)
+        ):
             return ""
         port = self.find_port(seen)
         return f"port {port}" if port is not None else node.name
 
     def find_port(self, seen: BoundNode) -> int | None:
-        """The port a controller is made with; None if it cannot be told."""
+        """The port a controller is made with; None if unknown."""
         made = resolve_bound(seen, self._names)
         if not isinstance(made.node, Call):
             return None
@@ -151,32 +159,19 @@ class Triggers:
         found = self._measures.fold(args[0], made.scope) if args else None
         return None if found is None else int(found.value)
 
-    def _type(self, seen: BoundNode) -> str:
-        found = infer_type(seen.node, seen.scope, self._names)
-        return simple_type_name(
-            found or infer_type_from(tuple(find_definitions(seen, self._names)), self._names)
-        )
-
-    def _function(self, seen: BoundNode, function: Function, depth: int) -> tuple[TriggerPart, ...]:
-        """A supplier: what it returns."""
-        results = list_returned_nodes(function)
-        if len(results) == 1:
-            return self.find_parts(seen.with_node(results[0]), depth=depth)
-        return (TriggerPart(TriggerKind.SWITCH, function.place.text),)
+    def _returned(self, inside: BoundNode, node: Node, depth: int) -> tuple[TriggerPart, ...]:
+        """What a supplier, or a called function, returns."""
+        returned = find_bound_return(inside)
+        if returned is not None:
+            return self.find_parts(returned, depth=depth)
+        return (TriggerPart(TriggerKind.SWITCH, node.place.text),)
 
     def _call(self, seen: BoundNode, call: Call, depth: int) -> tuple[TriggerPart, ...]:
         self.asked.add(call)
-        name, args = java_spelling(last_name(call.target)), list(call.args)
-        args += [node for _, node in call.named]
-        owner = call.target.owner if isinstance(call.target, Member) else None
+        name, args = get_method_name(call), call.all_args
         functions = resolve_call(seen, self._names)
         if len(functions) == 1:
-            results = list_returned_nodes(functions[0][0])
-            if len(results) == 1:
-                return self.find_parts(
-                    enter_call(seen, functions[0]).with_node(results[0]), depth=depth
-                )
-            return (TriggerPart(TriggerKind.SWITCH, call.place.text),)
+            return self._returned(enter_call(seen, functions[0]), call, depth)
         if name in WRAPPERS and args:
             return self.find_parts(seen.with_node(args[-1]), depth=depth)
         if name in BUTTONS and args:
@@ -188,20 +183,17 @@ class Triggers:
             held = resolve_bound(seen.with_node(call.target), self._names)
             if isinstance(held.node, Member):
                 return self._named(held, held.node, depth)
-        found = () if owner is None else self._method(seen, owner, name, args, depth)
+        found = () if call.owner is None else self._method(seen, call.owner, name, args, depth)
         return found or self._named(seen, call.target, depth, text=call.place.text)
 
     def _method(
-        self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
+        self, seen: BoundNode, owner: Node, name: str, args: tuple[Node, ...], depth: int
     ) -> tuple[TriggerPart, ...]:
         """What a library's method of a trigger or a controller asks; nothing if it is neither."""
         if name in BOTH:
-            both = (owner, *args)
-            return tuple(
-                part for one in both for part in self.find_parts(seen.with_node(one), depth=depth)
-            )
+            return self._all_of(seen, (owner, *args), depth)
         if name in EITHER | NOT:
-            return (self._mixed(seen, [owner, *args], name, depth),)
+            return (self._mixed(seen, (owner, *args), name, depth),)
         if self.find_controller(seen.with_node(owner)):
             return self._on_controller(seen, owner, name, args, depth)
         if name == "debounce":
@@ -211,7 +203,7 @@ class Triggers:
             )
         return self.find_parts(seen.with_node(owner), depth=depth) if name in UNCHANGED else ()
 
-    def _debounced(self, seen: BoundNode, args: list[Node]) -> tuple[TriggerPart, ...]:
+    def _debounced(self, seen: BoundNode, args: tuple[Node, ...]) -> tuple[TriggerPart, ...]:
         """A debounce that is longer than a person waits for."""
         found = self._measures.fold(args[0], seen.scope) if args else None
         if found is not None and found.value <= LONGEST_DEBOUNCE:
@@ -219,19 +211,21 @@ class Triggers:
         return (TriggerPart(TriggerKind.DELAYED, seen.node.place.text),)
 
     def _on_controller(
-        self, seen: BoundNode, owner: Node, name: str, args: list[Node], depth: int
+        self, seen: BoundNode, owner: Node, name: str, args: tuple[Node, ...], depth: int
     ) -> tuple[TriggerPart, ...]:
         """A button of a controller; one that is only polled in a loop of its own has a switch."""
-        loops = [arg for arg in args if self._type(seen.with_node(arg)) == "EventLoop"]
+        loops = [
+            arg
+            for arg in args
+            if infer_bound_class(seen.with_node(arg), self._names) == "EventLoop"
+        ]
         rest = [self._argument(seen.with_node(arg)) for arg in args if arg not in loops]
-        switches = tuple(
-            part for arg in loops for part in self.find_parts(seen.with_node(arg), depth=depth)
-        )
+        switches = self._all_of(seen, loops, depth)
         return (*self._button(seen.with_node(owner), name, rest), *switches)
 
     def _button(self, owner: BoundNode, method: str, args: list[str]) -> tuple[TriggerPart, ...]:
         controller = self.find_controller(owner)
-        word = button_name(method)
+        word = find_button_name(method)
         if word in {"button", "raw"} and args:
             word = self._numbered(args[0], owner)
             args = []
@@ -246,12 +240,16 @@ class Triggers:
 
     def _numbered(self, text: str, owner: BoundNode) -> str:
         """A button given by its number, or by a name of the Button enum."""
-        if "xbox" in self._type(owner).lower() and text.isdigit() and int(text) < len(NUMBERED):
+        if (
+            "xbox" in infer_bound_class(owner, self._names).lower()
+            and text.isdigit()
+            and int(text) < len(NUMBERED)
+        ):
             return NUMBERED[int(text)]
         return text
 
     def _argument(self, seen: BoundNode) -> str:
-        """A button's number, or its name; empty if it cannot be told."""
+        """A button's number, or its name; empty if unknown."""
         found = self._measures.fold(seen.node, seen.scope)
         seen = resolve_bound(seen, self._names)
         node = seen.node
@@ -264,34 +262,38 @@ class Triggers:
         if isinstance(node, Call) and isinstance(node.target, Name | Member):
             node = node.target
         if isinstance(node, Member):
-            return button_name(node.name)
+            return find_button_name(node.name)
         return ""
 
     def _operation(
-        self, seen: BoundNode, node: Operation | Opaque | Choice, depth: int, *, named: bool
+        self, seen: BoundNode, node: Operation | Opaque, depth: int, *, named: bool
     ) -> tuple[TriggerPart, ...]:
-        if isinstance(node, Choice):
-            return self._choice(seen, node, depth)
         inside = [part for part in node.parts if not isinstance(part, Return)]
         sign = find_operator(node)
-        if sign in COMPARING and len(inside) > 1:
-            said = [fold_literal(part) for part in inside]
-            open_ = [part for part, truth in zip(inside, said, strict=True) if truth is None]
-            if len(open_) == 1:
-                same = (said[0] if said[1] is None else said[1]) is COMPARING[sign]
-                return self._same_or_not(seen.with_node(open_[0]), depth, same=same)
-        if sign == "and" and len(inside) > 1:
-            return tuple(
-                part for one in inside for part in self.find_parts(seen.with_node(one), depth=depth)
-            )
-        if isinstance(node, Opaque) and len(inside) == 1 and sign != "not":
-            return self.find_parts(seen.with_node(inside[0]), depth=depth)
         if not inside:
             always = node.place.text.lower() == "true" and not named
-            return (
-                TriggerPart(TriggerKind.NOTHING if always else TriggerKind.SWITCH, node.place.text),
-            )
+            asks = TriggerKind.NOTHING if always else TriggerKind.SWITCH
+            return (TriggerPart(asks, node.place.text),)
+        if len(inside) == 1:
+            if isinstance(node, Opaque) and sign != "not":
+                return self.find_parts(seen.with_node(inside[0]), depth=depth)
+        elif sign == "and":
+            return self._all_of(seen, inside, depth)
+        elif sign in COMPARING:
+            truths = [fold_literal(part) for part in inside]
+            open_ = [part for part, truth in zip(inside, truths, strict=True) if truth is None]
+            if len(open_) == 1:
+                same = (truths[0] if truths[1] is None else truths[1]) is COMPARING[sign]
+                return self._same_or_not(seen.with_node(open_[0]), depth, same=same)
         return (self._mixed(seen, inside, sign or node.place.text, depth),)
+
+    def _all_of(
+        self, seen: BoundNode, several: Iterable[Node], depth: int
+    ) -> tuple[TriggerPart, ...]:
+        """The parts of several conditions that must all hold."""
+        return tuple(
+            part for one in several for part in self.find_parts(seen.with_node(one), depth=depth)
+        )
 
     def _choice(self, seen: BoundNode, node: Choice, depth: int) -> tuple[TriggerPart, ...]:
         """``condition ? true : false``; any other choice is a switch of the program's own."""
@@ -306,68 +308,58 @@ class Triggers:
             return self.find_parts(seen, depth=depth)
         return (self._mixed(seen, [seen.node], "not", depth),)
 
-    def _mixed(self, seen: BoundNode, several: list[Node], sign: str, depth: int) -> TriggerPart:
+    def _mixed(
+        self, seen: BoundNode, several: Sequence[Node], sign: str, depth: int
+    ) -> TriggerPart:
         """Parts of which not all have to hold, or not as they are: one, of the weakest kind."""
-        found = [
-            part for one in several for part in self.find_parts(seen.with_node(one), depth=depth)
-        ]
+        found = self._all_of(seen, several, depth)
         turned = sign in {*NOT, "!", "~"}
         key = f"{'not' if turned else sign}({', '.join(sorted(part.key for part in found))})"
-        kinds = {part.asks for part in found}
+        if turned and len(found) == 1:
+            if NOT_TEST.fullmatch(found[0].key):
+                return TriggerPart(TriggerKind.TEST_MODE, found[0].key[4:-1])
+            if MATCH.fullmatch(found[0].key):
+                return TriggerPart(TriggerKind.SWITCH, key)
         controllers = {part.controller for part in found if part.controller}
-        weak = (
-            TriggerKind.UNKNOWN,
-            TriggerKind.DELAYED,
-            TriggerKind.NOTHING,
-            TriggerKind.BUTTON,
-            TriggerKind.RELEASED,
-            TriggerKind.OTHER_MODE,
-        )
-        asks = next((kind for kind in weak if kind in kinds), TriggerKind.SWITCH)
-        if turned and len(found) == 1 and NOT_TEST.fullmatch(found[0].key):
-            return TriggerPart(TriggerKind.TEST_MODE, found[0].key[4:-1])
-        if turned and len(found) == 1 and MATCH.fullmatch(found[0].key):
-            return TriggerPart(TriggerKind.SWITCH, key)
-        if kinds == {TriggerKind.TEST_MODE}:
-            asks = TriggerKind.OTHER_MODE if turned else TriggerKind.TEST_MODE
-        elif turned and TriggerKind.TEST_MODE in kinds:
-            asks = TriggerKind.OTHER_MODE
-        elif turned and asks is TriggerKind.BUTTON:
-            asks = TriggerKind.RELEASED
+        asks = _weakest({part.asks for part in found}, turned=turned)
         return TriggerPart(asks, key, min(controllers, default=""))
 
     def _named(
         self, seen: BoundNode, node: Node, depth: int, *, text: str = ""
     ) -> tuple[TriggerPart, ...]:
         """A method or a variable that has no one value."""
-        if isinstance(node, Member) and not text:
-            call = Call(node.place, node, ())
-            self.asked.add(node)
-            if self.find_controller(seen.with_node(node.owner)) or resolve_call(
-                seen.with_node(call), self._names
-            ):
-                return self._call(seen.with_node(call), call, depth)
-        if isinstance(node, Name) and not text:  # a variable that holds a lambda, or a function
-            call = Call(node.place, node, ())
-            functions = resolve_call(seen.with_node(call), self._names)
-            if len(functions) == 1 and functions[0][0] not in seen.scope.functions:
-                return self._call(seen.with_node(call), call, depth)
-        word = java_spelling(last_name(node))
-        owner = last_name(node.owner) if isinstance(node, Member) else ""
-        mode = owner in MODES_OF or word.lower().startswith("is")
-        if mode and TEST_MODE.fullmatch(word):
-            by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""
-            kind = "utility" if "utility" in word.lower() else "test"
-            return (TriggerPart(TriggerKind.TEST_MODE, f"{kind} mode{by}"),)
-        if mode and OTHER_MODE.fullmatch(word):
-            return (TriggerPart(TriggerKind.OTHER_MODE, word),)
+        call = None if text else self._as_call(seen, node)
+        if call is not None:
+            return self._call(seen.with_node(call), call, depth)
+        word = spell_as_java(get_last_name(node))
+        owner = get_last_name(node.owner) if isinstance(node, Member) else ""
+        if owner in MODES_OF or word.lower().startswith("is"):
+            if TEST_MODE.fullmatch(word):
+                by = " of RobotModeTriggers" if owner == "RobotModeTriggers" else ""
+                kind = "utility" if "utility" in word.lower() else "test"
+                return (TriggerPart(TriggerKind.TEST_MODE, f"{kind} mode{by}"),)
+            if OTHER_MODE.fullmatch(word):
+                return (TriggerPart(TriggerKind.OTHER_MODE, word),)
         if isinstance(node, Name) and not text:
             return (self._variable(seen, node, depth),)
-        return (TriggerPart(TriggerKind.SWITCH, text or node.place.text),)
+        unknown = isinstance(node, FunctionParameter)
+        asks = TriggerKind.UNKNOWN if unknown else TriggerKind.SWITCH
+        return (TriggerPart(asks, text or node.place.text),)
+
+    def _as_call(self, seen: BoundNode, node: Node) -> Call | None:
+        """A call of what is only named: a method, or a variable that holds a function."""
+        call = Call(node.place, node, ())
+        functions = resolve_call(seen.with_node(call), self._names)
+        if isinstance(node, Member):
+            self.asked.add(node)
+            known = functions or self.find_controller(seen.with_node(node.owner))
+            return call if known else None
+        only = len(functions) == 1 and functions[0][0] not in seen.scope.functions
+        return call if only and isinstance(node, Name) else None
 
     def _variable(self, seen: BoundNode, node: Name, depth: int) -> TriggerPart:
         """A variable: a parameter, or one that was given several values and may hold any."""
-        if self._is_open(seen, node):
+        if is_open_parameter(seen, self._names):
             return TriggerPart(TriggerKind.UNKNOWN, "")
         given = self._names.find_local(node.name, seen.scope)
         several = [one.value for one in given if one.value is not None]
@@ -375,9 +367,15 @@ class Triggers:
             return self._mixed(seen, several, "or", depth + 1)
         return TriggerPart(TriggerKind.SWITCH, node.place.text)
 
-    def _is_open(self, seen: BoundNode, node: Name) -> bool:
-        found = self._names.find_local(node.name, seen.scope)
-        return any(isinstance(one.value, FunctionParameter) for one in found)
+
+def _weakest(kinds: set[TriggerKind], *, turned: bool) -> TriggerKind:
+    """What several parts together depend on, where not all of them have to hold."""
+    asks = next((kind for kind in WEAK if kind in kinds), TriggerKind.SWITCH)
+    if turned and TriggerKind.TEST_MODE in kinds:
+        return TriggerKind.OTHER_MODE
+    if turned and asks is TriggerKind.BUTTON:
+        return TriggerKind.RELEASED
+    return TriggerKind.TEST_MODE if kinds == {TriggerKind.TEST_MODE} else asks
 
 
 def _kept(part: TriggerPart) -> TriggerPart:

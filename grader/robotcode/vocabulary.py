@@ -18,7 +18,7 @@ SEASON = 2026
 CONFIG_DEFAULTS = {2026: (1.0, 7.0, 10.0), 2027: (1.0, 7.0, 10.0)}
 
 
-def config_defaults(season: int) -> dict[str, ConfigQuantity]:
+def find_config_defaults(season: int) -> dict[str, ConfigQuantity]:
     """WPILib's own ramp, step and timeout in a season; 0 or an unknown one takes the current."""
     ramp, step, timeout = CONFIG_DEFAULTS.get(season, CONFIG_DEFAULTS[SEASON])
     return {
@@ -28,7 +28,7 @@ def config_defaults(season: int) -> dict[str, ConfigQuantity]:
     }
 
 
-DEFAULTS = config_defaults(SEASON)
+DEFAULTS = find_config_defaults(SEASON)
 NAMED_DEFAULTS = {  # Java's constants of Config, and what they hold
     "DEFAULT_RAMP_RATE": "ramp",
     "DEFAULT_STEP_VOLTAGE": "step",
@@ -132,7 +132,7 @@ def is_motor(type_: str) -> bool:
     return any(_MOTORS.fullmatch(word) for word in re.findall(r"\w+", type_))
 
 
-def java_spelling(name: str) -> str:
+def spell_as_java(name: str) -> str:
     """A method's name in Java's spelling: ``set_voltage`` is ``setVoltage``."""
     first, *rest = name.split("_")
     if not first or not name.islower() or not rest:
@@ -140,8 +140,8 @@ def java_spelling(name: str) -> str:
     return first + "".join(word.capitalize() for word in rest)
 
 
-def enum_constant(name: str) -> str:
-    """An enum constant without its season's dress: ``dutycycle`` of ``kDutyCycle``."""
+def normalize_enum_constant(name: str) -> str:
+    """An enum constant in the form of every season: ``dutycycle`` of ``kDutyCycle``."""
     bare = name[1:] if re.match(r"k[A-Z]", name) else name
     return bare.replace("_", "").lower()
 
@@ -200,7 +200,7 @@ FOLLOWERS = frozenset(
 )
 
 
-def request_output(type_: str) -> Output | None:
+def find_request_output(type_: str) -> Output | None:
     """The output that a control request commands; None for a follower or a brake."""
     if type_ in NEUTRAL | FOLLOWERS:
         return None
@@ -311,10 +311,10 @@ def find_season_of(name: str) -> str:
     Returns:
         ``2027``, ``2026`` for what was renamed then, or nothing for any other name.
     """
-    if enum_constant(name) in DIRECTIONS and name not in DIRECTIONS:
+    if normalize_enum_constant(name) in DIRECTIONS and name not in DIRECTIONS:
         return SNAKES if name.isupper() else str(int(SNAKES) - 1)
-    if java_spelling(name) not in PYTHON_WORDS:
+    if spell_as_java(name) not in PYTHON_WORDS:
         return ""
-    if "hrottle" in name or java_spelling(name) != name:
+    if "hrottle" in name or spell_as_java(name) != name:
         return SNAKES
     return str(int(SNAKES) - 1) if name.lower() != name else ""

@@ -47,7 +47,7 @@ class JupyterServer:
     runtime: Path
 
     def is_alive(self) -> bool:
-        """Whether it still runs."""
+        """Whether the server still runs."""
         return self.process.poll() is None
 
 
@@ -194,7 +194,7 @@ def _find_free_port(host: str) -> int:
 
 
 def make_server_environment(course: Path, runtime: Path, *, own: bool) -> dict[str, str]:
-    """The environment of a student's server: what it writes and caches goes into their home.
+    """Environment variables of a student's server: its files and caches go into their home.
 
     Args:
         course: the student's copy of the course, which is what runs.

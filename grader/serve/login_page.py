@@ -37,7 +37,7 @@ CLOSED = {
 
 @dataclass(frozen=True)
 class ServedClass:
-    """What the login page needs to know.
+    """The class that the login page serves.
 
     Args:
         codes: student -> code.
@@ -118,7 +118,7 @@ class StartQueue:
     waiting: list[str] = field(default_factory=list)
 
     def join(self, student: str) -> "asyncio.Task[JupyterServer]":
-        """The student's start: the one that goes on, else a new one."""
+        """The task that starts the student's server; the running one, else a new one."""
         there = self.starts.get(student)
         if there is None or there.done():
             there = self.starts[student] = asyncio.create_task(self._start(student))
@@ -126,7 +126,7 @@ class StartQueue:
         return there
 
     def issue_ticket(self, student: str) -> str:
-        """The student's ticket; the one before it holds no longer."""
+        """A new ticket for the student; an earlier one is no longer valid."""
         self.tickets = {one: who for one, who in self.tickets.items() if who != student}
         ticket = secrets.token_urlsafe(16)
         self.tickets[ticket] = student
@@ -177,10 +177,10 @@ class BasePage(RequestHandler):
 
 @stream_request_body
 class LoginPage(BasePage):
-    """Asks who is there."""
+    """The page that asks a student for name and code."""
 
     def prepare(self) -> None:
-        """Refuse a form that is none before it is read."""
+        """Refuse a request whose body is no form or too long, before it is read."""
         self.body = bytearray()
         length = self.request.headers.get("Content-Length", "0")
         if not length.isdecimal() or int(length[:12]) > BODY:

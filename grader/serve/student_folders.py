@@ -17,7 +17,7 @@ from pathlib import Path
 
 from grader.course import update_progress
 from grader.variant import make_folder_name, normalize_name
-from sim.bench.dataset.roster_file import read_roster
+from sim.bench.dataset.roster import read_roster
 from sim.core.errors import BadRequest
 from sim.report.page_file import write_page_file
 

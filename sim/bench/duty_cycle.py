@@ -31,27 +31,25 @@ def simulate_duty_cycle(
     *,
     rng: np.random.Generator,
     battery: Battery = HEALTHY,
-    period: float = 0.02,
 ) -> Log:
-    """Run a routine whose drive callback says ``motor.set(volts / 12)``, without any limit.
+    """Run a routine that sets a duty cycle, ``motor.set(volts / 12)``; no current limit.
 
     Args:
         mechanism: what is tested.
-        routine: which voltages are asked for.
+        routine: the commanded voltages.
         rng: the source of noise and jitter.
         battery: what feeds it.
-        period: [s] of the robot program's loop.
 
     Returns:
         The log with the voltage that really reached the motors, and the battery's as
-        ``bus_voltage``. What was asked for is 12 V times the first over the second. A battery
+        ``bus_voltage``. The command was 12 V times the first over the second. A battery
         that falls below ``LOWEST`` is a doubt: here it goes on.
 
     Raises:
         BadRequest: as for ``simulate``.
     """
     unlimited = replace(mechanism, battery=battery, stator=math.inf, supply=math.inf, brownout=0.0)
-    log = simulate(unlimited, routine, rng=rng, period=period, duty_cycle=True, electrical=True)
+    log = simulate(unlimited, routine, rng=rng, duty_cycle=True, electrical=True)
     lowest = min(float(np.min(run.bus_voltage)) for run in log.runs if run.bus_voltage is not None)
     return log.add_doubts(_brownout(lowest)) if lowest < LOWEST else log
 

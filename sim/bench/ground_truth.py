@@ -8,7 +8,7 @@ from pathlib import Path
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
 from sim.core.errors import BadRequest
-from sim.core.units import find_unit, gains_per
+from sim.core.units import convert_gains, find_unit
 from sim.inspect.fault import LogInterval
 
 
@@ -35,7 +35,7 @@ def write_ground_truth(
         "mechanism": mechanism.name,
         "type": mechanism.type,
         "units": per.name,
-        "gains": gains_per(mechanism.gains, factor=per.si),
+        "gains": convert_gains(mechanism.gains, factor=per.si),
         "routine": asdict(routine),
         "hidden": [
             {"effect": part.effect, "parameters": part.to_json(per)} for part in mechanism.hidden

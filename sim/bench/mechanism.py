@@ -31,7 +31,7 @@ ORDINARY_STEP = 3.5  # [V] dynamic test by which effects are sized
 
 @dataclass(frozen=True)
 class Sensor:
-    """What reads the mechanism.
+    """The sensor that measures position and velocity of a mechanism.
 
     Args:
         resolution: [m or rad] smallest step of the position.
@@ -136,7 +136,7 @@ class Mechanism:
 
     @property
     def model(self) -> Model:
-        """Gains, stops and hidden effects: the truth that a fit and a search are after."""
+        """The true model of the mechanism: gains, stops and hidden effects."""
         return Model(self.type, self.gains, self.hidden, self.stops)
 
     @property
@@ -156,12 +156,12 @@ class Mechanism:
         )
 
     def draw(self, rng: "np.random.Generator") -> "Mechanism":
-        """Another one like it: every field in ``spread`` drawn evenly between its bounds."""
+        """A random variant: every field in ``spread`` drawn uniformly between its bounds."""
         drawn = {name: float(rng.uniform(*bounds)) for name, bounds in self.spread.items()}
         return replace(self, **drawn)  # type: ignore[arg-type]  # spread names float fields only
 
     def hide(self, effect: str, size: float = 1.0) -> "Mechanism":
-        """The same mechanism with an effect that its team does not know of.
+        """A copy of the mechanism with a hidden effect.
 
         Args:
             effect: its name.

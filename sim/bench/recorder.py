@@ -37,7 +37,7 @@ class Recorder:
     latency: float = 0.0
 
     def record(self, mechanism: Mechanism) -> Mechanism:
-        """The mechanism as this device reads it."""
+        """A copy of the mechanism, measured by this device."""
         sensor = replace(
             mechanism.sensor, frame=self.frame, filter=self.filter, latency=self.latency
         )
@@ -65,7 +65,7 @@ RECORDERS: Mapping[str, Recorder] = {
 
 
 def find_recorder(name: str) -> Recorder:
-    """The recorder of a name.
+    """Look up a recorder.
 
     Raises:
         BadRequest: there is none.

@@ -66,15 +66,15 @@ class Routine:
 
     @property
     def tests(self) -> tuple[str, ...]:
-        """The tests it runs, in the order one binds them."""
+        """Names of the tests that it runs, in order."""
         return tuple(f"{kind}-{way}" for kind in self.kinds for way in DIRECTIONS)
 
-    def longest_duration(self, _test: str, /) -> float:
-        """[s] until a test (one of ``tests``) ends, if it comes to no end of the travel before."""
+    def find_longest_duration(self, _test: str, /) -> float:
+        """[s] until a test ends, unless it reaches an end of the travel first."""
         return self.timeout
 
     def command_voltage(self, test: str, time: float) -> float:
-        """The voltage of a test.
+        """[V] command of a test at a time.
 
         Args:
             test: one of ``tests``.

@@ -9,7 +9,7 @@ from sim.core.log import Array
 
 
 class SensorReading(NamedTuple):
-    """What the robot program reads.
+    """Position and velocity as the robot program reads them.
 
     Args:
         position: (n,) [m or rad] in steps of the resolution.
@@ -29,7 +29,7 @@ def read_sensor(
     time: Array | None = None,
     read_at: Array | None = None,
 ) -> SensorReading:
-    """What a sensor reports of a motion.
+    """Position and velocity that a sensor reports for a motion.
 
     Args:
         sensor: the sensor.
@@ -44,7 +44,7 @@ def read_sensor(
     """
     read_at = time if read_at is None else read_at
     noise = rng.standard_normal(velocity.size if read_at is None else read_at.size)
-    if time is not None and read_at is not None and sensor_lags(sensor):
+    if time is not None and read_at is not None and has_sensor_lag(sensor):
         at = read_at - sensor.latency
         if sensor.frame:
             phase = sensor.frame * rng.random()
@@ -69,8 +69,8 @@ def read_sensor(
     )
 
 
-def sensor_lags(sensor: Sensor) -> bool:
-    """Whether a reading is of another moment than that at which it is read."""
+def has_sensor_lag(sensor: Sensor) -> bool:
+    """Whether a sensor reports an earlier moment than that at which it is read."""
     return bool(sensor.latency or sensor.filter or sensor.frame)
 
 

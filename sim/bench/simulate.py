@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import LOOPS_BEFORE_DRIVE, Routine
 from sim.bench.sensor_model import read_sensor
-from sim.bench.slip import slip_part, slip_voltage, wheels_slip
+from sim.bench.slip import compute_slip_voltage, make_slip_effect, wheels_slip
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log, Run
@@ -70,8 +70,9 @@ def simulate(
         ['quasistatic-forward', 'quasistatic-reverse']
     """
     _check_period(period)
-    model, slips = mechanism.model, slip_part(mechanism)
-    wires, parts = power_path_arrays(mechanism, duty_cycle=duty_cycle), _steps_per_loop(mechanism)
+    model, slips = mechanism.model, make_slip_effect(mechanism)
+    wires = make_power_path_array(mechanism, duty_cycle=duty_cycle)
+    parts = _steps_per_loop(mechanism)
     runs: list[Run] = []
     state, start, last, cut, gripped = State(), PAUSE, 0.0, False, False
     for test in routine.tests:
@@ -164,7 +165,7 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
     if gripped:
         yield Doubt(
             "slip-left-out",
-            f"Here the wheels would slip above {slip_voltage(mechanism):.1f} V from "
+            f"Here the wheels would slip above {compute_slip_voltage(mechanism):.1f} V from "
             "standstill. Beside a hidden joint (backlash, compliance), the simulation leaves out "
             "the slip. Use a smaller step, or hide no joint.",
         )
@@ -176,8 +177,8 @@ def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt
         )
 
 
-def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
-    """(9,) the wires of a mechanism, in the order of ``sim.physics.engine.power_path``."""
+def make_power_path_array(mechanism: Mechanism, *, duty_cycle: bool = False) -> Array:
+    """(9,) battery, wiring and limits, in the order of ``sim.physics.engine.power_path``."""
     return np.array(
         [
             mechanism.battery.rest,
@@ -196,7 +197,7 @@ def power_path_arrays(mechanism: Mechanism, *, duty_cycle: bool = False) -> Arra
 def move_gains_only(
     gains: Mapping[str, float], *, time: Array, voltage: Array
 ) -> tuple[Array, Array]:
-    """Move from rest at zero, with friction, back-EMF and inertia alone.
+    """Position and velocity under a voltage from rest at zero, with kS, kV and kA alone.
 
     Args:
         gains: kS [V], kV [V·s/unit], kA [V·s²/unit].
@@ -214,7 +215,7 @@ def _loop_times(
     mechanism: Mechanism, routine: Routine, test: str, *, period: float, rng: np.random.Generator
 ) -> Array:
     """[s] when a test drives: loops from the second on, each a little early or late."""
-    timeout, jitter = routine.longest_duration(test), mechanism.sensor.jitter
+    timeout, jitter = routine.find_longest_duration(test), mechanism.sensor.jitter
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
     if count < FEWEST:
         raise BadRequest(

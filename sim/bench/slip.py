@@ -32,15 +32,15 @@ def wheels_slip(mechanism: Mechanism, track: Track) -> bool:
     return bool(np.any(push > gains["kA"] * mechanism.grip))
 
 
-def slip_voltage(mechanism: Mechanism) -> float:
-    """[V] the smallest step from rest at which the wheels slip; infinite if they cannot."""
+def compute_slip_voltage(mechanism: Mechanism) -> float:
+    """[V] smallest voltage step from rest at which the wheels slip; infinite if none."""
     if mechanism.grip is None:
         return math.inf
     return mechanism.gains["kS"] + mechanism.gains["kA"] * mechanism.grip
 
 
-def slip_part(mechanism: Mechanism) -> Part | None:
-    """The effect of its slipping wheels; None if they cannot slip, or a joint is hidden in it."""
+def make_slip_effect(mechanism: Mechanism) -> Part | None:
+    """The wheel-slip effect of a mechanism; None if no wheels slip or a hidden effect bars it."""
     hidden = [EFFECTS[part.effect] for part in mechanism.hidden]
     if mechanism.grip is None or not are_compatible([*hidden, SLIP]):
         return None

@@ -76,7 +76,7 @@ class SwerveDrive:
 
     @property
     def slip_current(self) -> float:
-        """[A] of one motor against a wall, at which the wheels begin to slip.
+        """[A] current of one motor, against a wall, at which the wheels begin to slip.
 
         Friction in the gears takes a part of it: kS is the voltage at which it begins to move.
         """

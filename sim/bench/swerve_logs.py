@@ -27,6 +27,7 @@ YAW, YAW_RATE = "Phoenix6/Pigeon2-1/Yaw", "Phoenix6/Pigeon2-1/AngularVelocityZWo
 """What CTRE's logger calls the rate asked for, the voltage of a drive motor, and the gyro."""
 
 LOOP = 0.02  # [s] of the robot program
+RAMP, AFTER = 0.5, 1.0  # [V/s] of a push at a wall, [s] from the slip to its end
 KINETIC = 0.9  # [share of the static friction] that wheels which slip still hold
 AMPERES = 0.5  # [A] noise of a measured current
 DRIFT = 2e-4  # [share] of its way by which a gyro, or a wheel on carpet, is off
@@ -39,7 +40,7 @@ def record_modules(
     rng: np.random.Generator,
     radii: Mapping[str, float] | None = None,
 ) -> dict[str, Log]:
-    """The log of each module while the robot goes straight, in meters of a new wheel.
+    """The log of each module of a straight drive, in meters by a new wheel's radius.
 
     Args:
         drive: what is tested.
@@ -130,7 +131,7 @@ def _tests(time: Array, test: str) -> list[tuple[float, str]]:
 
 @dataclass(frozen=True)
 class Spin:
-    """What is read after a slow spin on the spot.
+    """Readings of gyro and motors after a slow spin on the spot.
 
     Args:
         turned: [rad] by the robot, as the gyro has it.
@@ -168,7 +169,7 @@ def record_spin(
 
 @dataclass(frozen=True, eq=False)
 class WallPush:
-    """A push at a wall with a voltage that rises slowly.
+    """A recorded push at a wall, with a voltage that rises slowly.
 
     Args:
         time: (n,) [s].
@@ -183,9 +184,7 @@ class WallPush:
     velocity: Array
 
 
-def record_wall_push(
-    drive: SwerveDrive, *, rng: np.random.Generator, ramp: float = 0.5, after: float = 1.0
-) -> WallPush:
+def record_wall_push(drive: SwerveDrive, *, rng: np.random.Generator) -> WallPush:
     """Push at a wall until the wheels slip, and a little longer.
 
     Until then nothing turns, and the current is voltage over resistance. Then the floor holds a
@@ -194,15 +193,13 @@ def record_wall_push(
     Args:
         drive: what pushes; its bumper stands at the wall.
         rng: the source of noise.
-        ramp: [V/s].
-        after: [s] from the slip to the end.
     """
     motor, gains = drive.motor, drive.translation.gains
     volts_per_newton = gains["kA"] / (drive.mass + drive.wheel_mass)
     breaks = gains["kS"] + volts_per_newton * drive.traction_limit
     slides = gains["kS"] + KINETIC * volts_per_newton * drive.traction_limit
-    time = np.arange(0.0, breaks / ramp + after, LOOP)
-    voltage = ramp * time
+    time = np.arange(0.0, breaks / RAMP + AFTER, LOOP)
+    voltage = RAMP * time
     loose = voltage > breaks
     velocity = np.where(loose, (voltage - slides) / gains["kV"], 0.0)
     emf = motor.back_emf * drive.ratio / drive.wheel_radius * velocity

@@ -13,14 +13,14 @@ __all__ = ["main", "sysid"]
 
 
 class Commands(click.Group):
-    """The modules of this folder, each the command of its own name; imported when asked for."""
+    """The commands of ``sysid``: one per module of this folder, imported on first use."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's own
-        """Every module here that is not an option's or a column's."""
+        """The names of all commands: the modules of this folder, without ``options``."""
         return sorted(found.name for found in iter_modules(__path__) if found.name != "options")
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The function of the module's own name, or None if there is no such command."""
+        """The command of a name; None if there is none."""
         if cmd_name not in self.list_commands(ctx):
             return None
         found = getattr(import_module(f"sim.cli.{cmd_name}"), cmd_name)

@@ -38,20 +38,14 @@ def contaminate(
     """
     import numpy as np  # noqa: PLC0415 - as all below: --help must not wait for it
 
-    from sim.inspect.contaminate import contaminate as damage  # noqa: PLC0415
-    from sim.inspect.contaminate import parse_fault_request  # noqa: PLC0415
+    from sim.inspect.contaminate import contaminate_all, parse_fault_request  # noqa: PLC0415
     from sim.io import write  # noqa: PLC0415
 
     asked = [parse_fault_request(text) for text in faults]
     log = read_logs_together([file], units=units, type=type_, motor=motor, entries=entries)
-    rng = np.random.default_rng(seed)
-    where = []
-    for one in asked:
-        spoilt = damage(log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng)
-        log = spoilt.log
-        where += [(one.name, stretch) for stretch in spoilt.where]
+    log, where = contaminate_all(log, asked, rng=np.random.default_rng(seed))
     write(log, output)
-    for name, stretch in where:
+    for name, _, stretch in where:
         place = f"{stretch.test} {stretch.start:.2f} to {stretch.end:.2f} s"
         click.echo(f"{name}: {place if stretch.test else 'the whole log'}")
     click.echo(f"{output}: written. Next: sysid inspect {output}")

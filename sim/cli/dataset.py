@@ -58,14 +58,14 @@ def dataset(  # noqa: PLR0917 - click passes options by name
         return _write_example(spec)
     if output is None:
         raise click.UsageError("Missing option '-o': a folder for the logs.")
-    from sim.bench.dataset.key import default_key_path  # noqa: PLC0415 - as all below: --help must not wait
+    from sim.bench.dataset.key import choose_key_path  # noqa: PLC0415 - as all below: --help must not wait
     from sim.bench.dataset.plan import plan_jobs  # noqa: PLC0415
     from sim.bench.dataset.run import DatasetPlace  # noqa: PLC0415
     from sim.bench.dataset.secret import find_secret  # noqa: PLC0415
     from sim.bench.dataset.spec import read_spec  # noqa: PLC0415
 
     asked = read_spec(spec)
-    place = DatasetPlace(output, key or default_key_path(output))
+    place = DatasetPlace(output, key or choose_key_path(output))
     place.check_separation(spec=spec, secret=asked.secret)
     secret = find_secret(asked, make=not check)
     jobs = plan_jobs(asked, secret)
@@ -97,7 +97,7 @@ def _make(
     from sim.bench.dataset.run import check_folder, finish_dataset, rehearse_jobs  # noqa: PLC0415 - the same
     from sim.support.work.cluster import run_jobs_on_cluster  # noqa: PLC0415 - the same
     from sim.support.work.interrupt import deferred_interrupt  # noqa: PLC0415 - the same
-    from sim.support.work.process_pool import available_cores, run_jobs_locally  # noqa: PLC0415 - the same
+    from sim.support.work.process_pool import count_available_cores, run_jobs_locally  # noqa: PLC0415 - the same
     from sim.support.work.progress_bar import progress_bar  # noqa: PLC0415 - the same
 
     found = check_folder(place, jobs, secret=secret, overwrite=overwrite)
@@ -122,7 +122,7 @@ def _make(
                     run_jobs_on_cluster(make_log, todo, address=cluster)
                     if cluster
                     else run_jobs_locally(
-                        make_log, todo, processes=processes or available_cores(), worth=WORTH
+                        make_log, todo, processes=processes or count_available_cores(), worth=WORTH
                     )
                 ),
                 dataset=asked.name,

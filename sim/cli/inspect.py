@@ -59,7 +59,7 @@ def inspect(
 
 def _show(found: "Inspection", *, title: str, runs: int) -> None:
     """One paragraph for each kind of fault, the worst first; then the doubts, on one screen."""
-    kinds = found.by_kind()
+    kinds = found.group_by_kind()
     count = len(kinds)
     said = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
     click.echo(f"{title}: {runs} run{'s' * (runs != 1)}, {said}.")

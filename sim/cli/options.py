@@ -4,8 +4,9 @@ import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
@@ -15,6 +16,8 @@ from sim.support.completion import complete_members
 
 if TYPE_CHECKING:
     from sim.core.log import Log
+
+Option: TypeAlias = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 FILE = click.Path(path_type=Path)
 SIM = Path(__file__).resolve().parents[1]
@@ -33,50 +36,45 @@ def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON for other programs.")
 
 
-def reading_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options that say how to read a log."""
-    options = (
-        click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
-        click.option(
-            "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
-        ),
-        click.option("--motor", help="Which motor, if the log has several: left, right, …"),
-        click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
-        click.option("--position", metavar="ENTRY", help="Log entry with the position."),
-        click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
-        click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+def combine_options(*options: Option) -> Option:
+    """Decorator that adds several options to a command, in their order."""
+    return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
-def velocity_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options that choose a mechanism, and put a velocity right that was logged wrongly."""
-    options = (
-        click.option(
-            "--pick",
-            type=click.IntRange(min=1),
-            metavar="N",
-            help="Which mechanism, if the log has several: its number in the message.",
-        ),
-        click.option(
-            "--velocity-scale",
-            metavar="X",
-            type=float,
-            callback=_factor,
-            default=1.0,
-            help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
-        ),
-        click.option(
-            "--ignore-velocity",
-            is_flag=True,
-            help="Use the slope of the position as the velocity.",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# How to read a log.
+reading_options = combine_options(
+    click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
+    click.option(
+        "--units", type=click.Choice(tuple(UNITS)), help="Units of the positions in the file."
+    ),
+    click.option("--motor", help="Which motor, if the log has several: left, right, …"),
+    click.option("--voltage", metavar="ENTRY", help="Log entry with the applied voltage."),
+    click.option("--position", metavar="ENTRY", help="Log entry with the position."),
+    click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
+    click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
+)
+# Which mechanism, and how to put a velocity right that was logged wrongly.
+velocity_options = combine_options(
+    click.option(
+        "--pick",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="Which mechanism, if the log has several: its number in the message.",
+    ),
+    click.option(
+        "--velocity-scale",
+        metavar="X",
+        type=float,
+        callback=_factor,
+        default=1.0,
+        help="Multiply the velocity by X, if its factor in the robot's code is wrong.",
+    ),
+    click.option(
+        "--ignore-velocity",
+        is_flag=True,
+        help="Use the slope of the position as the velocity.",
+    ),
+)
 
 
 def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:
@@ -127,7 +125,7 @@ def read_logs_together(
 
 @dataclass(frozen=True)
 class PartReader:
-    """Reads the files of one robot as logs of alike parts, by name.
+    """Reads the files of a robot, one log for each mechanism, side or motor.
 
     Args:
         units: of the positions in them; None believes the files.
@@ -146,7 +144,7 @@ class PartReader:
     pick: int | None = None
 
     def read(self, files: Sequence[Path]) -> "Mapping[str, Log]":
-        """The parts of all files together.
+        """The logs in all files, by the name of the mechanism, side or motor.
 
         Raises:
             Refusal: a file cannot be read, or one measures a length and another an angle.
@@ -156,7 +154,7 @@ class PartReader:
         return list_parts([(file, self.read_file(file)) for file in files])
 
     def read_file(self, file: Path) -> "dict[str, Log]":
-        """The parts of one file.
+        """The logs in one file, by the name of the mechanism, side or motor.
 
         Raises:
             Refusal: the file cannot be read.

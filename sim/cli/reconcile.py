@@ -5,11 +5,17 @@ import math
 from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, as_json, read_logs_together, reading_options
+from sim.cli.options import (
+    FILE,
+    as_json,
+    combine_options,
+    read_logs_together,
+    reading_options,
+)
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
 
 if TYPE_CHECKING:
@@ -24,28 +30,24 @@ TIME_LIMIT = 20.0  # [s] of processor time
 UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
 
 
-def reconcile_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options that say what is held against the model, and what is written."""
-    options = (
-        click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
-        click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
-        click.option(
-            "--travel",
-            type=float,
-            help="Distance from stop to stop, in the log's units, if known.",
-        ),
-        click.option(
-            "--time-limit",
-            type=click.FloatRange(min=0.0, min_open=True),
-            metavar="SECONDS",
-            help="Processor time after which the search stops with the best model so far. "
-            "[default: 20; without Numba, no limit]",
-        ),
-        click.option("--html", type=FILE, help="Write a page with every figure and number."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# What is held against the model, and what is written.
+reconcile_options = combine_options(
+    click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
+    click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
+    click.option(
+        "--travel",
+        type=float,
+        help="Distance from stop to stop, in the log's units, if known.",
+    ),
+    click.option(
+        "--time-limit",
+        type=click.FloatRange(min=0.0, min_open=True),
+        metavar="SECONDS",
+        help="Processor time after which the search stops with the best model so far. "
+        "[default: 20; without Numba, no limit]",
+    ),
+    click.option("--html", type=FILE, help="Write a page with every figure and number."),
+)
 
 
 @click.command()
@@ -133,7 +135,7 @@ def _solved(
     logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, time_limit: float | None,
     progress: Callable[[str, float], None],
 ) -> "Story":  # fmt: skip
-    """The story of these logs, what an inspection found of each told to the solver."""
+    """The story of these logs, without the damage that an inspection finds."""
     from sim.reconcile import reconcile as solve  # noqa: PLC0415 - --help must not wait for it
 
     progress("looking for damage", 0.0)
@@ -144,35 +146,37 @@ def _solved(
         held_out=logs.get("held_out"),
         type=type_ or log.type or "simple",
         travel=travel,
-        time_limit=time_limit or default_time_limit(),
+        time_limit=time_limit or choose_time_limit(),
         damages={name: inspect_damage(some) for name, some in logs.items()},
         progress=progress,
     )
 
 
-def default_time_limit() -> float:
-    """[s] of processor time that a person waits for; no limit where the simulation is slow."""
+def choose_time_limit() -> float:
+    """[s] default limit of processor time; infinite where the simulation is not compiled."""
     from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
 
     return TIME_LIMIT if engine_can_compile() else math.inf
 
 
 def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
-    """What an inspection finds, in words that the solver understands.
+    """The damaged intervals that an inspection finds, as ``reconcile`` takes them.
 
     Args:
         log: any.
     """
     from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
     from sim.reconcile import DamagedInterval  # noqa: PLC0415
-    from sim.reconcile.dropout_intervals import dropout_intervals  # noqa: PLC0415
+    from sim.reconcile.dropout_intervals import find_dropout_intervals  # noqa: PLC0415
 
     found = []
     for one in inspect(log).damages:
         where = one.where
         stretches: tuple[tuple[float, float], ...] = ((where.start, where.end),)
         if one.fault == IN_MOMENTS and where.run is not None:
-            stretches = dropout_intervals(log.runs[where.run], start=where.start, end=where.end)
+            stretches = find_dropout_intervals(
+                log.runs[where.run], start=where.start, end=where.end
+            )
         found += [
             DamagedInterval(
                 where.run, *stretch, one.fault, one.confidence, one.evidence, one.advice

@@ -13,11 +13,7 @@ from sim.core.vocabulary import KINDS
 from sim.physics.battery import CONTROLLERS, Battery
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from sim.bench.mechanism import Mechanism
-    from sim.core.log import Log
-    from sim.inspect.fault import LogInterval
 
 PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
 
@@ -101,9 +97,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     seed: int | None,
     truth: Path | None,
 ) -> None:
-    """Run the four tests on a simulated MECHANISM.
-
-    The command writes a log like that of a robot.
+    """Run the four tests on a simulated MECHANISM, and write a log like that of a robot.
 
     For example: sysid simulate drivetrain --hide drag --fault encoder-slip --seed 1 -o drive.wpilog
     """
@@ -114,6 +108,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     from sim.bench.recorder import find_recorder  # noqa: PLC0415
     from sim.bench.routine import Routine  # noqa: PLC0415
     from sim.bench.simulate import simulate as record  # noqa: PLC0415
+    from sim.inspect.contaminate import contaminate_all, parse_fault_request  # noqa: PLC0415
     from sim.io import write  # noqa: PLC0415
 
     if seed is not None and seed < 0:
@@ -130,7 +125,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
         period = period or find_recorder(recorder).period
     period = PERIOD if period is None else period
     log = record(built, routine, rng=motion, period=period, electrical=electrical)
-    log, where = _damaged(log, faults, damage)
+    log, where = contaminate_all(log, [parse_fault_request(text) for text in faults], rng=damage)
     if truth:
         write_ground_truth(built, routine, path=truth, faults=where)
     try:
@@ -172,19 +167,3 @@ def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
                 f"{text!r}: {size!r} is not a size", advice="Write EFFECT[:SIZE], as drag:0.5."
             ) from None
     return mechanism
-
-
-def _damaged(
-    log: "Log", asked: Iterable[str], rng: "np.random.Generator"
-) -> "tuple[Log, list[tuple[str, float, LogInterval]]]":
-    """The log with the faults that are asked for, and where each is."""
-    from sim.inspect.contaminate import contaminate, parse_fault_request  # noqa: PLC0415 - only with --fault
-
-    where = []
-    for one in [parse_fault_request(text) for text in asked]:
-        spoilt = contaminate(
-            log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng
-        )
-        log = spoilt.log
-        where += [(one.name, one.severity, stretch) for stretch in spoilt.where]
-    return log, where

@@ -4,7 +4,7 @@
     ├── UnreadableFile    missing, empty, damaged, truncated, or of a format nobody here reads
     ├── MissingSignal     the file is sound, but an entry that a fit needs is not in it
     ├── BadSample         a number that cannot be a measurement: nan, infinite, out of order
-    ├── NotIdentifiable   the record is sound, but cannot tell what was asked
+    ├── NotIdentifiable   the log is sound, but does not determine the gains
     └── BadRequest        what was asked for cannot be done: unknown name, value out of range,
                           a folder that cannot be written
 
@@ -13,7 +13,7 @@ A command turns any of them into one line on standard error and exit code 2.
 
 
 class Refusal(Exception):  # noqa: N818 - a refusal is an answer, not a fault of the program
-    """The bench or the examiner will not go on, and says why.
+    """Base class of all errors raised on purpose: what is wrong, where, and what to do.
 
     Args:
         what: the problem, with its size: ``velocity is nan``.
@@ -49,7 +49,7 @@ class BadSample(Refusal):
 
 
 class NotIdentifiable(Refusal):
-    """A sound record from which the gains asked for cannot be told."""
+    """A sound log that does not determine the gains."""
 
 
 class BadRequest(Refusal):

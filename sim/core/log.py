@@ -40,7 +40,7 @@ LEAST_STEP = 0.25  # [of the largest voltage] that a step of the command changes
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """One test, sampled: what was applied and what was seen.
+    """One test, sampled: applied voltage, measured position and velocity.
 
     Args:
         test: which test, one of ``TESTS``: ``quasistatic-forward``.
@@ -91,12 +91,12 @@ class Run:
 
     @cached_property
     def top_speed(self) -> float:
-        """[m/s or rad/s] the speed of the fastest samples, whatever a single one says."""
+        """[m/s or rad/s] speed that 98 % of the samples do not exceed."""
         return float(np.percentile(np.abs(self.velocity), 98)) if len(self) else 0.0
 
     @cached_property
     def voltage_slide(self) -> Array:
-        """(n,) [V] by which the voltage slides evenly from each sample to the next.
+        """(n,) [V] linear change of the voltage from each sample to the next; 0 if it is held.
 
         A program sets a voltage once a loop and holds it, so a ramp is a stair. Where the command
         is constant, a voltage that changes from sample to sample follows the speed: a current
@@ -162,7 +162,7 @@ class Run:
 
 @dataclass(frozen=True, eq=False)
 class Log:
-    """The runs of one mechanism, and what is known of where they come from.
+    """The runs of one mechanism, with unit, type and origin.
 
     Args:
         runs: in the order they were recorded.
@@ -175,7 +175,7 @@ class Log:
     Examples:
         >>> run = Run("quasistatic-reverse", [0.0], [0.0], [0.0], [0.0])
         >>> log = Log((run,), units="rotations", type="simple")
-        >>> log.units, len(log.runs_of_test("quasistatic-reverse"))
+        >>> log.units, len(log.list_runs_of_test("quasistatic-reverse"))
         ('rotations', 1)
     """
 
@@ -194,7 +194,12 @@ class Log:
                 f"unknown type {self.type!r}", advice=f"Choose one of: {', '.join(TYPES)}."
             )
 
-    def runs_of_test(self, test: str) -> tuple[Run, ...]:
+    @cached_property
+    def top_speed(self) -> float:
+        """[m/s or rad/s] top speed of its fastest run; 0 without runs."""
+        return max((run.top_speed for run in self.runs), default=0.0)
+
+    def list_runs_of_test(self, test: str) -> tuple[Run, ...]:
         """All runs of one test, in order; empty if it was not recorded."""
         return tuple(run for run in self.runs if run.test == test)
 
@@ -212,7 +217,7 @@ class Log:
         return replace(self, runs=self.runs + other.runs, doubts=self.doubts + other.doubts)
 
     def add_doubts(self, *doubts: Doubt) -> "Log":
-        """The same log with more doubts."""
+        """A copy with more doubts."""
         return replace(self, doubts=self.doubts + doubts)
 
 

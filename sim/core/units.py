@@ -37,15 +37,15 @@ UNITS: dict[str, Unit] = {
 }
 
 
-def gains_per(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
-    """The same gains when positions are counted in a unit ``factor`` times as large.
+def convert_gains(gains: Mapping[str, float], *, factor: float) -> dict[str, float]:
+    """Gains converted to a unit of position that is ``factor`` times as large.
 
     Args:
         gains: gain -> value; only kV and kA depend on the unit of position.
         factor: ``unit("rotations").si`` turns gains per radian into gains per rotation.
 
     Examples:
-        >>> gains_per({"kS": 0.1, "kV": 0.02}, factor=find_unit("rotations").si)["kV"]  # [V·s/rot]
+        >>> convert_gains({"kV": 0.02}, factor=find_unit("rotations").si)["kV"]  # [V·s/rotation]
         0.12566370614359174
     """
     return {

@@ -90,7 +90,7 @@ def _refuse_constant_voltage(paid: Array, ways: Array, *, where: str) -> None:
 
 
 def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dict[str, float]:
-    """The same gains, moved to values that a simulation can start from.
+    """The gains, clamped to values from which a simulation can start.
 
     Args:
         gains: a raw guess.

@@ -12,6 +12,7 @@ small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TypeAlias
 
 import numpy as np
@@ -30,7 +31,7 @@ _Four: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class GainSchedule:
-    """What a filter does at each sample of some runs.
+    """Kalman gain and innovation scale at each sample of some runs.
 
     Args:
         gains: (n, 4) the gain at each sample, row by row.
@@ -45,7 +46,7 @@ class GainSchedule:
 
 @dataclass(frozen=True, eq=False)
 class KalmanFilter:
-    """A filter in its steady state, and what it needs where a voltage is known less well.
+    """A steady-state Kalman filter, and what it needs where a voltage is uncertain.
 
     Args:
         steady: (2, 2) gain, from innovations to corrections of position and velocity.
@@ -74,43 +75,55 @@ class KalmanFilter:
             voltage_error: (n,) [V] standard deviation of the mean voltage since the sample before.
             starts: samples at which a run begins.
         """
-        places, covs = self._follow_covariance(voltage_error, frozenset(starts))
+        uncertain, (xx, xv, vv) = self._follow_covariance(voltage_error, frozenset(starts))
+        noise_x, noise_v = self.measured
+        seen_x, seen_v, free = xx + noise_x, vv + noise_v, xx * vv - xv * xv
+        size = seen_x * seen_v - xv * xv
+        gain = np.array([free + xx * noise_v, xv * noise_x, xv * noise_v, free + vv * noise_x])
         gains = np.tile(self.steady.ravel(), (voltage_error.size, 1))
-        uncertain = np.array(places, dtype=np.intp)
-        predicted = np.array(covs).reshape(-1, 2, 2)
-        seen = predicted + np.diag(self.measured)
-        gains[uncertain] = (predicted @ np.linalg.inv(seen)).reshape(-1, 4)
+        gains[uncertain] = (gain / size).T
+        whitening = np.zeros((uncertain.size, 2, 2))  # the inverse of the Cholesky factor
+        whitening[:, 0, 0], whitening[:, 1, 1] = 1.0 / np.sqrt(seen_x), np.sqrt(seen_x / size)
+        whitening[:, 1, 0] = -xv / np.sqrt(seen_x * size)
         usual = np.linalg.cholesky(self.predicted + np.diag(self.measured))
-        return GainSchedule(gains, uncertain, usual @ np.linalg.inv(np.linalg.cholesky(seen)))
+        return GainSchedule(gains, uncertain, usual @ whitening)
 
     def _follow_covariance(
         self, voltage_error: Array, starts: frozenset[int]
-    ) -> tuple[list[int], list[_Four]]:
-        """Samples at which the predicted covariance is not the steady one, and what it is."""
-        usual, push, step, disturbed = map(
-            _as_four, (self.predicted, self.push, self.step, self.disturbed)
-        )
-        back = _transpose(step)
+    ) -> tuple[NDArray[np.intp], Array]:
+        """Samples at which the predicted covariance is not the steady one, and what it is (3, m).
+
+        In plain numbers, because a search follows thousands of samples each time.
+        """
+        usual_x, usual, _, usual_v = _as_four(self.predicted)
+        push_x, push, _, push_v = _as_four(self.push)
+        volt_x, volt, _, volt_v = _as_four(self.disturbed)
+        _, reach, _, kept = _as_four(self.step)
         noise_x, noise_v = self.measured.tolist()
+        near_x, near_v = (1.0 + MATTERS) * usual_x, (1.0 + MATTERS) * usual_v
         variances = np.square(voltage_error).tolist()
         places: list[int] = []
-        covs: list[_Four] = []
+        covs: list[tuple[float, float, float]] = []
         for first in np.flatnonzero(self._matters(voltage_error)).tolist():
             if places and first <= places[-1]:
                 continue
-            now, cov = first, usual
-            while now < len(variances):
-                cov = _add(cov, _times(disturbed, variances[now]))
-                if now > first and (now in starts or _is_near(cov, usual)):
+            xx, xv, vv = usual_x, usual, usual_v
+            for now in range(first, len(variances)):
+                volts = variances[now]
+                xx, xv, vv = xx + volt_x * volts, xv + volt * volts, vv + volt_v * volts
+                if now > first and (now in starts or (xx <= near_x and vv <= near_v)):
                     break
                 places.append(now)
-                covs.append(cov)
-                seen = _add(cov, (noise_x, 0.0, 0.0, noise_v))
-                gain = _multiply(cov, _inverse(seen))
-                rest = _add(cov, _times(_multiply(gain, cov), -1.0))
-                cov = _add(_multiply(_multiply(step, rest), back), push)
-                now += 1
-        return places, covs
+                covs.append((xx, xv, vv))
+                free = xx * vv - xv * xv
+                size = (xx + noise_x) * (vv + noise_v) - xv * xv
+                left_x = noise_x * (free + xx * noise_v) / size  # once it is corrected
+                left_v = noise_v * (free + vv * noise_x) / size
+                left = noise_x * noise_v * xv / size
+                xx = left_x + reach * (2.0 * left + reach * left_v) + push_x
+                xv = kept * (left + reach * left_v) + push
+                vv = kept * kept * left_v + push_v
+        return np.array(places, dtype=np.intp), np.array(covs).reshape(-1, 3).T
 
     def _matters(self, voltage_error: Array) -> NDArray[np.bool_]:
         """(n,) samples before which the voltage is uncertain enough to matter."""
@@ -124,7 +137,7 @@ OPEN_LOOP = KalmanFilter(
 """A filter that corrects nothing: its predictions are a simulation."""
 
 
-def steady_state_filter(
+def make_steady_state_filter(
     model: Model, *, noise: SensorNoise, process_noise: float, period: float
 ) -> KalmanFilter:
     """The Kalman filter of position and velocity in its steady state.
@@ -135,7 +148,15 @@ def steady_state_filter(
         process_noise: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
         period: [s] between samples.
     """
-    rate, dt = model.gains["kV"] / model.gains["kA"], period
+    gains = model.gains
+    return _steady_state_filter(gains["kV"], gains["kA"], noise, process_noise, period)
+
+
+@lru_cache(maxsize=2)  # a search for other parameters than kV and kA needs the same one each time
+def _steady_state_filter(
+    kv: float, ka: float, noise: SensorNoise, process_noise: float, period: float
+) -> KalmanFilter:
+    rate, dt = kv / ka, period
     # velocities in units of their noise and positions in as many: so the numbers are near one
     kept = math.exp(-rate * dt)
     step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
@@ -143,7 +164,7 @@ def steady_state_filter(
         [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
     )
     rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
-    disturbed = _voltage_covariance(rate, dt) / (model.gains["kV"] * noise.velocity) ** 2
+    disturbed = _voltage_covariance(rate, dt) / (kv * noise.velocity) ** 2
     if process_noise <= 0.0:
         return replace(OPEN_LOOP, measured=rough, step=step, disturbed=disturbed)
     spread = _steady_covariance(step, push, rough)
@@ -201,20 +222,6 @@ def _multiply(a: _Four, b: _Four) -> _Four:
         a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3],
         a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3],
     )  # fmt: skip
-
-
-def _times(a: _Four, by: float) -> _Four:
-    return a[0] * by, a[1] * by, a[2] * by, a[3] * by
-
-
-def _inverse(a: _Four) -> _Four:
-    size = a[0] * a[3] - a[1] * a[2]
-    return a[3] / size, -a[1] / size, -a[2] / size, a[0] / size
-
-
-def _is_near(cov: _Four, usual: _Four) -> bool:
-    most = 1.0 + MATTERS
-    return cov[0] <= most * usual[0] and cov[3] <= most * usual[3]
 
 
 def _add(a: _Four, b: _Four) -> _Four:

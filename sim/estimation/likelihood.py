@@ -14,24 +14,27 @@ offset x from its first reading, its friction may differ by δ from that of the 
 import math
 import os
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array
-from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, steady_state_filter
+from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, make_steady_state_filter
 from sim.estimation.measurements import SensorNoise, estimate_noise
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.random_friction import friction_prior, friction_sd
+from sim.estimation.random_friction import compute_friction_prior, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import RunRecord
-from sim.physics.engine import EXPECTED, RunBatch, Track, filter_runs
+from sim.physics.engine import RunBatch, Track, filter_runs
 from sim.physics.model import Model
+
+if TYPE_CHECKING:
+    from concurrent.futures import ThreadPoolExecutor
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
@@ -84,9 +87,8 @@ class PredictionErrorProblem:
         noise: of their samples, estimated without a model.
         max_process_noise: [unit²/s³] the largest process noise.
         varying_friction: whether each run has a friction of its own.
-        lag_sd: [s] standard deviation of a run's own lag about that of all; 0 where all are alike.
-        backlash_allowance: [unit] by which free play that no model here describes may shift a
-            start.
+        lag_sd: [s] standard deviation of the runs' lags about their mean; 0 if they are equal.
+        backlash_allowance: [unit] how far unmodeled free play may shift a run's start.
         priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
@@ -106,7 +108,7 @@ class PredictionErrorProblem:
         varying_friction: bool = True,
         backlash_allowance: float = 0.0,
     ) -> "PredictionErrorProblem":
-        """The problem of these runs, with the noise that they show."""
+        """The problem of these runs, their noise estimated from their samples."""
         noise = estimate_noise(tuple(record.measurements for record in records))
         return cls(
             tuple(records),
@@ -117,14 +119,14 @@ class PredictionErrorProblem:
 
     @cached_property
     def run_edges(self) -> NDArray[np.intp]:
-        """(runs + 1,) where each run begins among all samples."""
+        """(runs + 1,) index of each run's first sample among all, and their number."""
         return np.concatenate(
             ([0], np.cumsum([record.measurements.time.size for record in self.records]))
         )
 
     @cached_property
     def batch(self) -> RunBatch:
-        """The runs as the engine follows them."""
+        """The runs as contiguous arrays for the engine."""
         seen = [record.measurements for record in self.records]
         return RunBatch(
             self.run_edges.astype(np.float64),
@@ -152,6 +154,10 @@ class PredictionErrorProblem:
         return np.concatenate([np.concatenate(([0.0], one[:-1])) for one in errors])
 
     @cached_property
+    def _voltage_is_uncertain(self) -> bool:
+        return bool(self.voltage_error.any())
+
+    @cached_property
     def informative(self) -> NDArray[np.bool_]:
         """(n,) samples that are compared: not the first of a run, from which it starts."""
         telling = np.concatenate([record.measurements.informative for record in self.records])
@@ -166,20 +172,24 @@ class PredictionErrorProblem:
         return ignored
 
     @cached_property
+    def _ignored_places(self) -> NDArray[np.intp]:
+        return np.flatnonzero(self.ignored_readings)
+
+    @cached_property
     def compared_counts(self) -> tuple[int, int, int]:
-        """How many positions are compared, how many velocities, and how many pairs; at least 1."""
+        """Numbers of compared positions, velocities and pairs; each at least 1."""
         x, v = ~self.ignored_readings.T
         positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
         return max(positions, 1), max(velocities, 1), max(both, 1)
 
     @cached_property
     def moving(self) -> NDArray[np.bool_]:
-        """(n,) samples at which it moved."""
+        """(n,) whether the mechanism moves at each sample."""
         return np.concatenate([record.measurements.moving for record in self.records])
 
     @cached_property
     def sample_count(self) -> int:
-        """How many samples are compared."""
+        """Number of compared samples."""
         return int(np.count_nonzero(~self.ignored_readings.all(axis=1)))
 
     @cached_property
@@ -205,10 +215,10 @@ class PredictionErrorProblem:
 
     @property
     def initial_nuisance(self) -> RunNuisance:
-        """The runs as their first samples show them."""
+        """Nuisance parameters to start from: no offsets."""
         return RunNuisance.at_first_samples(len(self.records))
 
-    def priors_of(self, structure: ModelStructure) -> dict[str, float]:
+    def select_priors(self, structure: ModelStructure) -> dict[str, float]:
         """The priors of those parameters that a search of this structure moves."""
         return {name: sd for name, sd in self.priors.items() if name in structure.searched_names}
 
@@ -217,7 +227,7 @@ class PredictionErrorProblem:
     def simulate(
         self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter = OPEN_LOOP
     ) -> Track:
-        """All runs, one after another.
+        """Simulate all runs, one after another.
 
         Args:
             model: what moves.
@@ -242,25 +252,25 @@ class PredictionErrorProblem:
             clocks: (runs,) [s] when each run begins, if not when it did.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
-        errors = (
-            self.measured - self._filter_runs(model, nuisance, kalman_filter, batch)[:, EXPECTED:]
-        )
-        np.copyto(errors, 0.0, where=self.ignored_readings)
+        errors = np.empty(self.measured.shape)
+        self._filter_runs(model, nuisance, kalman_filter, batch, errors)
+        errors.reshape(-1)[self._ignored_places] = 0.0
         if (schedule := self._schedule(kalman_filter)) is not None:
             rows = schedule.uncertain
             errors[rows] = (schedule.scales @ errors[rows, :, None])[..., 0]
-            np.copyto(errors, 0.0, where=self.ignored_readings)
+            errors.reshape(-1)[self._ignored_places] = 0.0
         return np.asarray(errors)
 
     def _filter_runs(
-        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch
-    ) -> Array:
+        self, model: Model, nuisance: RunNuisance, kalman_filter: KalmanFilter, batch: RunBatch,
+        errors: Array | None = None,
+    ) -> Array:  # fmt: skip
         schedule = self._schedule(kalman_filter)
         gain = kalman_filter.steady if schedule is None else schedule.gains
         return filter_runs(
             model, batch, kalman_gain=gain,
             position_offset=nuisance.position_offset, backlash_phase=nuisance.backlash_phase,
-            friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset,
+            friction_offset=nuisance.friction_offset, lag_offset=nuisance.lag_offset, errors=errors,
         )  # fmt: skip
 
     def _log_scale(self, kalman_filter: KalmanFilter) -> float:
@@ -268,11 +278,11 @@ class PredictionErrorProblem:
         if (schedule := self._schedule(kalman_filter)) is None:
             return 0.0
         scales = schedule.scales[self.informative[schedule.uncertain]]
-        return float(-2.0 * np.sum(np.log(np.linalg.det(scales))))
+        return float(-2.0 * np.sum(np.log(scales[:, 0, 0] * scales[:, 1, 1])))  # triangular
 
     def _schedule(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
         """What the filter does at each sample; None where it is the same at all of them."""
-        if not self.voltage_error.any():
+        if not self._voltage_is_uncertain:
             return None
         found = self._schedules.get(kalman_filter)
         if found is None:
@@ -312,16 +322,18 @@ class PredictionErrorProblem:
             return nowhere
         model = structure.model(values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
-            kalman_filter = steady_state_filter(
+            kalman_filter = make_steady_state_filter(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
             innovations = self.predict_errors(model, nuisance, kalman_filter)
-            cov = self.covariance(innovations)
+            cov = self.compute_covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
-            cost = self._cost(cov) + own + friction_prior(values, nuisance)
+            cost = self._cost(cov) + own + compute_friction_prior(values, nuisance)
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
-            cost += sum((values[name] / sd) ** 2 for name, sd in self.priors_of(structure).items())
+            cost += sum(
+                (values[name] / sd) ** 2 for name, sd in self.select_priors(structure).items()
+            )
             cost += self._log_scale(kalman_filter)
         if not math.isfinite(cost):
             return nowhere
@@ -331,8 +343,8 @@ class PredictionErrorProblem:
 
     # -- compare ---------------------------------------------------------------------------------
 
-    def covariance(self, innovations: Array) -> Array:
-        """(2, 2) covariance of innovations, never quite zero."""
+    def compute_covariance(self, innovations: Array) -> Array:
+        """(2, 2) covariance of innovations, kept positive definite."""
         x, v = innovations.T.copy()
         positions, velocities, both = self.compared_counts
         xx, vv = float(x @ x) / positions, float(v @ v) / velocities
@@ -360,7 +372,7 @@ class PredictionErrorProblem:
         near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
         return np.asarray((near @ point.whitening.T).ravel())
 
-    def jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
+    def compute_jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
         """(2 n, searched + nuisance) derivatives of the whitened innovations.
 
         With respect to each parameter, then to the start of each run, then, where they vary between
@@ -373,60 +385,99 @@ class PredictionErrorProblem:
         Raises:
             ValueError: the cost of the estimate is infinite.
         """
-        found = self._fine_jacobians.get(point) if fine else None
-        if found is None:
-            found = self._compute_jacobian(point, fine=fine)
-            if fine and len(self.measured) <= PARALLEL:  # of a long log, it takes much memory
-                self._fine_jacobians[point] = found
-        return found
+        kept = self._jacobians.get(point, {})
+        if fine not in kept:
+            kept = {fine: self._compute_jacobian(point, fine=fine)}
+            self._keep_jacobian(point, kept)
+        return kept[fine]
 
     @cached_property
-    def _fine_jacobians(self) -> WeakKeyDictionary[Estimate, Array]:
-        """Those that were needed: a fit asks for one at its end, for lags and for its errors."""
+    def _jacobians(self) -> WeakKeyDictionary[Estimate, dict[bool, Array]]:
+        """The last one, by ``fine``: lags, effects and errors ask for it again."""
         return WeakKeyDictionary()
 
-    def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
-        structure = point.structure
-        sides = [
-            self._difference_points(point, name, fine=fine) for name in structure.searched_names
-        ]
-        moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
-        tried = [
-            (structure.model({**point.values, name: value}), point.nuisance)
-            for name, pair in zip(structure.searched_names, sides, strict=True)
-            for value in pair
-            if value != point.values[name]
-        ]
-        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
-            results = iter(
-                self._simulate_in_parallel(
-                    [*tried, (structure.model(point.values), moved)], point.kalman_filter
-                )
-            )
-            columns = []
-            for name, (low, high) in zip(structure.searched_names, sides, strict=True):
-                own = point.values[name]
-                below = next(results) if low != own else point.innovations
-                above = next(results) if high != own else point.innovations
-                columns.append(self.whiten(point, (above - below) / (high - low)))
-        starts = (next(results) - point.innovations) / self.noise.position
-        columns.append(self._one_column_per_run(self.whiten(point, starts)))
-        if self.varying_friction:
-            columns.append(self.friction_jacobian(point))
-        if self.lag_sd:
-            columns.append(self.lag_jacobian(point))
-        return np.column_stack(columns)
+    def _keep_jacobian(self, point: Estimate, kept: dict[bool, Array]) -> None:
+        self._jacobians.clear()
+        self._jacobians[point] = kept
 
-    def friction_jacobian(self, point: Estimate) -> Array:
+    def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
+        names = point.structure.searched_names
+        if fine:
+            table = self.compute_jacobian(point).copy(order="F")
+            table[:, : len(names)] = self.compute_parameter_jacobian(point, names, known=table)
+            return table
+        model = point.structure.model(point.values)
+        moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
+        starts = self.predict_errors(model, moved, point.kalman_filter)
+        starts = (starts - point.innovations) / self.noise.position
+        parts = [
+            self.compute_parameter_jacobian(point, names),
+            self._one_column_per_run(self.whiten(point, starts)),
+        ]
+        if self.varying_friction:
+            parts.append(self.compute_friction_jacobian(point))
+        if self.lag_sd:
+            parts.append(self.compute_lag_jacobian(point))
+        return np.concatenate([part.T for part in parts]).T
+
+    def extend_jacobian(self, point: Estimate, known: Array) -> None:
+        """Store the Jacobian of an estimate with absent effects, extended from that without them.
+
+        Args:
+            point: the estimate.
+            known: (2 n, others + nuisance) the fine Jacobian at it in a structure without them.
+        """
+        every, parameters = point.structure.searched_names, point.structure.parameters
+        nuisance = len(self.records) * len(self.list_nuisance_priors(point))
+        others = known.shape[1] - nuisance
+        # how an effect looks changes nothing as long as there is none of it
+        sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
+        table = np.zeros((len(every) + nuisance, len(known)))
+        table[:others], table[len(every) :] = known.T[:others], known.T[others:]
+        table[[every.index(name) for name in sizes]] = self.compute_parameter_jacobian(
+            point, sizes
+        ).T
+        self._keep_jacobian(point, {True: table.T})
+
+    def compute_parameter_jacobian(
+        self, point: Estimate, names: Sequence[str], *, known: Array | None = None
+    ) -> Array:
+        """(2 n, names) derivatives of the whitened innovations by some parameters.
+
+        Args:
+            point: where.
+            names: of the parameters.
+            known: (2 n, names or more) these derivatives from one side, of which the mean with
+                those from the other side is returned.
+        """
+        sides = [self._difference_point(point, name, back=known is not None) for name in names]
+        tried = [
+            (point.structure.model({**point.values, name: value}), point.nuisance)
+            for name, value in zip(names, sides, strict=True)
+            if value is not None
+        ]
+        columns = np.empty((len(names), point.innovations.size))
+        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
+            results = iter(self._simulate_in_parallel(tried, point.kalman_filter))
+            for place, (name, value) in enumerate(zip(names, sides, strict=True)):
+                if value is not None:
+                    change = (next(results) - point.innovations) / (value - point.values[name])
+                    columns[place] = self.whiten(point, change)
+                if known is not None:
+                    one = known[:, place]
+                    columns[place] = one if value is None else 0.5 * (one + columns[place])
+        return columns.T
+
+    def compute_friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
-        by = np.full(len(self.records), friction_sd(point.values))
+        by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
             [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
         )
         return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
 
-    def lag_jacobian(self, point: Estimate) -> Array:
+    def compute_lag_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
         by = LAG_STEP * self.lag_sd
         later = point.nuisance.add_lag(np.full(len(self.records), by))
@@ -434,27 +485,31 @@ class PredictionErrorProblem:
         moved = self.predict_errors(model, later, point.kalman_filter)
         return self._one_column_per_run(self.whiten(point, (moved - point.innovations) / by))
 
-    def nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
+    def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
         """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
         priors = [(self.start_sd, point.nuisance.position_offset)]
         if self.varying_friction:
-            priors.append((friction_sd(point.values), point.nuisance.friction_offset))
+            priors.append((get_friction_sd(point.values), point.nuisance.friction_offset))
         if self.lag_sd:
             priors.append((self.lag_sd, point.nuisance.lag_offset))
         return priors
 
-    def _difference_points(self, point: Estimate, name: str, *, fine: bool) -> tuple[float, float]:
-        """Two values of a parameter whose simulations give the derivative by it."""
+    def _difference_point(self, point: Estimate, name: str, *, back: bool) -> float | None:
+        """Another value of a parameter, whose simulation gives the derivative by it.
+
+        A step up, or down where there is nothing above; ``back`` asks for the other one, None where
+        there is none.
+        """
         structure, value = point.structure, point.values[name]
         coarse = name.partition(".")[2] in STEPWISE
-        size = max(structure.parameter_scale(name, value), self.priors.get(name, 0.0))
+        size = max(structure.find_parameter_scale(name, value), self.priors.get(name, 0.0))
         step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step
-        may_rise = structure.clamp_value(name, above) == above
-        may_fall = structure.clamp_value(name, below) == below
-        return value if may_rise and not (
-            fine and may_fall
-        ) else below, above if may_rise else value
+        if structure.clamp_value(name, above) != above:
+            return None if back else below
+        if not back:
+            return above
+        return below if structure.clamp_value(name, below) == below else None
 
     def _simulate_in_parallel(
         self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
@@ -471,13 +526,15 @@ class PredictionErrorProblem:
 
         A run is not moved without those before it, which may have heated what it found warm.
         """
-        table = np.zeros((change.size, len(self.records)))
+        table = np.zeros((len(self.records), change.size))
         for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
-            table[first:last, number] = change[first:last]
-        return table
+            table[number, first:last] = change[first:last]
+        return table.T
 
 
 @cache
-def _threads() -> ThreadPoolExecutor:
+def _threads() -> "ThreadPoolExecutor":
     """As many as there are cores, for logs that are worth it."""
+    from concurrent.futures import ThreadPoolExecutor  # noqa: PLC0415 - only long logs wait for it
+
     return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="simulate")

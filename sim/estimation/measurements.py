@@ -76,7 +76,7 @@ class SensorNoise:
     Args:
         position: [m or rad].
         velocity: [m/s or rad/s].
-        resolution: of both, what no number of a log is better than.
+        resolution: smallest step of a logged number, of position and of velocity.
     """
 
     position: float
@@ -111,7 +111,7 @@ def measure_runs(
 
 
 def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
-    """The same run without the samples at which no reading is fresh.
+    """A copy without the samples at which no reading is fresh.
 
     A logger that is faster than its sensor repeats readings, and simulating them tells nothing.
     Over samples that are left out the voltage is averaged; where it jumps, a sample stays.
@@ -145,7 +145,7 @@ def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
             there = run.moving & ~np.isnan(run.measured[:, column])
             values = run.measured[there, column]
             if values.size > 3:  # noqa: PLR2004 - as above
-                thirds[column].append(third_differences(run.time[there], values))
+                thirds[column].append(compute_third_differences(run.time[there], values))
                 fresh[column].append(values)
     sizes = []
     for third, values in zip(thirds, fresh, strict=True):
@@ -170,18 +170,23 @@ def _smallest_step(values: Sequence[Array]) -> float:
     return float(steps.min()) if steps.size else 0.0
 
 
-def third_differences(time: Array, values: Array) -> Array:
-    """(n - 3,) what is left of values when a parabola through each four is taken away.
+def compute_third_differences(time: Array, values: Array) -> Array:
+    """(n - 3,) third differences of values, scaled so that noise adds as on even times.
 
     With even times these are 1, -3, 3, -1; with others the weights of a divided difference, scaled
     so that independent noise makes as much of them.
     """
-    four = np.lib.stride_tricks.sliding_window_view(time, 4)
-    apart = four[:, :, None] - four[:, None, :]
-    apart[:, range(4), range(4)] = 1.0
-    weights = 1.0 / np.prod(apart, axis=2)
-    weights *= math.sqrt(THIRD) / np.linalg.norm(weights, axis=1)[:, None]
-    return np.asarray(np.sum(weights * np.lib.stride_tricks.sliding_window_view(values, 4), axis=1))
+    one, two, three = (time[apart:] - time[:-apart] for apart in (1, 2, 3))
+    first, middle, last = one[:-2], one[1:-1], one[2:]
+    weights = (
+        -1.0 / (first * two[:-1] * three),
+        1.0 / (first * middle * two[1:]),
+        -1.0 / (two[:-1] * middle * last),
+        1.0 / (three * two[1:] * last),
+    )
+    size = np.sqrt(sum(weight**2 for weight in weights) / THIRD)
+    summed = sum(weight * values[k : k + size.size] for k, weight in enumerate(weights))
+    return np.asarray(summed / size)
 
 
 def _measure_run(
@@ -235,7 +240,7 @@ def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> flo
     for run in runs:
         rest = ~_find_progress(run, speed=speed, noise=noise)
         four = rest[:-3] & rest[1:-2] & rest[2:-1] & rest[3:]
-        thirds.append(third_differences(run.time, run.velocity)[four])
+        thirds.append(compute_third_differences(run.time, run.velocity)[four])
     every = np.concatenate(thirds)
     return ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD) if every.size else 0.0
 

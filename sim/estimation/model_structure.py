@@ -36,19 +36,19 @@ class ModelStructure:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """The values: gains, then ``effect.parameter``."""
+        """Names of all values: gains, then ``effect.parameter``."""
         return (*BASE[self.type], *self.parameters)
 
     @cached_property
     def parameters(self) -> Mapping[str, Parameter]:
-        """``effect.parameter`` -> what is known of it."""
+        """``effect.parameter`` -> its definition in the effect."""
         return {
             f"{name}.{one.name}": one for name in self.effects for one in EFFECTS[name].parameters
         }
 
     @cached_property
     def searched_names(self) -> tuple[str, ...]:
-        """The values that a search moves; the others are chosen by its start."""
+        """Names of the values that a search changes; its start sets the others."""
         known = self.parameters
         return tuple(
             name
@@ -58,13 +58,13 @@ class ModelStructure:
 
     @cached_property
     def free_count(self) -> int:
-        """How many values the data decide on, those of a start among them."""
+        """How many values the data determine, including those that a start sets."""
         known = self.parameters
         return sum(1 for name in self.names if name not in known or known[name].counts)
 
     @cached_property
     def backlash_names(self) -> tuple[str, ...]:
-        """The values that are free play between motor and load."""
+        """Names of the values that are free play between motor and load."""
         acts = {name: EFFECTS[name].hooks.get("backlash_gap") for name in self.effects}
         return tuple(
             f"{name}.{one}"
@@ -95,8 +95,8 @@ class ModelStructure:
             model += Part(name, {p: values[f"{name}.{p}"] for p in EFFECTS[name].names})
         return model
 
-    def parameter_scale(self, name: str, value: float) -> float:
-        """By how much a value must change to matter: its own size, or what is ordinary."""
+    def find_parameter_scale(self, name: str, value: float) -> float:
+        """Typical size of a parameter: its own value, or an ordinary one."""
         if name in POSITIVE:
             return abs(value)
         known = self.parameters.get(name)
@@ -105,18 +105,18 @@ class ModelStructure:
         return max(abs(value), ORDINARY.get(known.unit, 0.0), 1e-12)
 
     def clamp_value(self, name: str, value: float) -> float:
-        """The value, kept where it is physics."""
+        """The value, clamped to what is physical."""
         known = self.parameters.get(name)
         if known is not None:
             return min(max(value, known.least), known.most)
         return max(value, 0.0) if name == "kS" else value
 
     def step_value(self, name: str, value: float, by: float) -> float:
-        """The value after a step, which changes what cannot be negative by a factor at most."""
+        """The value after a step; one that cannot be negative changes by a limited factor."""
         if name in POSITIVE:
             return value * min(max(1.0 + by / value, 1.0 / 3.0), 3.0)
         known = self.parameters.get(name)
         if known is not None and known.least >= 0.0 and math.isfinite(by):
-            size = self.parameter_scale(name, value)
+            size = self.find_parameter_scale(name, value)
             by = min(max(by, -0.7 * size), 2.0 * size)
         return self.clamp_value(name, value + by)

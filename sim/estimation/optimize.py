@@ -6,6 +6,7 @@ simulations.
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,35 +25,45 @@ UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what
 
 @dataclass(frozen=True, eq=False)
 class JointJacobian:
-    """What of any innovations an estimate's parameters and nuisance parameters can take up.
+    """Projection of innovations onto the Jacobian of parameters and nuisance parameters.
 
     Args:
-        basis: (2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out.
+        columns: (2 n, k) the Jacobian, its prior rows left out.
+        root: (k, k) what makes its columns, with those rows, orthonormal.
         prior: (k,) what the prior rows hold of the estimate, in that basis.
     """
 
-    basis: Array
+    columns: Array
+    root: Array
     prior: Array
 
-    def project(self, white: Array) -> Array:
-        """(k,) what of whitened innovations (2 n,) the parameters take up."""
-        return np.asarray(self.basis.T @ white + self.prior)
+    @cached_property
+    def basis(self) -> Array:
+        """(2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out."""
+        return np.asarray(self.columns @ self.root)
 
-    def residual_square(self, white: Array) -> float:
-        """Sum of squares that is left once they have, up to a constant."""
+    def project(self, white: Array) -> Array:
+        """(k,) coordinates of whitened innovations (2 n,) in the Jacobian's column space."""
+        return self._take(white) + self.prior
+
+    def _take(self, white: Array) -> Array:
+        return np.asarray(self.root.T @ (self.columns.T @ white))
+
+    def compute_residual_square(self, white: Array) -> float:
+        """Sum of squares with the Jacobian's columns projected out, up to a constant."""
         taken = self.project(white)
         return float(white @ white - taken @ taken)
 
-    def improvement(self, white: Array, columns: Array, sd: float) -> float:
-        """[of -2 log L] gain of further columns (2 n, m), whose priors have this deviation."""
-        taken = self.basis.T @ columns
+    def compute_improvement(self, white: Array, columns: Array, sd: float) -> float:
+        """Decrease of -2 log L by further columns (2 n, m) with priors of deviation ``sd``."""
+        taken = self._take(columns)
         square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
         slope = columns.T @ white - taken.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
-    def residual_products(self, change: Array, white: Array) -> tuple[float, float]:
-        """What is left of a change's product with innovations, and with itself."""
-        taken = self.basis.T @ change
+    def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
+        """Products of a change with innovations and itself, the Jacobian projected out."""
+        taken = self._take(change)
         product = float(change @ white - taken @ self.project(white))
         return product, float(change @ change - taken @ taken)
 
@@ -63,35 +74,40 @@ def make_joint_jacobian(
     """The joint Jacobian at an estimate; ``fine`` takes central differences."""
     table, rest = append_prior_rows(problem, point, fine=fine)
     size = 2 * len(problem.measured)
-    basis, _ = np.linalg.qr(table)
-    return JointJacobian(
-        np.ascontiguousarray(basis[:size]), np.asarray(basis[size:].T @ rest[size:])
-    )
+    root = np.linalg.pinv(np.linalg.qr(table, mode="r"))
+    return JointJacobian(table[:size], root, root.T @ (table[size:].T @ rest[size:]))
 
 
 def append_prior_rows(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> tuple[Array, Array]:
     """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
-    table, rest = problem.jacobian(point, fine=fine), problem.whiten(point, point.innovations)
-    runs = len(problem.records)
-    nuisance = problem.nuisance_priors(point)
-    count = runs * len(nuisance)
-    prior = np.zeros((count, table.shape[1]))
-    prior[:, -count:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
-    own = [offset / sd for sd, offset in nuisance]
-    known = problem.priors_of(point.structure)
-    rows = np.zeros((len(known), table.shape[1]))
-    for row, (name, sd) in enumerate(known.items()):
-        rows[row, point.structure.searched_names.index(name)] = 1.0 / sd
+    table, rest = (
+        problem.compute_jacobian(point, fine=fine),
+        problem.whiten(point, point.innovations),
+    )
+    rows, own = make_prior_rows(problem, point)
+    return np.vstack([table, rows]), np.concatenate([rest, own])
+
+
+def make_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
+    """The priors' rows of Jacobian and innovations, nuisance parameters first."""
+    runs, names = len(problem.records), point.structure.searched_names
+    nuisance = problem.list_nuisance_priors(point)
+    known = problem.select_priors(point.structure)
+    count, columns = runs * len(nuisance), len(names)
+    rows = np.zeros((count + len(known), columns + count))
+    rows[:count, columns:] = np.diag(np.repeat([1.0 / sd for sd, _ in nuisance], runs))
+    for row, (name, sd) in enumerate(known.items(), count):
+        rows[row, names.index(name)] = 1.0 / sd
     values = [point.values[name] / sd for name, sd in known.items()]
-    return np.vstack([table, prior, rows]), np.concatenate([rest, *own, values])
+    return rows, np.concatenate([*(offset / sd for sd, offset in nuisance), values])
 
 
 def levenberg_marquardt(
     problem: PredictionErrorProblem, point: Estimate, *, steps: int, enough: float = ENOUGH
 ) -> Estimate:
-    """Levenberg–Marquardt steps until the gain per step is small; the process noise stays.
+    """The estimate after Levenberg–Marquardt steps, with unchanged process noise.
 
     Args:
         problem: the measurements.
@@ -103,14 +119,13 @@ def levenberg_marquardt(
         return point
     damping = FIRST_DAMPING
     for _ in range(steps):
-        table, rest = append_prior_rows(problem, point)
-        with np.errstate(over="ignore"):  # a value that nothing bears to be moved
-            size = np.linalg.norm(table, axis=0)
+        slope, square = _gradient_and_information(problem, point)
+        size = np.sqrt(np.diag(square))
         size[size == 0.0] = 1.0
-        slope = table.T @ rest / size
+        slope /= size
         free = _movable_columns(point, slope)
-        table, slope = table[:, free] / size[free], slope[free]
-        square, found = table.T @ table, point
+        slope, square = slope[free], (square / np.outer(size, size))[np.ix_(free, free)]
+        found = point
         for _ in range(TRIES):
             way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
             if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
@@ -128,13 +143,23 @@ def levenberg_marquardt(
     return point
 
 
+def _gradient_and_information(
+    problem: PredictionErrorProblem, point: Estimate
+) -> tuple[Array, Array]:
+    """(k,) half the gradient of -2 log L by all parameters, and (k, k) their information JᵀJ."""
+    table, rest = problem.compute_jacobian(point), problem.whiten(point, point.innovations)
+    rows, own = make_prior_rows(problem, point)
+    with np.errstate(over="ignore"):  # a value that nothing bears to be moved
+        return table.T @ rest + rows.T @ own, table.T @ table + rows.T @ rows
+
+
 def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
     """(columns,) which may move: not a parameter at a limit beyond which the cost would fall."""
     free = np.ones(slope.size, dtype=bool)
     structure = point.structure
     for column, name in enumerate(structure.searched_names):
         value = point.values[name]
-        by = TINY * structure.parameter_scale(name, value) * np.sign(slope[column])
+        by = TINY * structure.find_parameter_scale(name, value) * np.sign(slope[column])
         free[column] = structure.clamp_value(name, value - by) != value
     return free
 
@@ -159,7 +184,7 @@ def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> E
 
 
 def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest process noise: factors of four, then a parabola."""
+    """The estimate with the likeliest process noise: factors of four, then a parabola."""
     least = LEAST_Q * problem.noise.velocity**2
 
     def at(part: float) -> Estimate:
@@ -187,10 +212,10 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     return min(point, other, key=lambda one: one.cost)
 
 
-def parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
+def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
 
-    A combination of parameters that the log says nothing about has a huge error, not none.
+    A combination of parameters that the log does not determine has a huge error, not none.
 
     Args:
         problem: the measurements.
@@ -218,9 +243,10 @@ def invert_information(table: Array, *, weak: NDArray[np.bool_] | None = None) -
         return np.asarray((ways / share) @ ways.T / np.outer(size, size))
     inverse = np.empty((table.shape[1], table.shape[1]))
     strong = ~weak
-    alone = invert_information(table[:, strong])
-    shift = alone @ (table[:, strong].T @ table[:, weak])
-    own = invert_information(table[:, weak] - table[:, strong] @ shift)
+    kept, others = table.T[strong].T, table.T[weak].T
+    alone = invert_information(kept)
+    shift = alone @ (kept.T @ others)
+    own = invert_information(others - kept @ shift)
     inverse[np.ix_(weak, weak)] = own
     inverse[np.ix_(strong, weak)] = -shift @ own
     inverse[np.ix_(weak, strong)] = -(shift @ own).T

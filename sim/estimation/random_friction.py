@@ -20,21 +20,21 @@ VARIES = 0.04  # [of kS] τ, measured on logs of one day: two to six hundredths
 LEAST_KS = 0.05  # [V] of which it is a share where kS is less
 
 
-def friction_sd(values: Mapping[str, float]) -> float:
+def get_friction_sd(values: Mapping[str, float]) -> float:
     """[V] τ, the standard deviation of friction between runs."""
     return VARIES * max(values["kS"], LEAST_KS)
 
 
-def friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -> float:
-    """[of -2 log L] prior cost of the runs' own frictions."""
-    return float(np.sum(np.square(nuisance.friction_offset / friction_sd(values))))
+def compute_friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -> float:
+    """Prior cost of the runs' own frictions, as -2 log L."""
+    return float(np.sum(np.square(nuisance.friction_offset / get_friction_sd(values))))
 
 
-def laplace_correction(values: Mapping[str, float], slopes: Array) -> float:
-    """[of -2 log L] Laplace correction for integrating over the runs' own frictions.
+def compute_laplace_correction(values: Mapping[str, float], slopes: Array) -> float:
+    """Correction of -2 log L for integrating over the runs' frictions (Laplace).
 
     Args:
         values: of a point.
         slopes: (2 n, runs) change of the white innovations with each.
     """
-    return float(np.sum(np.log1p(friction_sd(values) ** 2 * np.sum(np.square(slopes), axis=0))))
+    return float(np.sum(np.log1p(get_friction_sd(values) ** 2 * np.sum(np.square(slopes), axis=0))))

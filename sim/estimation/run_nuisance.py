@@ -28,11 +28,11 @@ class RunNuisance:
 
     @classmethod
     def at_first_samples(cls, runs: int) -> "RunNuisance":
-        """No offsets: each run starts where its first sample says."""
+        """Nuisance parameters without offsets: each run starts at its first measurement."""
         return cls(np.zeros(runs), np.full(runs, np.nan), np.zeros(runs), np.zeros(runs))
 
     def select_runs(self, chosen: Sequence[int]) -> "RunNuisance":
-        """The nuisance parameters of some runs."""
+        """A copy with some of the runs."""
         places = list(chosen)
         return RunNuisance(
             self.position_offset[places],
@@ -42,29 +42,29 @@ class RunNuisance:
         )
 
     def shift_positions(self, by: Array) -> "RunNuisance":
-        """The same, with positions shifted by ``by`` (runs,) [unit]."""
+        """A copy with positions shifted by ``by`` (runs,) [unit]."""
         return replace(self, position_offset=self.position_offset + by)
 
     def add_friction(self, by: Array) -> "RunNuisance":
-        """The same, with ``by`` (runs,) [V] more friction in each run."""
+        """A copy with ``by`` (runs,) [V] more friction in each run."""
         return replace(self, friction_offset=self.friction_offset + by)
 
     def add_lag(self, by: Array) -> "RunNuisance":
-        """The same, with each run ``by`` (runs,) [s] later."""
+        """A copy in which each run lags ``by`` (runs,) [s] more."""
         return replace(self, lag_offset=self.lag_offset + by)
 
     @property
     def with_common_friction(self) -> "RunNuisance":
-        """The same, with one friction for all runs."""
+        """A copy with one friction for all runs."""
         return replace(self, friction_offset=np.zeros_like(self.friction_offset))
 
     def with_backlash_phase(self, phase: Array) -> "RunNuisance":
-        """The same, with these backlash phases (runs,)."""
+        """A copy with these backlash phases (runs,)."""
         return replace(self, backlash_phase=phase)
 
     @property
     def without_backlash_phase(self) -> "RunNuisance":
-        """The same, where the load's weight decides on the backlash phase."""
+        """A copy in which the load's weight decides where in its backlash a run starts."""
         return self.with_backlash_phase(np.full_like(self.backlash_phase, np.nan))
 
     @property

@@ -8,7 +8,7 @@ import numpy as np
 
 from sim.core.log import Array, Log
 from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
-from sim.physics.voltage_residual import run_start_times, shares_clock
+from sim.physics.voltage_residual import list_run_start_times, shares_clock
 
 FEWEST = 4  # samples of a run that can be compared, as ``measure_runs`` takes them
 AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
@@ -59,7 +59,7 @@ class RunRecord:
     memory_group: int
 
     def exclude_interval(self, aside: ExcludedInterval) -> "RunRecord":
-        """The same, and that stretch says nothing."""
+        """A copy in which the samples of an interval are not used."""
         time = self.measurements.time
         begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
         end = np.inf if aside.to_the_end and not begins else aside.end + AROUND
@@ -72,7 +72,7 @@ class RunRecord:
         return replace(self, measurements=seen)
 
 
-def run_records(
+def make_run_records(
     log: Log, *, session: int = 0, since: float = 0.0, aside: Iterable[ExcludedInterval] = ()
 ) -> tuple[RunRecord, ...]:
     """All runs of a log that have enough samples.
@@ -85,7 +85,7 @@ def run_records(
     """
     places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
     runs = [log.runs[number] for number in places]
-    began = run_start_times(log)
+    began = list_run_start_times(log)
     together = shares_clock(log)
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
     measured = measure_runs(log, friction=None, rest_by_position=False)
@@ -102,8 +102,8 @@ def run_records(
     return tuple(found.values())
 
 
-def separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tuple[RunRecord, ...]:
-    """Runs that know nothing of one another, and lie on no stop.
+def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tuple[RunRecord, ...]:
+    """The runs as independent records: no common clock, and no stops.
 
     Args:
         log: the runs.
@@ -116,11 +116,11 @@ def separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tuple[Run
     )
 
 
-def session_length(*logs: Log) -> float:
+def compute_session_length(*logs: Log) -> float:
     """[s] from the start of the first run to the end of the last, without the pauses."""
     lasted = (one.runs[-1].time[-1] - one.runs[-1].time[0] for one in logs)
     return float(
-        sum(run_start_times(one)[-1] + last for one, last in zip(logs, lasted, strict=True))
+        sum(list_run_start_times(one)[-1] + last for one, last in zip(logs, lasted, strict=True))
     )
 
 
@@ -128,7 +128,7 @@ def join_records(log: Log, later: Log) -> Log:
     """The runs of two logs, on one clock where both have one."""
     runs = later.runs
     if shares_clock(log) and shares_clock(later):
-        by = log.runs[0].time[0] + session_length(log) + AFTER - later.runs[0].time[0]
+        by = log.runs[0].time[0] + compute_session_length(log) + AFTER - later.runs[0].time[0]
         runs = tuple(replace(run, time=run.time + by) for run in runs)
     return replace(log, runs=(*log.runs, *runs))
 

@@ -40,7 +40,7 @@ SWEEPS = 2  # over all gains
 
 @dataclass(frozen=True, eq=False)
 class RunInformation:
-    """What one run says about the parameters, its nuisance marginalized, in units of their sizes.
+    """Fisher information and score of one run, its nuisance parameters marginalized.
 
     Args:
         information: (k, k) Fisher information G.
@@ -50,12 +50,12 @@ class RunInformation:
     information: Array
     score: Array
 
-    def of(self, chosen: NDArray[np.bool_]) -> "RunInformation":
-        """That about some of the parameters, the others known."""
+    def select_parameters(self, chosen: NDArray[np.bool_]) -> "RunInformation":
+        """The information about some of the parameters, the others known."""
         return RunInformation(self.information[np.ix_(chosen, chosen)], self.score[chosen])
 
 
-def run_variation_covariance(
+def compute_run_variation_covariance(
     problem: PredictionErrorProblem, point: Estimate, table: Array, rest: Array
 ) -> Array:
     """(searched, searched) covariance of the parameters when gains vary from run to run.
@@ -68,12 +68,12 @@ def run_variation_covariance(
     """
     sizes = _sizes(problem, point)
     runs = _run_information(problem, point, table, rest, sizes)
-    known = problem.priors_of(point.structure)
+    known = problem.select_priors(point.structure)
     names = point.structure.searched_names
     own = np.array([name not in known for name in names])
     guess = np.array([VARIES.get(name, FIXED) for name in names])
     square = guess**2
-    square[own] = _variances([run.of(own) for run in runs], guess[own])
+    square[own] = _variances([run.select_parameters(own) for run in runs], guess[own])
     prior = [
         (size / known[name]) ** 2 if name in known else 0.0
         for name, size in zip(names, sizes, strict=True)
@@ -143,7 +143,7 @@ def _run_information(
 ) -> list[RunInformation]:
     """The information of each run that is compared."""
     count, runs = sizes.size, []
-    nuisance = problem.nuisance_priors(point)
+    nuisance = problem.list_nuisance_priors(point)
     known = np.array([1.0 / sd**2 for sd, _ in nuisance])
     places = count + len(problem.records) * np.arange(len(nuisance))
     for number, (first, last) in enumerate(
@@ -160,12 +160,16 @@ def _run_information(
         information = free.T @ columns
         score = free.T @ rest[rows] - shares.T @ own
         time = problem.records[number].measurements.time
-        intervals = np.repeat(((time - time[0]) // LASTS).astype(int), 2)
-        scores = np.zeros((int(intervals[-1]) + 1, count))
-        np.add.at(scores, intervals, free * rest[rows, None])
+        starts = 2 * find_interval_starts(time, LASTS)  # two measurements to a sample
+        scores = np.add.reduceat(free.T * rest[rows], starts, axis=1).T
         excess = max(_excess(information, scores), 1.0)
         runs.append(RunInformation(information / excess, score / excess))
     return runs
+
+
+def find_interval_starts(time: Array, length: float) -> NDArray[np.intp]:
+    """Index of the first sample in each interval of this length [s] that has samples."""
+    return np.flatnonzero(np.diff((time - time[0]) // length, prepend=-1.0))
 
 
 def _excess(information: Array, scores: Array) -> float:
@@ -182,14 +186,14 @@ def _excess(information: Array, scores: Array) -> float:
 
 def _sizes(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched,) of each parameter, what its variation is a share of."""
-    values, known = point.values, problem.priors_of(point.structure)
+    values, known = point.values, problem.select_priors(point.structure)
     gravity = math.hypot(values.get("level", 0.0), values.get("upright", 0.0))
     volts = {"kS": values["kS"], "kG": values.get("kG", 0.0), "level": gravity, "upright": gravity}
     return np.array(
         [
             known.get(name)
             or (max(abs(volts[name]), LEAST_VOLTS) if name in volts else 0.0)
-            or point.structure.parameter_scale(name, values[name])
+            or point.structure.find_parameter_scale(name, values[name])
             for name in point.structure.searched_names
         ]
     )

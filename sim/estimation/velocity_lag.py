@@ -36,7 +36,7 @@ MATCHED = 0.02  # [share of the variance] that may be left unexplained by one an
 
 @dataclass(frozen=True)
 class VelocityLag:
-    """How late the velocity of a log is, and how it is scaled.
+    """Delay and scale of a log's velocity against its position.
 
     Args:
         lag: [s] by which the velocity is later than the position; negative if it is earlier.
@@ -52,7 +52,7 @@ class VelocityLag:
 
     @property
     def matched(self) -> bool:
-        """Whether velocity and position are of one and the same motion, so that a lag is one."""
+        """Whether velocity and position show the same motion, so that the delay means anything."""
         return self.unexplained <= MATCHED
 
 
@@ -83,7 +83,7 @@ def estimate_velocity_lag(runs: Sequence[Run]) -> VelocityLag | None:
 
 
 def _fit_run(run: Run, lags: Array) -> tuple[Array, Array, int] | None:
-    """For each delay, the unexplained share and the scale; and the samples they rest on."""
+    """For each delay, the unexplained share and the scale; and the number of samples used."""
     if len(run) < FEWEST or not run.top_speed > 0.0 or not np.ptp(run.position) > 0.0:
         return None
     steps = 0.5 * np.diff(run.time) * (run.velocity[1:] + run.velocity[:-1])

@@ -10,7 +10,7 @@ from sim.feedback.regulator import (
     PRESETS,
     Feedback,
     Preset,
-    allowed_velocity_error,
+    compute_allowed_velocity_error,
     design_position_loop,
     design_velocity_loop,
 )
@@ -24,7 +24,7 @@ __all__ = [
     "Preset",
     "StepResponse",
     "Verdict",
-    "allowed_velocity_error",
+    "compute_allowed_velocity_error",
     "design_position_loop",
     "design_velocity_loop",
     "judge_step_response",

@@ -27,7 +27,7 @@ class FollowedProfile:
     Args:
         name: of the mechanism: ``elevator``.
         symbol: of its unit of position.
-        target: what was asked for.
+        target: the profile.
         position: (n,) [unit].
         velocity: (n,) [unit/s].
         place: what its position is called, ``height``; empty where only its speed matters.
@@ -119,12 +119,12 @@ def follow_profile(
     place: str = "way",
     stops: tuple[float, float] = INFINITE,
 ) -> FollowedProfile:
-    """Let a mechanism follow a profile by a feedforward, and by nothing else.
+    """Simulate a mechanism that follows a profile by feedforward alone.
 
     Args:
         plant: the mechanism as it is.
         believed: as the feedforward's class and gains have it.
-        wanted: what is asked for, in the unit of both.
+        wanted: the desired motion, in the unit of both.
         name: of the mechanism, for people.
         symbol: of the unit of position.
         place: what its position is called; empty where only its speed matters.
@@ -149,4 +149,4 @@ def _volts(believed: Plant, at: float, speed: float, push: float) -> float:
     """[V] that WPILib's feedforward classes ask for; none for friction where it shall stand."""
     gains, way = believed.gains, (speed > 0.0) - (speed < 0.0)
     moves = gains["kS"] * way + gains["kV"] * speed + gains["kA"] * push
-    return moves + believed.gravity_voltage(at)
+    return moves + believed.compute_gravity_voltage(at)

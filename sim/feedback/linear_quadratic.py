@@ -22,7 +22,7 @@ SETTLED = 1e-15  # [share] by which a last step may still change the solution
 CLOSE = 1e-3  # [share] nearer eigenvalues have their difference quotient from a series
 
 
-def two_state_regulator(
+def design_two_state_regulator(
     rate: float, push: float, *, period: float, q: Pair, r: float, loops: float
 ) -> Pair:
     """Gains on position and velocity of x'' = rate·x' + push·u.

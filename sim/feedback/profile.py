@@ -26,7 +26,7 @@ class Leg:
 
 @dataclass(frozen=True)
 class Profile:
-    """A motion that is asked for, in equal steps.
+    """A desired motion, in equal steps.
 
     Args:
         time: (n,) [s].

@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
-from sim.feedback.linear_quadratic import two_state_regulator
+from sim.feedback.linear_quadratic import design_two_state_regulator
 
 MASSLESS = 1e-7  # [V·s²/unit] below this kA SysId takes the velocity itself for the input
 
@@ -65,7 +65,7 @@ class Feedback:
     kd: float
 
 
-def allowed_velocity_error(*, ks: float, kv: float) -> float:
+def compute_allowed_velocity_error(*, ks: float, kv: float) -> float:
     """SysId's default allowed velocity error, a quarter of the free speed at 12 V [unit/s].
 
     Args:
@@ -83,7 +83,6 @@ def design_velocity_loop(
     velocity_error: float = VELOCITY_ERROR,
     volts: float = VOLTS,
     delay: float | None = None,
-    encoder_factor: float = 1.0,
 ) -> Feedback:
     """Gains of a velocity loop.
 
@@ -94,7 +93,6 @@ def design_velocity_loop(
         velocity_error: [unit/s] that is worth ``volts``.
         volts: [V].
         delay: [s] of the measurement; None takes the preset's.
-        encoder_factor: gearing times counts, where the controller counts encoder edges.
 
     Raises:
         BadRequest: kV is negative, kA negative, or an allowance is not positive.
@@ -111,7 +109,7 @@ def design_velocity_loop(
     b = math.expm1(rate * preset.period) / -kv if kv else preset.period / ka
     k, closed = _scalar_regulator(a, b, q=velocity_error**-2, r=volts**-2)
     k *= closed ** (_wait(preset, delay) / preset.period)
-    return Feedback(k * preset.output / (preset.velocity_time * encoder_factor), 0.0)
+    return Feedback(k * preset.output / preset.velocity_time, 0.0)
 
 
 def design_position_loop(
@@ -143,7 +141,7 @@ def design_position_loop(
     if ka < MASSLESS:  # no inertia: the velocity answers at once, so it is the input
         k, closed = _scalar_regulator(1.0, preset.period, q=position_error**-2, r=volts**-2)
         return Feedback(kv * k * closed**loops * preset.output, 0.0)
-    per_position, per_velocity = two_state_regulator(
+    per_position, per_velocity = design_two_state_regulator(
         -kv / ka,
         1.0 / ka,
         period=preset.period,

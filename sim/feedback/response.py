@@ -28,7 +28,7 @@ FARTHEST = 1e6  # [steps] a loop that has run away so far is not watched any lon
 
 @dataclass(frozen=True)
 class Plant:
-    """What is controlled: gains in one unit of position, whichever.
+    """The controlled mechanism: its gains, per any one unit of position.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
@@ -40,8 +40,8 @@ class Plant:
     gains: Mapping[str, float]
     angle: float = 1.0
 
-    def gravity_voltage(self, position: float) -> float:
-        """[V] that gravity takes at a position."""
+    def compute_gravity_voltage(self, position: float) -> float:
+        """[V] gravity voltage at a position."""
         held = self.gains.get("kG", 0.0)
         if self.type != "arm":
             return held
@@ -52,8 +52,8 @@ class Plant:
         """[unit] where an arm is horizontal, which is where it is heaviest; zero of all others."""
         return -self.gains.get("offset_rad", 0.0) / self.angle if self.type == "arm" else 0.0
 
-    def target_step(self, loop: str) -> float:
-        """[unit/s or unit] a jump of the target worth looking at, rounded to one digit.
+    def choose_target_step(self, loop: str) -> float:
+        """[unit/s or unit] a sensible step of the target, rounded to one digit.
 
         Half of the free speed, or the way it goes in a tenth of a second at all of it: far enough
         to see, and not so far that the battery decides alone. nan if 12 V cannot move it.
@@ -158,9 +158,9 @@ class MovingPlant:
         self.path, self.speed = [plant.level_position if start is None else start], [speed]
 
     def apply_voltage(self, volts: float) -> None:
-        """One step under a voltage."""
+        """Advance by one step under a voltage."""
         x, v = self.path[-1], self.speed[-1]
-        free, ks = volts - self.plant.gravity_voltage(x), self.plant.gains["kS"]
+        free, ks = volts - self.plant.compute_gravity_voltage(x), self.plant.gains["kS"]
         after = 0.0
         if v != 0.0 or abs(free) > ks:
             way = math.copysign(1.0, v or free)
@@ -194,10 +194,10 @@ class _Controller:
 
     def _forward(self, position: float) -> float:
         if self.loop == "position":
-            return self.plant.gravity_voltage(self.target)
+            return self.plant.compute_gravity_voltage(self.target)
         gains = self.plant.gains
         friction = math.copysign(gains["kS"], self.target) if self.target else 0.0
-        return friction + gains["kV"] * self.target + self.plant.gravity_voltage(position)
+        return friction + gains["kV"] * self.target + self.plant.compute_gravity_voltage(position)
 
 
 def _past(values: Sequence[float], behind: float) -> float:

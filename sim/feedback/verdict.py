@@ -38,7 +38,7 @@ class Verdict:
 
     @property
     def is_good(self) -> bool:
-        """Whether these gains are fit to begin with."""
+        """Whether these gains are a good start."""
         return self.kind == "settles"
 
     @property
@@ -69,7 +69,7 @@ class Verdict:
                 )
 
     def to_json(self) -> dict[str, object]:
-        """Plain data."""
+        """The verdict as plain data."""
         return {
             "verdict": self.kind,
             "reached_s": self.reached,

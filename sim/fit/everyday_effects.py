@@ -34,10 +34,10 @@ _ABSENT: WeakKeyDictionary[
 ] = WeakKeyDictionary()
 
 
-def everyday_priors(
+def make_everyday_priors(
     problem: PredictionErrorProblem, values: Mapping[str, float]
 ) -> dict[str, float]:
-    """Parameter of a small effect -> standard deviation of its prior, in SI.
+    """``effect.parameter`` of a small effect -> standard deviation of its prior, in SI.
 
     Args:
         problem: the measurements.
@@ -53,30 +53,30 @@ def everyday_priors(
     }
 
 
-def without_size(
+def add_absent_effects(
     problem: PredictionErrorProblem, point: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """The same estimate in a model whose small effects are absent; one object for one estimate.
+    """The estimate in a model with the small effects at size zero; cached per estimate.
 
-    Whether they explain anything and what they add to the errors are then told from one Jacobian.
+    One Jacobian then tells whether they explain anything, and what they add to the errors.
     """
     found = _ABSENT.get(point)
     if found is None or found[0] is not problem:
-        found = _ABSENT[point] = (problem, *with_everyday_effects(problem, point))
+        found = _ABSENT[point] = (problem, *add_everyday_effects(problem, point))
     return found[1:]
 
 
-def with_everyday_effects(
+def add_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate, *, first: float = 0.0
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """The same estimate in a model that has the small effects, absent or small.
+    """The estimate in a model with the small effects, at size zero or small.
 
     Args:
         problem: the measurements.
         point: an estimate.
         first: [standard deviations] size of those that cannot be negative; 0 leaves all absent.
     """
-    priors = everyday_priors(problem, point.values)
+    priors = make_everyday_priors(problem, point.values)
     structure = replace(point.structure, effects=(*point.structure.effects, *NAMES))
     values = dict(point.values)
     for name, sd in priors.items():
@@ -84,13 +84,16 @@ def with_everyday_effects(
         shape = known.neutral > 0.0  # how it looks, not how large it is
         values[name] = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
     extended = replace(problem, priors=priors)
-    return extended, extended.evaluate(structure, values, point.nuisance, point.process_noise)
+    wide = extended.evaluate(structure, values, point.nuisance, point.process_noise)
+    if first == 0.0:
+        extended.extend_jacobian(wide, problem.compute_jacobian(point, fine=True))
+    return extended, wide
 
 
 def fit_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """Fit gains and small effects together, where the data ask for it.
+    """Fit gains and small effects together, if the data ask for the effects.
 
     Args:
         problem: the measurements.
@@ -99,10 +102,10 @@ def fit_everyday_effects(
     Returns:
         Both as they were if the small effects do not explain enough.
     """
-    if not promised_improvement(*without_size(problem, point)) > WORTH:
+    if not predict_step_improvement(*add_absent_effects(problem, point)) > WORTH:
         return problem, point
     size = problem.noise.velocity**2
-    extended, begin = with_everyday_effects(problem, point, first=FIRST)
+    extended, begin = add_everyday_effects(problem, point, first=FIRST)
     q = min(point.process_noise, TRACKING * size)
     begin = extended.evaluate(begin.structure, begin.values, begin.nuisance, q)
     begin = levenberg_marquardt(extended, begin, steps=STEPS, enough=ROUGHLY)
@@ -110,8 +113,8 @@ def fit_everyday_effects(
     return (extended, found) if found.cost < point.cost - WORTH else (problem, point)
 
 
-def promised_improvement(problem: PredictionErrorProblem, point: Estimate) -> float:
-    """[of -2 log L] what a step of all parameters would gain, to second order.
+def predict_step_improvement(problem: PredictionErrorProblem, point: Estimate) -> float:
+    """Decrease of -2 log L by a Newton step of all parameters, to second order.
 
     Args:
         problem: the measurements.
@@ -122,13 +125,13 @@ def promised_improvement(problem: PredictionErrorProblem, point: Estimate) -> fl
     return float(slope @ invert_information(table) @ slope)
 
 
-def without_everyday_effects(point: Estimate) -> Estimate:
-    """The values of the gains and lags alone; innovations and cost are no longer theirs."""
+def remove_everyday_effects(point: Estimate) -> Estimate:
+    """The estimate without small effects; its innovations and cost no longer hold."""
     effects = tuple(name for name in point.structure.effects if name not in NAMES)
     return replace(point, structure=replace(point.structure, effects=effects))
 
 
-def everyday_parts(point: Estimate) -> tuple[Part, ...]:
+def list_everyday_effects(point: Estimate) -> tuple[Part, ...]:
     """The small effects of an estimate, in SI."""
     return tuple(
         Part(name, {one: point.values[f"{name}.{one}"] for one in EFFECTS[name].names})

@@ -18,7 +18,7 @@ from sim.feedback import (
     Preset,
     StepResponse,
     Verdict,
-    allowed_velocity_error,
+    compute_allowed_velocity_error,
     design_position_loop,
     design_velocity_loop,
     judge_step_response,
@@ -66,7 +66,7 @@ class FeedbackTrial:
 
     @property
     def is_good(self) -> bool:
-        """Whether these gains are fit to begin with: of one sign, and they settle."""
+        """Whether these gains are a good start: of one sign, with a response that settles."""
         return self.verdict.is_good and min(self.gains.kp, self.gains.kd) >= 0.0
 
 
@@ -95,7 +95,7 @@ def _try_loop(
 ) -> FeedbackTrial | None:
     held = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # friction below zero would push
     plant = Plant(found.type, held, angle=find_unit(found.units).si)
-    target, delay = plant.target_step(loop), feedback_delay(found, preset, loop=loop)
+    target, delay = plant.choose_target_step(loop), choose_feedback_delay(found, preset, loop=loop)
     if not target > 0.0:
         return None
     response = simulate_step_response(
@@ -104,15 +104,15 @@ def _try_loop(
     return FeedbackTrial(whose, loop, gains, preset, delay, response, judge_step_response(response))
 
 
-def feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
-    """[s] the delay that gains are computed for: the log's with the default, else the preset's."""
+def choose_feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
+    """[s] delay that gains are computed for: the log's with the default preset, else its own."""
     if preset is not PRESETS["default"]:
         return preset.delay
     return max(0.0, found.velocity_delay if loop == "velocity" else found.position_delay)
 
 
-def trial_doubts(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, ...]:
-    """Suggestions that are no place to start from, each with gains that are, if there are any.
+def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tuple[Doubt, ...]:
+    """Warnings about suggested gains that are no good start, with better ones if any.
 
     Args:
         found: the fit, in the unit that the gains count in.
@@ -144,7 +144,7 @@ def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
 def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
     """What the same recipe suggests for other allowed errors; what is too weak, for smaller."""
     kv, ka, preset, delay = found.gains["kV"], found.gains["kA"], trial.preset, trial.delay
-    allowed = allowed_velocity_error(ks=found.gains["kS"], kv=kv)
+    allowed = compute_allowed_velocity_error(ks=found.gains["kS"], kv=kv)
     weak = trial.verdict.kind in WEAK and trial.gains.kp > 0.0
     for times in STIFFER if weak else GENTLER:
         least = max(times, 1.0) * allowed
@@ -163,5 +163,5 @@ def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]
 
 
 def format_gain_pair(gains: Feedback) -> str:
-    """Both gains with four digits."""
+    """KP and kD with four digits."""
     return f"kP {gains.kp:.4g}, kD {gains.kd:.4g}"

@@ -15,7 +15,7 @@ STRONG = 2.5  # [standard deviations of what is ordinary] from which an effect i
 SOON = 0.004  # [s] a later answer is worth a word
 
 
-def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
+def warn_of_opposed_signs(way: float) -> tuple[Doubt, ...]:
     """A warning if positive voltage drives the mechanism backward."""
     if way > 0.0:
         return ()
@@ -29,7 +29,7 @@ def doubt_opposed_signs(way: float) -> tuple[Doubt, ...]:
     )
 
 
-def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
+def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
     """Warnings about a filtered velocity and about a delay [s]."""
     said = []
     if window > 0.0:
@@ -52,14 +52,14 @@ def doubt_lags(window: float, lag: float) -> tuple[Doubt, ...]:
     return tuple(said)
 
 
-def doubt_misfit(
+def warn_of_misfit(
     followed: OpenLoopReplay, alone: OpenLoopReplay, *, per: Unit, hint: str = ""
 ) -> tuple[Doubt, ...]:
-    """A warning if a simulation differs from the log by more than noise.
+    """A warning if a simulation differs from the log by more than its noise.
 
     Args:
-        followed: how the fitted model follows, its small effects included.
-        alone: how the gains alone follow, which is what a feedforward has.
+        followed: replay of the fitted model, with its small effects.
+        alone: replay of the gains alone, which are all that a feedforward has.
         per: the unit of position of the log's owner.
         hint: which type would do better, if one does.
     """
@@ -88,12 +88,12 @@ def doubt_misfit(
     )
 
 
-def doubt_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
-    """A warning if an effect is larger than on a robot in good order.
+def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -> tuple[Doubt, ...]:
+    """A warning if a small effect is larger than on a healthy robot.
 
     Args:
         parts: the small effects of a fit.
-        priors: ``effect.parameter`` -> standard deviation of what is ordinary.
+        priors: ``effect.parameter`` -> its standard deviation on ordinary robots.
     """
     strong = [
         EFFECTS[part.effect].summary

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows, invert_information
-from sim.estimation.run_variation import run_variation_covariance
-from sim.fit.everyday_effects import without_size
+from sim.estimation.run_variation import compute_run_variation_covariance, find_interval_starts
+from sim.fit.everyday_effects import add_absent_effects
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.search import OPEN_LOOP
 
@@ -23,7 +23,7 @@ FORM = 0.05  # [of a small effect] by which its formula is wrong on a robot
 TOGETHER = 0.5  # [s] for which what is missing errs one way
 
 
-def gain_covariances(
+def compute_gain_covariances(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> Iterator[tuple[Estimate, Array]]:
     """An estimate and a (searched, searched) covariance of its parameters, one for each cause.
@@ -35,21 +35,24 @@ def gain_covariances(
     """
     extended, wide = problem, point
     if not problem.priors:
-        extended, wide = without_size(problem, point)
+        extended, wide = add_absent_effects(problem, point)
     table, rest = append_prior_rows(extended, wide, fine=True)
     count = len(wide.structure.searched_names)
-    known = extended.priors_of(wide.structure)
+    known = extended.select_priors(wide.structure)
     weak = np.zeros(table.shape[1], dtype=bool)
     weak[:count] = [name in known for name in wide.structure.searched_names]
     noise = invert_information(table, weak=weak)
     yield wide, noise[:count, :count] + _form_covariance(wide, table, weak)
-    yield wide, run_variation_covariance(extended, wide, table, rest)
+    yield wide, compute_run_variation_covariance(extended, wide, table, rest)
     lacks = point.process_noise > EXACT * problem.noise.velocity**2
     if followed.has_misfit or lacks:
         yield wide, _sandwich(extended, table, rest, noise)[:count, :count]
     if lacks and not followed.has_misfit:
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
+        if not problem.priors:
+            same = problem.evaluate(point.structure, point.values, point.nuisance, q)
+            extended.extend_jacobian(left, problem.compute_jacobian(same, fine=True))
         table, rest = append_prior_rows(extended, left, fine=True)
         yield (
             left,
@@ -69,7 +72,7 @@ def _form_covariance(point: Estimate, table: Array, effects: NDArray[np.bool_]) 
         effects: (searched + runs,) columns of the small effects.
     """
     names = point.structure.searched_names
-    kept = table[:, ~effects]
+    kept = table.T[~effects].T
     inverse = invert_information(kept)
     total = np.zeros((len(names), len(names)))
     for place in np.flatnonzero(effects):
@@ -86,18 +89,8 @@ def _sandwich(problem: PredictionErrorProblem, table: Array, rest: Array, bread:
 
     Source: the sandwich of White (1980).
     """
-    rows = 2 * len(problem.measured)
-    intervals = np.repeat(_intervals(problem), 2)  # two measurements to a sample
-    scores = np.zeros((int(intervals.max()) + 1, table.shape[1]))
-    np.add.at(scores, intervals, table[:rows] * rest[:rows, None])
-    return np.asarray(bread @ (scores.T @ scores) @ bread)
-
-
-def _intervals(problem: PredictionErrorProblem) -> NDArray[np.int_]:
-    """(n,) which interval a sample lies in, counted through all runs."""
-    parts, first = [], 0
-    for record in problem.records:
-        time = record.measurements.time
-        parts.append(first + ((time - time[0]) // TOGETHER).astype(int))
-        first = int(parts[-1][-1]) + 1
-    return np.concatenate(parts)
+    rows, parts = 2 * len(problem.measured), []
+    for record, first in zip(problem.records, problem.run_edges, strict=False):
+        parts.append(2 * (first + find_interval_starts(record.measurements.time, TOGETHER)))
+    scores = np.add.reduceat(table[:rows].T * rest[:rows], np.concatenate(parts), axis=1)
+    return np.asarray(bread @ (scores @ scores.T) @ bread)

@@ -8,7 +8,7 @@ from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
-from sim.fit.search import fit_problem, fit_tracking
+from sim.fit.search import fit_tracking, make_fit_problem
 
 PLAINLY = 0.33  # [1] of what a simple model strays, that another may
 ACTS = {
@@ -50,12 +50,12 @@ def hint_gravity_type(
 
 
 def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
-    """[unit/s] by which a quick fit as of another type strays."""
+    """[unit/s] typical velocity error of a quick fit as another type."""
     try:
         log, guess, _ = orient_forward(log, type=type)  # weight may hide which way is forward
     except NotIdentifiable:
         return float("inf")
     guess = clamp_to_physical(guess, period=problem.period)
     # with gravity it may lean on a stop, which no model has
-    other = fit_problem(log, measure_runs(log, friction=guess["kS"]))
+    other = make_fit_problem(log, measure_runs(log, friction=guess["kS"]))
     return replay_open_loop(other, fit_tracking(other, ModelStructure(type), guess)).rmse

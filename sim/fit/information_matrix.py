@@ -37,7 +37,7 @@ class InformationMatrix:
 
     @property
     def errors(self) -> dict[str, float]:
-        """One standard error of each gain; infinite where the rows say nothing of it."""
+        """Standard error of each gain; infinite where the rows do not determine it."""
         size = np.sqrt(np.diag(self.information))
         scale = np.where(size > 0.0, size, 1.0)
         values, vectors = np.linalg.eigh(self.information / np.outer(scale, scale))
@@ -49,8 +49,8 @@ class InformationMatrix:
             for name, gone, square, one in zip(self.names, lost, squares, scale, strict=True)
         }
 
-    def information_on_pair(self, first: str, second: str) -> Array:
-        """(2, 2) information about two gains, the others being unknown, too.
+    def compute_pair_information(self, first: str, second: str) -> Array:
+        """(2, 2) information about two gains while the others are unknown.
 
         Args:
             first: a gain, as ``kV``.

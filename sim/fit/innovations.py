@@ -15,8 +15,8 @@ from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import tune_process_noise
 from sim.fit import Fit
-from sim.fit.replay import FEWEST, model_of_fit
-from sim.fit.search import TRACKING, fit_problem
+from sim.fit.replay import FEWEST, make_fit_model
+from sim.fit.search import TRACKING, make_fit_problem
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,11 +50,11 @@ def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
         BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    way, model = model_of_fit(fitted)
+    way, model = make_fit_model(fitted)
     runs = tuple(replace(run, voltage=way * run.voltage) for run in log.runs if len(run) >= FEWEST)
     log = replace(log, runs=runs)
     friction = None if fitted.type == "simple" else model.gains["kS"]
-    problem = fit_problem(log, measure_runs(log, friction=friction))
+    problem = make_fit_problem(log, measure_runs(log, friction=friction))
     values = dict(model.gains)
     if fitted.type == "arm":
         size, angle = values.pop("kG"), values.pop("offset_rad")

@@ -7,6 +7,7 @@ What gains are for is to say a velocity ahead, so then the velocities of whole r
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,19 +46,19 @@ class OpenLoopReplay:
     change: Array = field(default_factory=lambda: np.empty(0))
     simulated_change: Array = field(default_factory=lambda: np.empty(0))
 
-    @property
+    @cached_property
     def rmse(self) -> float:
-        """[m/s or rad/s] of what moves."""
+        """[m/s or rad/s] RMS velocity error while it moves."""
         return float(np.sqrt(np.mean(self.error[self.moving] ** 2))) if self.moving.any() else 0.0
 
     @property
     def excess(self) -> float:
-        """[m/s or rad/s] of the error, what noise does not explain."""
+        """[m/s or rad/s] RMS velocity error beyond the noise."""
         return math.sqrt(max(self.rmse**2 - self.noise**2, 0.0))
 
     @property
     def r2(self) -> float:
-        """Share of the velocity's variance that is simulated."""
+        """Share of the velocity's variance that the simulation explains."""
         seen = self.velocity[self.moving]
         spread = float(np.sum((seen - seen.mean()) ** 2)) if seen.size else 0.0
         return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
@@ -70,14 +71,14 @@ class OpenLoopReplay:
         left = float(np.mean((self.change - self.simulated_change) ** 2))
         return 1.0 - left / max(float(np.var(self.change)), 1e-300), math.sqrt(left)
 
-    @property
+    @cached_property
     def top_speed(self) -> float:
         """[m/s or rad/s] speed that hardly any sample exceeds."""
         return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0
 
     @property
     def has_misfit(self) -> bool:
-        """Whether it leaves the log by more than noise, and by more than a little."""
+        """Whether the velocity error exceeds the noise by more than a little."""
         small = 0.0 if self.velocity_only else SMALL * self.top_speed
         return self.rmse > max(STRAYS * self.noise, small)
 

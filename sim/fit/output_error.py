@@ -1,7 +1,7 @@
 """Output-error fit of kS, kV, kA (and kG), with static friction.
 
-Any runs will do, as many as there are. Where the velocity is averaged before it is logged, or the
-whole mechanism answers late, that is fitted along and told.
+Any number of runs of any kind will do. If the velocity is averaged before it is logged, or the
+whole mechanism reacts late, these delays are fitted as well and reported.
 """
 
 import math
@@ -18,19 +18,19 @@ from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import RunMeasurements, measure_runs
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import make_joint_jacobian, parameter_covariance
+from sim.estimation.optimize import compute_parameter_covariance, make_joint_jacobian
 from sim.fit.everyday_effects import (
-    everyday_parts,
     fit_everyday_effects,
-    without_everyday_effects,
+    list_everyday_effects,
+    remove_everyday_effects,
 )
 from sim.fit.fit_doubts import (
-    doubt_lags,
-    doubt_misfit,
-    doubt_opposed_signs,
-    doubt_strong_effects,
+    warn_of_lags,
+    warn_of_misfit,
+    warn_of_opposed_signs,
+    warn_of_strong_effects,
 )
-from sim.fit.gain_covariance import gain_covariances
+from sim.fit.gain_covariance import compute_gain_covariances
 from sim.fit.gravity_type_hint import hint_gravity_type
 from sim.fit.identifiability import moves_both_ways, refuse_unidentifiable, refuse_unrelated
 from sim.fit.open_loop_fallback import (
@@ -46,12 +46,12 @@ from sim.fit.search import (
     TRACKING,
     drop_outliers,
     fit_open_loop,
-    fit_problem,
     fit_tracking,
-    predicted_improvement,
+    make_fit_problem,
+    predict_improvement,
     refine,
 )
-from sim.fit.sysid_doubts import uncertain_gains
+from sim.fit.sysid_doubts import warn_of_uncertain_gains
 
 WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
 CHANCE = 4.0  # [of -2 log L] more for a window below a sample, of which noise looks like one
@@ -136,7 +136,7 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )  # fitted as if the leads were swapped, and told
     begin = clamp_to_physical(guess, period=_sample_period(log.runs))
     seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
-    problem = fit_problem(log, seen)
+    problem = make_fit_problem(log, seen)
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)
@@ -147,7 +147,9 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     )
     problem, likeliest, followed = _add_everyday_effects(problem, likeliest, followed)
     searched, point, followed = fit_velocity_only(problem, likeliest, followed)
-    gains, errors = _gains_with_errors(point, parameter_covariance(searched, point), type=type)
+    gains, errors = _gains_with_errors(
+        point, compute_parameter_covariance(searched, point), type=type
+    )
     # what a model that does not hold adds to the errors is doubted; what noise alone would leave
     # unknown is refused
     share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
@@ -159,15 +161,15 @@ def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
     hint = hint_gravity_type(log, problem, followed, type=type)
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
     refuse_unrelated(followed, log=log, hint=hint)
-    for wide, spread in gain_covariances(searched, point, followed):
+    for wide, spread in compute_gain_covariances(searched, point, followed):
         others = _gains_with_errors(wide, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
     alone = followed
-    if everyday_parts(point):
-        alone = replay_open_loop(searched, without_everyday_effects(point))
+    if list_everyday_effects(point):
+        alone = replay_open_loop(searched, remove_everyday_effects(point))
     said = (
-        *doubt_misfit(followed, alone, per=find_unit(log.units), hint=hint),
-        *doubt_strong_effects(everyday_parts(point), searched.priors),
+        *warn_of_misfit(followed, alone, per=find_unit(log.units), hint=hint),
+        *warn_of_strong_effects(list_everyday_effects(point), searched.priors),
     )
     return _make_result(
         log, problem, point, way=way, gains=gains, errors=errors, followed=followed, said=said
@@ -299,15 +301,18 @@ def _add_lags(
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
         # a lag of any size shows in what one of the first two promises
-        firsts = [(name, size * problem.period) for name, all_ in left.items() for size in all_[:2]]
+        firsts, others = (
+            [(name, size * problem.period) for name, sizes in left.items() for size in sizes[part]]
+            for part in (slice(2), slice(2, None))
+        )
         kept = make_joint_jacobian(problem, point, fine=True)
-        if not predicted_improvement(problem, point, firsts, kept=kept).max() > HINT:
+        promised = predict_improvement(problem, point, firsts, kept=kept)
+        if not promised.max() > HINT:
             break
-        tried = [(name, size * problem.period) for name, sizes in left.items() for size in sizes]
-        least = np.array([
-            WORTH + CHANCE * (sizes is SHORT_WINDOWS) for sizes in left.values() for _ in sizes
-        ])  # fmt: skip
-        worth = predicted_improvement(problem, point, tried, kept=kept) - least
+        more = predict_improvement(problem, point, others, kept=kept)
+        tried = firsts + others
+        least = np.array([WORTH + CHANCE * (left[name] is SHORT_WINDOWS) for name, _ in tried])
+        worth = np.concatenate([promised, more]) - least
         if not worth.max() > 0.0:
             break
         best = int(np.argmax(worth))
@@ -372,13 +377,13 @@ def _make_result(
         velocity_delay=lag + 0.5 * window,
         velocity_threshold=0.0,
         step_duration=0.0,
-        parts=everyday_parts(point),
+        parts=list_everyday_effects(point),
         doubts=(
             *log.doubts,
-            *doubt_opposed_signs(way),
-            *doubt_lags(window, lag),
+            *warn_of_opposed_signs(way),
+            *warn_of_lags(window, lag),
             *said,
-            *uncertain_gains(signed, errors),
+            *warn_of_uncertain_gains(signed, errors),
         ),
     )
 

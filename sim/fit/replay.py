@@ -45,12 +45,12 @@ class RunReplay:
 
     @property
     def position_error(self) -> Array:
-        """(n,) [m or rad] measured less simulated."""
+        """(n,) [m or rad] measured minus simulated position."""
         return self.run.position - self.position
 
     @property
     def velocity_error(self) -> Array:
-        """(n,) [m/s or rad/s] measured less simulated."""
+        """(n,) [m/s or rad/s] measured minus simulated velocity."""
         return self.run.velocity - self.velocity
 
 
@@ -65,7 +65,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
         BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    way, model = model_of_fit(fitted)
+    way, model = make_fit_model(fitted)
     runs = [run for run in log.runs if len(run) >= FEWEST]
     friction = None if fitted.type == "simple" else model.gains["kS"]
     seen = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
@@ -92,8 +92,8 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     )
 
 
-def model_of_fit(found: Fit) -> tuple[float, Model]:
-    """What moves, and the sign of the voltage that moves it forward."""
+def make_fit_model(found: Fit) -> tuple[float, Model]:
+    """Sign of the voltage that drives forward, and the model of a fit."""
     way = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
     gains = {
         name: value if name == "offset_rad" else way * value for name, value in found.gains.items()
@@ -121,9 +121,10 @@ def _sensor_lags(found: Fit) -> list[Part]:
 
 
 def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
-    """[m or rad] from third differences of what is left, which hardly know a wrong model.
+    """[m or rad] position noise, from third differences of the residual.
 
-    Of what is left, and not of the position: there a late sample looks like noise.
+    They hardly depend on errors of the model. Those of the position itself would take a late sample
+    for noise.
     """
     thirds = [
         np.diff((run.measured[:, 0] - track.position)[run.moving], 3)

@@ -6,12 +6,12 @@ from dataclasses import dataclass, field, replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.core.units import Unit, find_unit, gains_per
+from sim.core.units import Unit, convert_gains, find_unit
 from sim.feedback import (
     PRESETS,
     Feedback,
     Preset,
-    allowed_velocity_error,
+    compute_allowed_velocity_error,
     design_position_loop,
     design_velocity_loop,
 )
@@ -20,7 +20,7 @@ from sim.physics.model import Part
 
 @dataclass(frozen=True)
 class Fit:
-    """What a fit found.
+    """The result of a fit.
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
@@ -62,7 +62,7 @@ class Fit:
     doubts: tuple[Doubt, ...] = field(default=())
 
     def in_units(self, name: str) -> "Fit":
-        """The same fit with every number per ``name``: V·s/rotation instead of V·s/radian, say.
+        """The fit converted to another unit of position: V·s/rotation from V·s/radian, say.
 
         Raises:
             BadRequest: an unknown unit, or an angle for a length.
@@ -79,15 +79,15 @@ class Fit:
         return replace(
             self,
             units=new.name,
-            gains=gains_per(self.gains, factor=factor),
-            errors=gains_per(self.errors, factor=factor),
+            gains=convert_gains(self.gains, factor=factor),
+            errors=convert_gains(self.errors, factor=factor),
             acceleration_rmse=self.acceleration_rmse / factor,
             simulated_velocity_rmse=self.simulated_velocity_rmse / factor,
             velocity_threshold=self.velocity_threshold / factor,
         )
 
     def in_log_units(self) -> "Fit":
-        """The same fit in the unit the log's owner thinks in."""
+        """The fit converted to the unit of position that the log's owner uses."""
         return self.in_units(self.log_units)
 
     def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:
@@ -99,7 +99,7 @@ class Fit:
         kv, ka = self.gains["kV"], self.gains["kA"]
         if not (kv >= 0.0 and ka > 0.0):
             return {}
-        allowed = allowed_velocity_error(ks=self.gains["kS"], kv=kv)
+        allowed = compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
         if not allowed > 0.0:
             return {}
         seen = preset is PRESETS["default"]
@@ -120,7 +120,7 @@ class Fit:
             ),
         }
 
-    def all_doubts(self, preset: Preset = PRESETS["default"]) -> tuple[Doubt, ...]:
+    def list_doubts(self, preset: Preset = PRESETS["default"]) -> tuple[Doubt, ...]:
         """The doubts about the gains, and those about the feedback gains of one preset."""
         return (
             *self.doubts,
@@ -153,18 +153,18 @@ class Fit:
                 loop: {"kP": gains.kp, "kD": gains.kd}
                 for loop, gains in self.feedback(preset).items()
             },
-            "warnings": [{"code": d.code, "message": d.message} for d in self.all_doubts(preset)],
+            "warnings": [{"code": d.code, "message": d.message} for d in self.list_doubts(preset)],
             "small_effects": {
                 part.effect: part.to_json(find_unit(self.units)) for part in self.parts
             },
         }
 
-    def gain_unit(self, gain: str) -> str:
+    def format_gain_unit(self, gain: str) -> str:
         """The unit of a gain, as printed: ``V·s/m``."""
-        return gain_unit(gain, find_unit(self.units))
+        return format_gain_unit(gain, find_unit(self.units))
 
 
-def gain_unit(gain: str, per: Unit) -> str:
+def format_gain_unit(gain: str, per: Unit) -> str:
     """The unit of a gain when position is measured in ``per``."""
     return {"kV": f"V·s/{per.symbol}", "kA": f"V·s²/{per.symbol}", "offset_rad": "rad"}.get(
         gain, "V"

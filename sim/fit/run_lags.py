@@ -39,7 +39,7 @@ def fit_run_lags(
     every: PredictionErrorProblem,
     period: float,
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """Fit a lag for each run, where the data ask for it.
+    """Fit a lag for each run, if the data ask for it.
 
     Args:
         problem: the measurements.
@@ -54,7 +54,10 @@ def fit_run_lags(
     extended = replace(problem, lag_sd=period / UNIFORM)
     white = problem.whiten(point, point.innovations)
     own = make_joint_jacobian(problem, point, fine=True)
-    if not own.improvement(white, extended.lag_jacobian(point), extended.lag_sd) > WORTH:
+    if (
+        not own.compute_improvement(white, extended.compute_lag_jacobian(point), extended.lag_sd)
+        > WORTH
+    ):
         return problem, point
     alike = fit_tracking(every, point.structure, point.values)
     extended = replace(every, lag_sd=period / UNIFORM)
@@ -63,7 +66,7 @@ def fit_run_lags(
     lags = tracked.values["delay.lag"] + tracked.nuisance.lag_offset
     if lags.min() < -EARLY * period:
         return problem, point  # no reading is newer than the voltage beside it
-    if not tracked.cost + laplace_correction(extended, tracked) < alike.cost - WORTH:
+    if not tracked.cost + compute_laplace_correction(extended, tracked) < alike.cost - WORTH:
         return problem, point
     extended = drop_outliers(extended, tracked)
     tracked = levenberg_marquardt(extended, _again(extended, tracked), steps=STEPS, enough=ROUGHLY)
@@ -78,9 +81,9 @@ def fit_run_lags(
     return framed, fit_open_loop(framed, _again(framed, regular))
 
 
-def laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
-    """[of -2 log L] Laplace correction for integrating over the runs' own lags."""
-    slopes = np.sum(np.square(problem.lag_jacobian(point)), axis=0)
+def compute_laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
+    """Correction of -2 log L for integrating over the runs' lags (Laplace)."""
+    slopes = np.sum(np.square(problem.compute_lag_jacobian(point)), axis=0)
     return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))
 
 

@@ -14,7 +14,7 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST, RunMeasurements, merge_stale_samples
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import JointJacobian, levenberg_marquardt, tune_process_noise
-from sim.estimation.run_records import separate_records
+from sim.estimation.run_records import make_separate_records
 
 SLACK = 0.02  # [m or rad] of a gear or a chain, which kS, kV and kA do not describe
 TRACKING = 1.0  # [1/s] q over the variance of a velocity: it moves by its noise in a second
@@ -30,14 +30,14 @@ START = 0.15  # [s] of a motion in which nothing is left out: about two time con
 AROUND = 2  # samples on both sides of an outlier
 
 
-def fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
-    """The problem of a log's runs, each on its own, for a model of gains and lags.
+def make_fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
+    """The estimation problem of a log's runs, each by itself, for gains and lags.
 
     Args:
         log: the runs.
         measured: of those with enough samples, the measurements.
     """
-    records = separate_records(log, [merge_stale_samples(one) for one in measured])
+    records = make_separate_records(log, [merge_stale_samples(one) for one in measured])
     return PredictionErrorProblem.from_records(
         records, varying_friction=False, backlash_allowance=SLACK
     )
@@ -93,14 +93,14 @@ def refine(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     return levenberg_marquardt(problem, point, steps=STEPS, enough=ENOUGH)
 
 
-def predicted_improvement(
+def predict_improvement(
     problem: PredictionErrorProblem,
     point: Estimate,
     more: Sequence[tuple[str, float]],
     *,
     kept: JointJacobian,
 ) -> Array:
-    """(more,) [of -2 log L] gain of one further parameter each, to second order, others adjusted.
+    """(more,) decrease of -2 log L by one further parameter each, to second order.
 
     Args:
         problem: the measurements.
@@ -108,18 +108,18 @@ def predicted_improvement(
         more: ``effect.parameter`` and its value.
         kept: the joint Jacobian at the estimate.
     """
-    now = kept.residual_square(problem.whiten(point, point.innovations))
+    now = kept.compute_residual_square(problem.whiten(point, point.innovations))
     gains = []
     for name, value in more:
         structure = point.structure + name.partition(".")[0]
         values = {**point.values, name: value}
         other = problem.evaluate(structure, values, point.nuisance, point.process_noise)
-        gains.append(now - kept.residual_square(problem.whiten(point, other.innovations)))
+        gains.append(now - kept.compute_residual_square(problem.whiten(point, other.innovations)))
     return np.array(gains)
 
 
 def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
-    """The same without the samples that no noise explains, and those around them.
+    """The problem without its outliers and the samples around them.
 
     A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment may
     weigh more than all the rest. These measurements still keep the simulation on course.

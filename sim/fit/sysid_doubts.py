@@ -17,7 +17,7 @@ SURELY = 2.0  # [standard errors] further below zero than this is no accident of
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 
 
-def sysid_doubts(
+def list_sysid_doubts(
     log: Log, prepared: PreparedRows, found: Regression, simulated: tuple[SimulationScore, ...]
 ) -> tuple[Doubt, ...]:
     """All doubts about a fit by SysId's recipe.
@@ -32,7 +32,7 @@ def sysid_doubts(
         *_doubt_repeats(log),
         *_doubt_stale_velocities(log),
         *_doubt_signs(found.gains, found.errors),
-        *uncertain_gains(found.gains, found.errors),
+        *warn_of_uncertain_gains(found.gains, found.errors),
         *_doubt_uncertain_gains(found.r2, simulated),
         *_doubt_slow_steps(prepared.velocity_delay, found.gains),
     )
@@ -40,9 +40,9 @@ def sysid_doubts(
 
 def _doubt_repeats(log: Log) -> list[Doubt]:
     again = [
-        f"{test} ({len(log.runs_of_test(test))} runs)"
+        f"{test} ({len(log.list_runs_of_test(test))} runs)"
         for test in FOUR_TESTS
-        if len(log.runs_of_test(test)) > 1
+        if len(log.list_runs_of_test(test)) > 1
     ]
     other = sorted({run.test for run in log.runs} - set(FOUR_TESTS))
     doubts = []
@@ -66,7 +66,7 @@ def _doubt_stale_velocities(log: Log) -> list[Doubt]:
     two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
     """
     steps = [
-        _rise_changes(log.runs_of_test(test)[0])
+        _rise_changes(log.list_runs_of_test(test)[0])
         for test in FOUR_TESTS
         if test.startswith("dynamic")
     ]
@@ -124,8 +124,8 @@ def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> lis
     ]
 
 
-def uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
-    """Gains whose error is about as large as they are."""
+def warn_of_uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+    """A warning about gains whose error is about as large as their value."""
     return [
         Doubt(
             "unsure-gain",

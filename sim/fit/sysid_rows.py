@@ -22,7 +22,7 @@ MEDIAN_WINDOWS = range(1, 16)  # [samples] what SysId's own slider offers
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """The samples of one test that are left.
+    """The samples of one test that the regression uses.
 
     Args:
         time: (n,) [s].
@@ -57,7 +57,7 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class PreparedRows:
-    """What the regression and the metrics work on.
+    """The rows that the regression and the metrics use.
 
     Args:
         rows: test name -> filtered and trimmed rows, for the regression.
@@ -122,7 +122,7 @@ def prepare_rows(log: Log, *, median: int = 1) -> PreparedRows:
 
 
 def estimate_noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> float:
-    """How far a velocity strays from its own moving mean [m/s or rad/s].
+    """[m/s or rad/s] RMS deviation of a velocity from its moving mean.
 
         sqrt( Σ (v[i - step] - mean(v[i - window + 1 … i]))² / (n - step) ),  step = window // 2
 
@@ -158,7 +158,7 @@ def median_filter(values: Array, *, window: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class TrimmedStep:
-    """A dynamic test cut to the part that tells the acceleration gain.
+    """A dynamic test cut to the part that determines kA.
 
     Args:
         rows: from the peak acceleration on, ``duration`` long.
@@ -214,7 +214,7 @@ def trim_step(
 
 def _first_runs(log: Log) -> dict[str, Run]:
     """The first run of each of the four tests."""
-    missing = [test for test in FOUR_TESTS if not log.runs_of_test(test)]
+    missing = [test for test in FOUR_TESTS if not log.list_runs_of_test(test)]
     if missing:
         raise NotIdentifiable(
             f"no {' and no '.join(missing)} test in this log",
@@ -222,7 +222,7 @@ def _first_runs(log: Log) -> dict[str, Run]:
             advice="SysId's recipe needs all four: quasistatic and dynamic, forward and reverse. "
             "Run the missing one, or hold the button longer so that it is logged.",
         )
-    return {test: log.runs_of_test(test)[0] for test in FOUR_TESTS}
+    return {test: log.list_runs_of_test(test)[0] for test in FOUR_TESTS}
 
 
 def _rows_of_run(run: Run) -> Rows:

@@ -6,7 +6,7 @@ from sim.core.units import find_unit
 from sim.fit.metrics import score_simulated_velocity
 from sim.fit.regression import regress_acceleration
 from sim.fit.result import Fit
-from sim.fit.sysid_doubts import sysid_doubts
+from sim.fit.sysid_doubts import list_sysid_doubts
 from sim.fit.sysid_rows import prepare_rows
 
 
@@ -55,5 +55,5 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
         velocity_delay=prepared.velocity_delay,
         velocity_threshold=prepared.threshold,
         step_duration=prepared.step_duration,
-        doubts=(*log.doubts, *sysid_doubts(log, prepared, found, (forward, reverse))),
+        doubts=(*log.doubts, *list_sysid_doubts(log, prepared, found, (forward, reverse))),
     )

@@ -3,9 +3,9 @@
     found = gap_map(residuals, noise=noise)
     found.places(5)                     # in words, the surest first
 
-What a model leaves of each sample is sorted by run and time, by direction and speed, by direction
-and position, by the time since the voltage jumped, and by voltage at rest. Everything is told in
-noises, so a shooter and an arm read alike.
+The residual of each sample is binned by run and time, by direction and speed, by direction and
+position, by the time since a voltage step, and by voltage at rest. All numbers are multiples of the
+noise, so that a shooter and an arm can be compared.
 """
 
 from collections.abc import Sequence
@@ -26,14 +26,14 @@ OF_A_KIND = 2  # places of one kind among the first that are told: the others sa
 
 @dataclass(frozen=True, eq=False)
 class GapMap:
-    """Where simulation and measurement disagree.
+    """Residuals binned in several ways: where simulation and measurement disagree.
 
     Args:
         by_run: run × time.
         by_speed: direction × speed.
         by_position: direction × position.
-        after_steps: direction of the jump × time since it.
-        at_rest: direction × voltage that does not move it.
+        after_steps: direction of the voltage step × time since it.
+        at_rest: direction × voltage while it does not move.
         repeats: pairs of runs of the same test; empty if none was repeated.
     """
 
@@ -46,11 +46,11 @@ class GapMap:
 
     @property
     def all_maps(self) -> tuple[BinnedResiduals, ...]:
-        """All of them."""
+        """The binned residuals, one map for each way of binning."""
         return (self.by_run, self.by_speed, self.by_position, self.after_steps, self.at_rest)
 
     def find_places(self, most: int, *, signal: str = "") -> tuple[Place, ...]:
-        """The places of significant disagreement, the most significant first.
+        """The bins with significant residuals, the most significant first.
 
         Args:
             most: so many at most, and of one kind only two.
@@ -64,11 +64,11 @@ class GapMap:
 
 
 def map_gap(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
-    """Sort residuals by run, speed, position, time after a step, and voltage at rest.
+    """Bin residuals by run, speed, position, time after a step, and voltage at rest.
 
     Args:
         runs: what it leaves of each.
-        noise: standard deviations of a position and a velocity of which that is told in.
+        noise: standard deviations of a position and a velocity, in whose multiples gaps are given.
 
     Raises:
         BadRequest: there is nothing to compare.

@@ -28,10 +28,10 @@ class BinnedResiduals:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps``, ``at-rest``.
         rows: the name of each row.
         edges: (rows, columns + 1) [s, unit/s, unit or V] between the columns.
-        edges_as_shares: whether edges are told as shares of the largest, for they have the log's
-            unit.
-        mean: (2, rows, columns) [noises] of positions and velocities; nan where too few.
-        error: the same, one standard error.
+        edges_as_shares: whether texts give the edges as shares of the largest, as they are in the
+            log's unit.
+        mean: (2, rows, columns) [noise] mean residuals of position and velocity; nan if too few.
+        error: (2, rows, columns) [noise] their standard errors.
         count: (2, rows, columns) samples.
     """
 
@@ -69,7 +69,7 @@ class BinnedResiduals:
         return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
 
     def describe_bin(self, row: int, part: slice) -> str:
-        """A range of bins in words.
+        """Where a range of bins is, in words.
 
         Args:
             row: which.
@@ -101,7 +101,7 @@ class SampleTable:
     """All samples of all runs in one table.
 
     Args:
-        table: (n, 2) [noises] positions and velocities missed; nan where not compared.
+        table: (n, 2) [noise] residuals of position and velocity; nan where not compared.
         run: (n,) which run each is of.
     """
 
@@ -121,7 +121,7 @@ class SampleTable:
             row: (n,) which row a sample is in; below 0 is in none.
             value: (n,) what decides on its column; nan is in none.
             way: (n,) ±1, the direction that counts as ahead.
-            shares: whether edges are told as shares.
+            shares: whether texts give the edges as shares.
         """
         columns = edges.shape[1] - 1
         cell = _column(value, edges, row)

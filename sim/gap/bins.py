@@ -21,7 +21,7 @@ HELD = ("at rest under forward voltage", "at rest under reverse voltage")
 
 
 class ResidualBins:
-    """The residuals of some runs, and the ways to bin them.
+    """The residuals of some runs, binned in several ways.
 
     Args:
         runs: each with something to compare.
@@ -42,23 +42,23 @@ class ResidualBins:
 
     @cached_property
     def direction(self) -> Array:
-        """(n,) ±1 which way it moves, or is pushed while it rests."""
+        """(n,) ±1, the direction of motion, or of the voltage while at rest."""
         way = np.sign(np.where(self.rests, self.voltage, self.predicted[:, 1]))
         way[way == 0.0] = 1.0
         return np.asarray(way)
 
     @cached_property
     def direction_row(self) -> NDArray[np.intp]:
-        """(n,) the row of that direction."""
+        """(n,) row of each sample's direction: 0 forward, 1 reverse."""
         return np.where(self.direction > 0.0, 0, 1)
 
     @cached_property
     def moving_row(self) -> NDArray[np.intp]:
-        """(n,) the same where it moves; none where it rests."""
+        """(n,) row of the direction of each sample that moves; -1 while at rest."""
         return np.where(self.rests, -1, self.direction_row)
 
     def bin_by_run(self) -> BinnedResiduals:
-        """Run × time."""
+        """The residuals binned by run and time."""
         ends = [run.run_time[run.compared][[0, -1]] for run in self.runs]
         shortest = min(int(np.count_nonzero(run.compared)) for run in self.runs)
         columns = min(max(shortest // FEWEST, LEAST_TIMES), TIMES)
@@ -70,7 +70,7 @@ class ResidualBins:
         )
 
     def bin_by_speed(self) -> BinnedResiduals:
-        """Direction × speed."""
+        """The residuals binned by direction and speed."""
         edges = _even(0.0, self.top, SPEEDS)
         return self.sorted.bin_samples(
             SPEED,
@@ -83,7 +83,7 @@ class ResidualBins:
         )
 
     def bin_by_position(self) -> BinnedResiduals:
-        """Direction × position."""
+        """The residuals binned by direction and position."""
         position = self.predicted[:, 0]
         kept = position[self.kept]
         edges = _even(float(kept.min()), float(kept.max()), POSITIONS)
@@ -98,7 +98,7 @@ class ResidualBins:
         )
 
     def bin_after_steps(self) -> BinnedResiduals:
-        """Direction of a jump of the voltage × time since it; ahead is where the jump goes."""
+        """The residuals after a voltage step, binned by its direction and the time since."""
         largest = float(np.abs(self.voltage).max())
         found = [run.find_steps(largest=largest, still=STILL * self.top) for run in self.runs]
         since, jump = (np.concatenate([one[part] for one in found]) for part in (0, 1))
@@ -108,7 +108,7 @@ class ResidualBins:
         )
 
     def bin_at_rest(self) -> BinnedResiduals:
-        """Direction × voltage that does not move it."""
+        """The residuals at rest, binned by direction and voltage."""
         held = np.where(self.rests & self.kept, np.abs(self.voltage), np.nan)
         most = float(np.max(held, initial=0.0, where=~np.isnan(held)))
         row = np.where(self.rests, self.direction_row, -1)

@@ -33,7 +33,7 @@ class Place:
 
     @property
     def sentence(self) -> str:
-        """For a person: where, which way, by how much."""
+        """The disagreement in a sentence: where, which way, by how much."""
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
         return (
@@ -43,5 +43,5 @@ class Place:
 
 
 def format_noises(value: float) -> str:
-    """A number of noises as text: two digits, or all before the point."""
+    """A multiple of the noise as text: two digits, or all before the point."""
     return f"{value:.0f}" if abs(value) >= MANY else f"{value:.2g}"

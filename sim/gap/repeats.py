@@ -18,7 +18,7 @@ from sim.gap.residuals import Residuals
 SAME = 0.05  # [share of the largest voltage] RMS by which a repetition's voltage may differ
 STRETCHES, LEAST = 60, 5  # how many at most, and how many samples each at least
 MOSTLY, HARDLY = 0.7, 0.3  # [1] shares from which it comes again, and below which it does not
-LOUD = 3.0  # [standard errors] by which what is left is more than noise
+LOUD = 3.0  # [standard errors] by which residuals exceed noise
 AGAIN, PARTLY = "comes again", "comes again in part"
 CHANGES, NOISE = "changes from run to run", "is no more than noise"
 
@@ -30,17 +30,15 @@ class Repeat:
     Args:
         test: its name.
         runs: which two, from 0.
-        correlation: [1] of what is left of the velocities.
-        sure: [standard errors] by which that is above nothing.
-        excess: [1] mean square of what is left over what noise alone would leave.
-        share: [1] of what is left, beyond noise, that is the same in both; may be below 0.
+        sure: [standard errors] by which the correlation of both velocity residuals is above 0.
+        excess: [1] mean square of the residuals over that of noise alone.
+        share: [1] share of the residuals, beyond noise, that is equal in both; may be below 0.
         verdict: ``comes again``, ``comes again in part``, ``changes from run to run`` or ``is no
             more than noise``.
     """
 
     test: str
     runs: tuple[int, int]
-    correlation: float
     sure: float
     excess: float
     share: float
@@ -48,7 +46,7 @@ class Repeat:
 
 
 def compare_repeats(runs: Sequence[Residuals], *, noise: float) -> tuple[Repeat, ...]:
-    """Every pair of runs that repeat each other.
+    """Compare the residuals of every pair of runs of the same test.
 
     Args:
         runs: any.
@@ -90,11 +88,11 @@ def _compared(
         verdict = NOISE
     else:
         verdict = AGAIN if share >= MOSTLY else PARTLY if share > HARDLY else CHANGES
-    yield Repeat(one.test, pair, correlation, sure, excess, share, verdict)
+    yield Repeat(one.test, pair, sure, excess, share, verdict)
 
 
 def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
-    """Mean velocity missed in each stretch [noises], and of how many samples."""
+    """[noise] mean velocity residual in each stretch, and its number of samples."""
     missed = run.error[:, 1] / noise
     there = ~np.isnan(missed) & (run.run_time < ends[-1])
     place = np.searchsorted(ends, run.run_time[there], side="right") - 1

@@ -14,7 +14,7 @@ QUIET = 0.25  # [share of that jump] that the voltage may change before and afte
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """One run, simulated: open loop, or kept on course by its measurements (innovations).
+    """The residuals of one run: of an open-loop simulation, or innovations.
 
     Args:
         test: its name.
@@ -42,13 +42,13 @@ class Residuals:
         return np.asarray(self.time - self.time[0])
 
     def find_steps(self, *, largest: float, still: float) -> tuple[Array, Array]:
-        """(n,) [s] since the voltage last jumped, nan before it did; and (n,) which way, ±1.
+        """(n,) [s] since the last voltage step, nan before one; and (n,) its direction, ±1.
 
-        A jump stands alone: beside it the voltage hardly changes, as it would in a chirp.
+        A step stands alone: before and after it the voltage hardly changes, unlike in a chirp.
 
         Args:
             largest: [V] of all runs.
-            still: [unit/s] slower is at rest; a run that begins at rest begins with a jump from
+            still: [unit/s] slower is at rest; a run that begins at rest begins with a step from
                 0 V, and one that begins in motion does not.
         """
         before = 0.0 if abs(self.predicted[0, 1]) <= still else self.voltage[0]

@@ -38,8 +38,8 @@ class Anomaly:
         last: its last sample.
         begin: the first sample of the stretch with what is around it.
         end: behind the last sample of that.
-        residual: (end - begin,) [m/s or rad/s] seen minus expected, what it strays by anyway taken
-            off.
+        residual: (end - begin,) [m/s or rad/s] measured minus expected, less the run's usual
+            residual.
         expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
             before and after.
         at_start: it begins with the motion, where delays and limits of current look like accidents.
@@ -57,7 +57,7 @@ class Anomaly:
     at_start: bool
     recurs: bool = False
 
-    def candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
+    def list_candidate_spans(self, *, margin: int) -> list[tuple[int, int]]:
         """Candidate (begin, end) samples of the disturbance within the anomaly.
 
         Args:
@@ -67,7 +67,7 @@ class Anomaly:
         return self._span_grid(self.first, self.last + 1, reach=margin, stride=stride)
 
     def refine_spans(self, span: tuple[int, int], *, margin: int) -> list[tuple[int, int]]:
-        """Candidate spans at sample resolution around the best of ``candidate_spans``."""
+        """Candidate spans at sample resolution around the best of ``list_candidate_spans``."""
         first, last = span
         return self._span_grid(
             self.begin + first, self.begin + last, reach=max(1, margin // 3) - 1, stride=1
@@ -83,8 +83,8 @@ class Anomaly:
             if self.begin <= begin < end <= self.end
         ]
 
-    def share_explained_by(self, shape: Array) -> float:
-        """[1] share of the squared residual that a shape (end - begin,) explains; below 0: adds."""
+    def compute_explained_share(self, shape: Array) -> float:
+        """[1] share of the squared residual explained by a shape (end - begin,); may be below 0."""
         total = float(self.residual @ self.residual)
         rest = self.residual - shape
         return 1.0 - float(rest @ rest) / total if total > 0.0 else 0.0
@@ -189,7 +189,7 @@ def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
 
 
 def _ordinary_residual(stray: Array, within: Array) -> Array:
-    """What the run strays by anyway: the median where it is not odd."""
+    """(n,) the usual residual of a run: the median of samples without an anomaly."""
     usual = np.abs(stray) <= 2.0 * within
     return np.full(stray.size, np.median(stray[usual]) if usual.any() else 0.0)
 

@@ -45,9 +45,9 @@ class BaselineModel:
     gravity_terms: Array
     spread: float
 
-    def steady_speed(self, run: Run) -> Array:
-        """(n,) [m/s or rad/s] steady-state velocity of each voltage of a run."""
-        pull = run.voltage - self.gravity(run.position)
+    def compute_steady_speed(self, run: Run) -> Array:
+        """(n,) [m/s or rad/s] steady-state velocity under each voltage of a run."""
+        pull = run.voltage - self.compute_gravity(run.position)
         return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
 
     def replay(self, run: Run, *, voltage: Array, first: int, last: int, velocity: float) -> Array:
@@ -64,7 +64,7 @@ class BaselineModel:
             (last - first,) [m/s or rad/s].
         """
         part = slice(first, last)
-        pull = (voltage[part] - self.gravity(run.position[part])) / self.kv
+        pull = (voltage[part] - self.compute_gravity(run.position[part])) / self.kv
         keep = np.exp(-np.diff(run.time[part]) / self.timescale)
         hold, speed = self.ks / self.kv, float(velocity)
         speeds = [speed]
@@ -82,10 +82,10 @@ class BaselineModel:
 
     @property
     def timescale(self) -> float:
-        """[s] kA/kV."""
+        """[s] time constant kA/kV."""
         return self.ka / self.kv
 
-    def gravity(self, position: Array) -> Array:
+    def compute_gravity(self, position: Array) -> Array:
         """(n,) [V] gravity voltage at positions (n,) [m or rad]."""
         k0, kc, ks = self.gravity_terms
         return np.asarray(k0 + kc * np.cos(position) + ks * np.sin(position))

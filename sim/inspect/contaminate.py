@@ -5,6 +5,7 @@ contaminate(log, "encoder-slip", severity=0.5, test="dynamic-forward", at=0.4, r
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
-from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike
+from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.faults import find_fault as find
 
 FEWEST = 10  # [samples] a shorter run has no room for damage
@@ -24,7 +25,7 @@ SPEC = re.compile(
 
 @dataclass(frozen=True)
 class FaultRequest:
-    """A fault as a person asks for it.
+    """A requested fault: its name, severity, test and time.
 
     Args:
         name: of the fault.
@@ -124,6 +125,20 @@ def contaminate(
     return spoilt
 
 
+def contaminate_all(
+    log: Log, asked: Iterable[FaultRequest], *, rng: np.random.Generator
+) -> tuple[Log, list[tuple[str, float, LogInterval]]]:
+    """The log with several faults, and of each fault its name, severity and interval."""
+    where = []
+    for one in asked:
+        spoilt = contaminate(
+            log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng
+        )
+        log = spoilt.log
+        where += [(one.name, one.severity, stretch) for stretch in spoilt.where]
+    return log, where
+
+
 def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Generator) -> int:
     """Which run is struck."""
     kinds = " or ".join(fault.kinds)
@@ -175,7 +190,7 @@ def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Ge
             )
         return at
     speed = np.abs(run.velocity)
-    moving = np.flatnonzero(speed > MOVING * float(np.quantile(speed, 0.98)))
+    moving = np.flatnonzero(speed > MOVING * run.top_speed)
     first, last = (moving[0], moving[-1]) if moving.size else (0, -1)
     begin, end = (float(run.time[i] - run.time[0]) for i in (first, last))
     return begin + float(rng.uniform(*fault.when)) * (end - begin)

@@ -26,7 +26,7 @@ CERTAIN = 1e-3  # [1] nothing is surer than this, for all that two explanations 
 
 @dataclass(frozen=True)
 class Inspection:
-    """What an inspection found.
+    """The result of an inspection: damage and doubts.
 
     Args:
         damages: in the order of time; those that concern the whole log first. Those that are
@@ -39,7 +39,7 @@ class Inspection:
 
     @property
     def faults(self) -> tuple[Damage, ...]:
-        """What was found and should not be in a log, in the order of time."""
+        """The damage that is a fault, in the order of time; ordinary damage is left out."""
         return tuple(damage for damage in self.damages if not damage.ordinary)
 
     @property
@@ -47,7 +47,7 @@ class Inspection:
         """Whether no fault was found, and nothing that would hide one."""
         return not self.faults and not any(doubt.grave for doubt in self.doubts)
 
-    def by_kind(self) -> tuple[tuple[Damage, ...], ...]:
+    def group_by_kind(self) -> tuple[tuple[Damage, ...], ...]:
         """The faults of each kind together, the worst kind first, and the worst of a kind first.
 
         Worse is what spoils more seconds, weighted by its confidence; what concerns the whole log
@@ -60,7 +60,7 @@ class Inspection:
         return tuple(sorted(sorted_within, key=lambda kind: -sum(map(_harm, kind))))
 
     def to_json(self) -> dict[str, Any]:
-        """As ``sysid inspect --json`` prints it."""
+        """The inspection as plain data, as ``sysid inspect --json`` prints it."""
         return {
             "faults": [
                 {

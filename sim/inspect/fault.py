@@ -8,6 +8,7 @@ damage, and ``detect`` finds it.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from types import ModuleType
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,11 @@ class LogInterval:
     test: str
     start: float
     end: float
+
+    @classmethod
+    def of_samples(cls, index: int, run: Run, first: int = 0, last: int = -1) -> Self:
+        """The interval from one sample of a run to another; without samples, the whole run."""
+        return cls(index, run.test, float(run.time[first]), float(run.time[last]))
 
     def overlap(self, other: "LogInterval") -> float:
         """Intersection over union of two intervals: 1 if equal, 0 if apart or in other runs."""
@@ -82,7 +88,7 @@ class Damage:
 
 @dataclass(frozen=True)
 class FaultStrike:
-    """Where and how hard a fault strikes.
+    """The place and severity of a fault.
 
     Args:
         run: which run, from 0; every fault has one, even if it spoils the whole log.
@@ -173,7 +179,7 @@ def replace_run(log: Log, index: int, run: Run) -> Log:
 
 
 def load_fault(module: ModuleType, *, name: str) -> Fault:
-    """The fault that a file of ``sim/inspect/faults`` offers, once it is sure that it is one.
+    """The fault that a module of ``sim/inspect/faults`` defines, checked against the contract.
 
     Args:
         module: the file, imported.

@@ -50,7 +50,7 @@ class LaunchEvent:
 
 def find_launch_event(run: Run) -> LaunchEvent | None:
     """Find a fall or a wait in the launch of a step test; None if there is none, or no launch."""
-    first = step_start(run)
+    first = find_step_start(run)
     since = run.time - run.time[first]
     if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH + REST:
         return None
@@ -71,7 +71,7 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
     return None
 
 
-def step_start(run: Run) -> int:
+def find_step_start(run: Run) -> int:
     """Index of the sample at which the voltage comes on and stays."""
     size = np.abs(run.voltage)
     on = size > ON * float(size.max(initial=0.0))

@@ -85,12 +85,12 @@ class LogFeatures:
 
     @cached_property
     def rest_lengths(self) -> tuple[int, ...]:
-        """Per run, how many samples its position stands from the start; 0 if it never leaves."""
+        """Per run, number of samples before its position first changes; 0 if it never does."""
         return tuple(_rest_length(run, step=self.position_step) for run in self.log.runs)
 
     @cached_property
     def distance_ratios(self) -> tuple[float, ...]:
-        """Per run, the distance its velocities sum up to over what its position changes.
+        """Per run, the integral of its velocity over the change of its position.
 
         1 where a run moves too little to tell.
         """
@@ -98,8 +98,13 @@ class LogFeatures:
         return tuple(_distance_ratio(run, moving) for run, moving in both)
 
     @cached_property
+    def usual_distance_ratio(self) -> float:
+        """The median distance ratio of all runs; a conversion factor is the same in all."""
+        return float(np.median(self.distance_ratios)) if self.distance_ratios else 1.0
+
+    @cached_property
     def velocity_lag(self) -> VelocityLag | None:
-        """How late its velocity is against its position; None if nothing moves."""
+        """Delay and scale of velocity against position; None if nothing moves."""
         return estimate_velocity_lag(self.log.runs)
 
     @cached_property
@@ -124,8 +129,7 @@ class LogFeatures:
     @cached_property
     def still_speed(self) -> float:
         """[m/s or rad/s] threshold between motion and standstill."""
-        top = max((run.top_speed for run in self.log.runs), default=0.0)
-        return STANDING * top + 3.0 * self.noise
+        return STANDING * self.log.top_speed + 3.0 * self.noise
 
     @cached_property
     def baseline(self) -> BaselineModel | None:
@@ -162,7 +166,7 @@ class LogFeatures:
 
     @cached_property
     def timescale(self) -> float:
-        """[s] in which a step brings a dynamic test to 63 % of its top speed; 0 if none tells.
+        """[s] until a step reaches 63 % of its top speed, in a dynamic test; 0 if unknown.
 
         The median over the dynamic tests, from the last sample at rest; delays are part of it.
         """
@@ -184,7 +188,7 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     return starts, np.diff(np.append(starts, values.size))
 
 
-def majority_sign(values: Array) -> int:
+def find_majority_sign(values: Array) -> int:
     """The sign of at least four fifths of the values: 1, -1, or 0 if there is none."""
     mean = float(np.sign(values).mean()) if values.size else 0.0
     return 0 if abs(mean) < AGREED else int(np.sign(mean))
@@ -205,7 +209,7 @@ def _recognize_test(run: Run) -> str:
     elif rise > STEP:
         kind = "dynamic"
     moving = last[np.abs(run.velocity[last]) > MOVING * run.top_speed]
-    pushed, moved = majority_sign(run.voltage[last]), majority_sign(run.velocity[moving])
+    pushed, moved = find_majority_sign(run.voltage[last]), find_majority_sign(run.velocity[moving])
     if pushed * moved <= 0:
         return f"{kind}-{run.direction}"
     return f"{kind}-{'forward' if pushed > 0 else 'reverse'}"

@@ -39,7 +39,7 @@ class SpunWheels:
 def spin_wheels(
     push: Array, since: Array, *, scales: Array, held: Array, limit: float = math.inf
 ) -> SpunWheels:
-    """Spin up wheels by a step.
+    """Simulate wheels that a voltage step spins up.
 
     Args:
         push: (n,) [m/s or rad/s] the speed at which each voltage would end.
@@ -69,7 +69,7 @@ def spin_wheels(
 
 @dataclass(frozen=True, eq=False)
 class StepRise:
-    """The beginning of a dynamic test.
+    """The rise of the velocity at the start of a dynamic test.
 
     Args:
         speed: (n,) [m/s or rad/s].

@@ -27,7 +27,7 @@ from sim.io.entries.entry import Entry
 from sim.io.foreign import FOREIGN
 from sim.io.format import HEAD, LARGEST_FILE, Format, ReadOptions
 from sim.io.hoot import SUFFIX, convert_hoot
-from sim.io.velocity import velocity_from_position
+from sim.io.velocity import differentiate_position
 from sim.support.atomic_file import atomic_path
 
 FORMATS = tuple(sorted(found.name for found in iter_modules(formats.__path__)))
@@ -43,7 +43,7 @@ class _WithEntries(Format, Protocol):
 class _WithMotors(Format, Protocol):
     """A format whose logs may have several motors."""
 
-    def read_motors(self, path: Path, asked: ReadOptions) -> dict[str, Log]:
+    def read_motors(self, path: Path, options: ReadOptions) -> dict[str, Log]:
         """The log of each motor by its name."""
 
 
@@ -80,10 +80,10 @@ def read(
         BadSample: it holds a number that cannot be a measurement.
         BadRequest: an unknown unit, type or motor.
     """
-    asked = _asked(units=units, type=type, motor=motor, entries=entries)
+    options = _make_options(units=units, type=type, motor=motor, entries=entries)
     given = os.fspath(path)
     with _readable(given) as (module, file):
-        log = _name_source(module.read(file, asked), file, given)
+        log = _name_source(module.read(file, options), file, given)
     return _set_type(log, type)
 
 
@@ -115,7 +115,7 @@ def read_motors(
     Raises:
         Refusal: as ``read``.
     """
-    asked = _asked(
+    options = _make_options(
         units=units,
         type=type,
         motor=motor,
@@ -126,17 +126,17 @@ def read_motors(
     given = os.fspath(path)
     with _readable(given) as (module, file):
         if hasattr(module, "read_motors"):
-            logs = cast("_WithMotors", module).read_motors(file, asked)
+            logs = cast("_WithMotors", module).read_motors(file, options)
         else:
-            logs = {"": module.read(file, asked)}
+            logs = {"": module.read(file, options)}
         logs = {name: _name_source(log, file, given) for name, log in logs.items()}
     found = {name: _set_type(log, type) for name, log in logs.items()}
     if not ignore_velocity:
         return found
-    return {name: velocity_from_position(log) for name, log in found.items()}
+    return {name: differentiate_position(log) for name, log in found.items()}
 
 
-def _asked(
+def _make_options(
     *,
     units: str | None,
     type: str | None,  # noqa: A002 - as above
@@ -145,7 +145,7 @@ def _asked(
     ignore_velocity: bool = False,
     pick: int | None = None,
 ) -> ReadOptions:
-    """What a person asked for, checked."""
+    """The user's options, checked."""
     if type is not None and type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     return ReadOptions(
@@ -267,7 +267,7 @@ def write(log: Log, path: str | os.PathLike[str]) -> None:
 
 
 def _set_type(log: Log, wanted: str | None) -> Log:
-    """The log with the type a person asked for, and a doubt if its file says another."""
+    """The log with the type that the user chose, and a doubt if its file says another."""
     if wanted is None or wanted == log.type:
         return log
     if not log.type:

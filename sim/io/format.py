@@ -4,10 +4,10 @@ A module offers
 
     SUFFIXES : tuple[str, ...]                 endings of its files, lower case: (".wpilog",)
     def recognizes(head: bytes) -> bool             whether a file that starts like this is its own
-    def read(path: Path, asked: ReadOptions) -> Log
+    def read(path: Path, options: ReadOptions) -> Log
     def write(log: Log, path: Path) -> None    optional: some formats are only read
     def entries(path: Path) -> list[Entry]     optional: where a log has entries with names
-    def read_motors(path, asked) -> dict[str, Log]    optional: where a log has several motors
+    def read_motors(path, options) -> dict[str, Log]    optional: where a log has several motors
 
 and is found by its place in the folder. Formats do not import one another.
 """
@@ -29,7 +29,7 @@ LARGEST_FILE = 2**30  # [bytes] hours of logging; a longer file is hardly the on
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What a person states about a file; None where the file itself decides.
+    """Options for reading a file; None leaves the choice to the file.
 
     Args:
         units: the unit of the positions in the file.
@@ -38,8 +38,8 @@ class ReadOptions:
         entries: signal (``voltage``, ``position``, ``velocity``) -> the entry that holds it,
             for logs that do not use SysId's names.
         ignore_velocity: the velocity need not be there; the position stands in for it.
-        pick: which of several mechanisms, counted from 1, in the order of the refusal that
-            lists them.
+        pick: which of several mechanisms, counted from 1 as in the error message that lists
+            them.
     """
 
     units: str | None = None
@@ -51,7 +51,7 @@ class ReadOptions:
 
     @property
     def units_or_default(self) -> str:
-        """The units asked for, else radians for an arm and meters for the rest."""
+        """The chosen units, else radians for an arm and meters for the rest."""
         return self.units or ("radians" if self.type == "arm" else "meters")
 
 
@@ -63,12 +63,12 @@ class Format(Protocol):
     def recognizes(self, head: bytes) -> bool:
         """Whether a file whose first bytes are ``head`` is of this format."""
 
-    def read(self, path: Path, asked: ReadOptions) -> Log:
+    def read(self, path: Path, options: ReadOptions) -> Log:
         """Read a file of this format into a log."""
 
 
-def doubt_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
-    """A doubt if a motor was asked for in a file that holds the signals of one only."""
+def warn_of_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:
+    """A warning if a motor is chosen in a file that holds only one."""
     if motor is None:
         return ()
     return (

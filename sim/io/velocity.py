@@ -25,16 +25,18 @@ def scale_velocity(log: Log, factor: float) -> Log:
     )
 
 
-def velocity_from_position(log: Log) -> Log:
+def differentiate_position(log: Log) -> Log:
     """The log with each velocity replaced by the slope of the position.
 
     A slope over the last frame is the mean velocity of that frame, as a motor controller with a
     short filter reports it; a fit finds the length of the frame and allows for it.
     """
-    return replace(log, runs=tuple(replace(run, velocity=position_slope(run)) for run in log.runs))
+    return replace(
+        log, runs=tuple(replace(run, velocity=compute_position_slope(run)) for run in log.runs)
+    )
 
 
-def position_slope(run: Run) -> Array:
+def compute_position_slope(run: Run) -> Array:
     """(n,) [m/s or rad/s] how fast the position changed within the last frame of its sensor.
 
     A loop faster than the sensor logs each reading several times. Only the first of them counts,
@@ -57,7 +59,7 @@ def position_slope(run: Run) -> Array:
 
 
 def check_velocity(log: Log) -> Log:
-    """The log with its velocity put right where it is the position, and doubted where it is scaled.
+    """The log, a velocity that copies the position replaced, a scaled one doubted.
 
     Returns:
         The same log, or with the slope of the position for a velocity that is the position itself,
@@ -69,14 +71,14 @@ def check_velocity(log: Log) -> Log:
     position, velocity = (
         np.concatenate([getattr(run, name) for run in runs]) for name in ("position", "velocity")
     )
-    slope = np.concatenate([position_slope(run) for run in runs])
+    slope = np.concatenate([compute_position_slope(run) for run in runs])
     if _off_line(velocity, position) < SAME and _off_line(velocity, slope) > UNLIKE:
         doubt = Doubt(
             "velocity-is-position",
             f"{log.source}: the log has the position in place of the velocity, so the slope of the "
             "position was taken for the velocity. Log the velocity in the robot's code.",
         )
-        return velocity_from_position(log).add_doubts(doubt)
+        return differentiate_position(log).add_doubts(doubt)
     share = _scale(runs)
     if share is None or abs(share - 1.0) <= SCALE:
         return log

@@ -15,7 +15,7 @@ WORST = 0.1  # [Ω] of a battery that still turns a motor
 
 @dataclass(frozen=True)
 class RobotController:
-    """A robot controller's thresholds.
+    """Brownout thresholds of a robot controller.
 
     Args:
         name: as on the command line.

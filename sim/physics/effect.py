@@ -80,7 +80,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Scale:
-    """Ordinary speeds, voltages and times of a mechanism, by which effects are sized.
+    """Ordinary speeds, voltages and times of a mechanism, which set the sizes of effects.
 
     Args:
         ks: [V].
@@ -132,7 +132,7 @@ class Effect:
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
         stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a
             function of ``x`` and the parameters. ``force`` is its slope.
-        fastest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
+        shortest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
         shortest_length: [unit] way along which it stays much the same, from parameters, for what
             depends on places: its steps are long where the motion is slow. None if it has none.
         narrowest_speed: [unit/s] span of speed within which it stays much the same, from
@@ -141,6 +141,7 @@ class Effect:
         order: where it stands along the path from command to motor, for a path.
         reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         simpler: the effect with fewer parameters that does about the same; empty if there is none.
+        same_in_motion: the effect that is the same wherever the mechanism moves; empty if none is.
         simplify: its parameters, from this one's and what a log shows.
         is_ordinary: whether it is as small, with these parameters, as on any robot in good order.
     """
@@ -158,12 +159,13 @@ class Effect:
     hooks: Mapping[str, Callable[..., Any]]
     symmetric: bool = True
     stored_energy: Callable[..., float] | None = None
-    fastest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
+    shortest_time: Callable[[Mapping[str, float], Mapping[str, float]], float] | None = None
     shortest_length: Callable[[Mapping[str, float]], float] | None = None
     narrowest_speed: Callable[[Mapping[str, float]], float] | None = None
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
     simpler: str = ""
+    same_in_motion: str = ""
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
         default=lambda _values, _seen: {}
     )
@@ -176,17 +178,17 @@ class Effect:
 
     @property
     def has_onset(self) -> bool:
-        """Whether it begins at a moment and may be over at another: inertia that joins does."""
+        """Whether the effect can start and end during a run, like an added load."""
         return {ONSET, UNTIL} <= set(self.names)
 
     @property
     def is_joint(self) -> bool:
-        """Whether it joins a motor to its load by free play or by something soft."""
+        """Whether it couples motor and load by backlash or compliance."""
         return not {"backlash_gap", "joint_compliance"}.isdisjoint(self.hooks)
 
     @property
     def slips(self) -> bool:
-        """Whether what moves can slip on the floor."""
+        """Whether it lets wheels slip on the floor."""
         return "grip_limit" in self.hooks
 
     @property
@@ -194,7 +196,7 @@ class Effect:
         """Parameter values at which the effect vanishes."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
 
-    def contract_breaches(self) -> list[str]:
+    def find_contract_breaches(self) -> list[str]:
         """What is wrong with this effect as it is written; empty if nothing is."""
         found = []
         if self.kind not in KINDS:

@@ -37,12 +37,12 @@ class Motor:
 
     @property
     def resistance(self) -> float:
-        """[Ω] of the winding."""
+        """[Ω] resistance of the winding."""
         return NOMINAL / self.stall_current
 
     @property
     def torque_constant(self) -> float:
-        """[N·m/A]."""
+        """[N·m/A] torque per current."""
         return self.stall_torque / self.stall_current
 
     @property
@@ -88,7 +88,7 @@ def find_motor(name: str) -> Motor:
     return MOTORS[name]
 
 
-def theoretical_kv(of: Motor, *, ratio: float, radius: float | None = None) -> float:
+def compute_theoretical_kv(of: Motor, *, ratio: float, radius: float | None = None) -> float:
     """The theoretical kV: 12 V over the free speed, as teams compute it.
 
     Args:
@@ -100,7 +100,8 @@ def theoretical_kv(of: Motor, *, ratio: float, radius: float | None = None) -> f
         [V·s/m], or [V·s/rad] without a radius. The exact back-EMF constant gives 0.4 to 2 % less.
 
     Examples:
-        >>> round(theoretical_kv(find_motor("krakenX60"), ratio=6.75, radius=0.0508), 2)  # [V·s/m]
+        >>> kraken = find_motor("krakenX60")
+        >>> round(compute_theoretical_kv(kraken, ratio=6.75, radius=0.0508), 2)  # [V·s/m]
         2.54
     """
     return NOMINAL / of.free_speed * ratio / (radius or 1.0)

@@ -4,7 +4,7 @@ from sim.core.log import Log
 from sim.physics.effects import EFFECTS
 from sim.physics.engine import ORDER, State, Track, simulate_run
 from sim.physics.model import Model
-from sim.physics.voltage_residual import run_start_times
+from sim.physics.voltage_residual import list_run_start_times
 
 
 def replay_log(model: Model, log: Log, *, step: float | None = None) -> tuple[Track, ...]:
@@ -27,7 +27,7 @@ def replay_log(model: Model, log: Log, *, step: float | None = None) -> tuple[Tr
         array([0., 2., 2.])
     """
     state, tracks = State(), []
-    for run, clock in zip(log.runs, run_start_times(log).tolist(), strict=True):
+    for run, clock in zip(log.runs, list_run_start_times(log).tolist(), strict=True):
         cool_down(state, model, clock - state.clock)
         state.clock = clock
         state.body[:] = State.cold_at(float(run.position[0]), float(run.velocity[0])).body

@@ -55,16 +55,16 @@ class VoltageResidual:
 
     @property
     def top_speed(self) -> float:
-        """[m/s or rad/s] the fastest there was."""
+        """[m/s or rad/s] largest speed of the samples."""
         return float(np.max(np.abs(self.velocity), initial=0.0))
 
     @property
     def is_unbounded(self) -> bool:
-        """Whether it turned so often that its travel cannot be limited."""
+        """Whether it turned so far that its travel cannot be limited."""
         return find_unit(self.log.units).angular and bool(np.ptp(self.position) > ENDLESS)
 
     def select_samples(self, some: slice) -> "VoltageResidual":
-        """Some of the samples."""
+        """A copy with some of the samples."""
         arrays = {
             name: getattr(self, name)[some]
             for name in (
@@ -80,10 +80,10 @@ class VoltageResidual:
         A column that looks like friction, back-EMF, inertia or a constant is not credited with what
         those can explain by themselves: they are in the sum, and forgotten.
         """
-        return np.asarray(self.fit_column_sums(*(column[:, None] for column in columns))[:, 0])
+        return np.asarray(self.fit_column_sets(*(column[:, None] for column in columns))[:, 0])
 
-    def fit_column_sums(self, *columns: Array) -> Array:
-        """(k, m) such weights of m sums of k columns (n, m): one sum after another, by itself."""
+    def fit_column_sets(self, *columns: Array) -> Array:
+        """(k, m) least-squares weights of k columns, each (n, m): m separate fits."""
         kept, rest = self._adjusted
         table = np.stack(columns)
         whole = np.linalg.norm(table, axis=1)
@@ -98,7 +98,7 @@ class VoltageResidual:
         return np.asarray((ways @ parts)[..., 0].T / size)
 
     def fit_one_column(self, column: Array) -> tuple[float, float]:
-        """The weight of one column (n,), and the sum of squares [V²] of ``missing`` that it takes.
+        """Weight of one column (n,), and the sum of squares [V²] of ``missing`` it explains.
 
         The gains adjust, as in ``fit_columns``.
         """
@@ -133,7 +133,7 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
         gains: kS, kV, kA, and kG (with ``offset_rad`` for an arm) where ``type`` has gravity.
         type: ``simple``, ``elevator`` or ``arm``.
     """
-    starts = run_start_times(log)
+    starts = list_run_start_times(log)
     parts = [_rows(run, number, starts[number]) for number, run in enumerate(log.runs)]
     top = max((float(np.max(np.abs(p[5]), initial=0.0)) for p in parts), default=0.0)
     table = np.concatenate([p[:, np.abs(p[5]) > MOVING * top] for p in parts], axis=1)
@@ -151,7 +151,7 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
     )  # fmt: skip
 
 
-def run_start_times(log: Log) -> Array:
+def list_run_start_times(log: Log) -> Array:
     """(runs,) [s] start of each run, from the start of the first.
 
     Where the times of runs do not follow one another, as in a file in which each begins at zero,

@@ -8,7 +8,6 @@ Nothing here needs a screen, and nothing here keeps a state: a picture is made, 
 """
 
 from sim.plot.acceleration import plot_acceleration_velocity
-from sim.plot.analyzer import plot_velocity_time
 from sim.plot.charts import plot_choices, plot_curves, plot_misses
 from sim.plot.class_scores import plot_score_heatmap, plot_score_histogram
 from sim.plot.ellipse import plot_ellipses, plot_information_map
@@ -51,7 +50,6 @@ __all__ = [
     "plot_time_series",
     "plot_timesteps",
     "plot_tracking_error",
-    "plot_velocity_time",
     "plot_voltage_residual",
     "plot_voltage_velocity",
     "show_interactive",

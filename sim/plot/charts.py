@@ -24,7 +24,7 @@ def plot_choices(
     unit: str = "",
     spreads: Mapping[str, float] | None = None,
 ) -> Picture:
-    """One number found in several ways, as dots beside the line of the truth.
+    """Several estimates of one number, as dots beside a line at the true value.
 
     Args:
         values: way -> number, from top to bottom.

@@ -14,7 +14,7 @@ BINS = 10
 
 
 def plot_score_histogram(shares: Sequence[float]) -> Picture:
-    """How many students earned which share of all points.
+    """Histogram of the shares of all points that students earned.
 
     Args:
         shares: one for each student, 0 to 1.

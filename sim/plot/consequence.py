@@ -29,13 +29,13 @@ DIGITS = 3  # of a curve: a picture is looked at, not measured
 
 @dataclass(frozen=True)
 class Trace:
-    """One panel: a motion that was wanted, and what came instead.
+    """One panel: the wanted motion, and the motion that results.
 
     Args:
         title: what it is of.
         ylabel: with unit.
         time: (n,) [s].
-        wanted: (n,) what was asked for; a limit that should be kept, where ``limit`` says so.
+        wanted: (n,) the target; with ``limit``, a limit that should be kept.
         actual: name -> (n,) what happens.
         limit: whether ``wanted`` is a limit.
     """
@@ -58,7 +58,7 @@ def make_profile_traces(one: FollowedProfile) -> tuple[Trace, ...]:
 
 
 def plot_consequence(shown: Sequence[Trace], *, words: str) -> Picture:
-    """What an answer would do, panel by panel.
+    """The motion that an answer causes beside the wanted one, panel by panel.
 
     Args:
         shown: at least one panel.

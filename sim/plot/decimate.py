@@ -36,7 +36,7 @@ def decimate_curve(y: Array, *, most: int) -> NDArray[np.intp]:
 
 
 def decimate_cloud(x: Array, y: Array, *, most: int) -> NDArray[np.intp]:
-    """Which samples of a cloud to draw so that its shape and its strays stay.
+    """Which samples of a cloud to draw so that its shape and its outliers stay.
 
     Of samples that would cover each other, in one cell of a grid, the first is kept; the grid is as
     fine as the limit allows.

@@ -41,7 +41,7 @@ def plot_ellipses(
     truth: tuple[float, float],
     reach: tuple[float, float],
 ) -> Picture:
-    """Where 95 of 100 fits of two gains fall, for several sets of rows.
+    """95 % confidence ellipses of two gains, for several sets of rows.
 
     Args:
         told: set of rows -> (2, 2) what it tells of both gains [1/unit²], see
@@ -73,9 +73,8 @@ def plot_information_map(
     names: tuple[str, str],
     truth: tuple[float, float],
     reach: tuple[float, float],
-    symbol: str = "m",
 ) -> Picture:
-    """Where in velocity and acceleration the rows lie, and how well two gains follow from them.
+    """Velocity and acceleration of the rows, and the confidence ellipse of two gains.
 
     Args:
         rows: one of the four tests -> its rows.
@@ -83,7 +82,6 @@ def plot_information_map(
         names: of the two gains, with their units.
         truth: about which the ellipse is drawn.
         reach: how far from the truth its panel goes, each way.
-        symbol: of the unit of position.
     """
     figure, ((left, right),) = make_panels(1, 2, height=3.8)
     for test, part in rows.items():
@@ -98,8 +96,8 @@ def plot_information_map(
             alpha=0.7,
             label=test,
         )
-    left.set_xlabel(f"velocity [{symbol}/s]", color=INK)
-    left.set_ylabel(f"acceleration [{symbol}/s²]", color=INK)
+    left.set_xlabel("velocity [m/s]", color=INK)
+    left.set_ylabel("acceleration [m/s²]", color=INK)
     left.set_title("where the rows lie", fontsize=10, color=INK)
     _draw(right, information, 0, truth=truth, reach=reach, name="95 of 100 fits")
     _finish(right, names=names, truth=truth, reach=reach)
@@ -107,8 +105,8 @@ def plot_information_map(
     add_legend(figure, [left, right])
     alt = "The left panel shows acceleration against velocity. "
     alt += " ".join(
-        f"{test} has {len(part)} rows, with {_span(part.velocity)} {symbol}/s and "
-        f"{_span(part.acceleration)} {symbol}/s²."
+        f"{test} has {len(part)} rows, with {_span(part.velocity)} m/s and "
+        f"{_span(part.acceleration)} m/s²."
         for test, part in rows.items()
     )
     alt += f" The right panel shows {names[1]} over {names[0]}: {_words(information, names)}"

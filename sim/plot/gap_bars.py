@@ -13,7 +13,7 @@ THICK = 0.8  # [rows] that the bars of one model take together
 
 
 def plot_gap_bars(gaps: Mapping[str, Mapping[str, float]]) -> Picture:
-    """How far each model is from each log.
+    """Bars of the gap between each model and each log, in multiples of the noise.
 
     Args:
         gaps: model -> log -> gap [times the noise]; every model has the same logs.

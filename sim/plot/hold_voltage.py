@@ -21,18 +21,14 @@ def plot_hold_window(
     *,
     window: tuple[float, float],
     marks: Mapping[str, float],
-    symbol: str = "m",
-    here: tuple[float, float] | None = None,
 ) -> Picture:
     """Speed over constant voltage, with the window in which friction holds the mechanism.
 
     Args:
         volts: (n,) [V] that were tried, rising.
-        speeds: (n,) [unit/s] what came of each; negative is down.
+        speeds: (n,) [m/s] what came of each; negative is down.
         window: [V] its lower and its upper edge, kG - kS and kG + kS.
         marks: name -> [V] of a voltage worth a mark: what a recipe finds.
-        symbol: of the unit of position.
-        here: a voltage and its speed, to draw attention to.
 
     Raises:
         BadRequest: not one speed for each voltage, or the window's edges changed places.
@@ -50,25 +46,16 @@ def plot_hold_window(
         axes.plot(
             value, 0.0, MARKERS[index], color=COLORS[index], markersize=10, label=name, zorder=3
         )
-    if here is not None:
-        axes.plot(*here, "*", color=REFERENCE, markersize=15, label="here", zorder=4)
     axes.set_xlabel("voltage [V]", color=INK)
-    axes.set_ylabel(f"speed, up is positive [{symbol}/s]", color=INK)
+    axes.set_ylabel("speed, up is positive [m/s]", color=INK)
     axes.legend(fontsize=8)
     alt = (
         f"The picture shows speed over voltage. Below {to_text(low)} V the mechanism sinks. Above "
         f"{to_text(high)} V it rises. Between them it stays: this part is shaded."
         + "".join(f" A mark, “{name}”, is at {to_text(value)} V." for name, value in marks.items())
     )
-    if here is not None:
-        alt += f" A star marks {to_text(here[0])} V, where the speed is {_speed(here[1], symbol)}."
-    every = {**marks, "here": here[0]} if here is not None else marks
-    rows = tuple((name, value, _where(value, low, high)) for name, value in every.items())
+    rows = tuple((name, value, _where(value, low, high)) for name, value in marks.items())
     return Picture(figure, alt, Table(("mark", "voltage [V]", "in the window"), rows))
-
-
-def _speed(value: float, symbol: str) -> str:
-    return f"{value:.3f} {symbol}/s".replace("-", "−")
 
 
 def _where(value: float, low: float, high: float) -> str:
@@ -111,7 +98,6 @@ def plot_hold_angles(
     kg: float,
     ks: float,
     offset: float | None = None,
-    here: float | None = None,
 ) -> Picture:
     """The window of an arm over its angle: its middle is a cosine, its width stays.
 
@@ -121,7 +107,6 @@ def plot_hold_angles(
         ks: [V] of friction.
         offset: [deg] to add to a reading for the angle from level; a guess, until the band covers
             all marks. None says that the encoder shows the angle from level.
-        here: [deg] a reading to draw attention to.
     """
     words, add = _SHOWS_LEVEL if offset is None else _askew(offset), offset or 0.0
     ends = [reading for reading, *_ in holds]
@@ -138,9 +123,6 @@ def plot_hold_angles(
         axes.plot(ends, edges, MARKERS[index], color=COLORS[index], markersize=7, label=name)
     level = 0.0 - add  # never −0
     axes.axvline(level, color=REFERENCE, linestyle=":", linewidth=1.2, label=words.level)
-    if here is not None:
-        at = kg * float(np.cos(np.radians(here + add)))
-        axes.plot(here, at, "*", color=REFERENCE, markersize=15, label="here", zorder=4)
     axes.set_xlabel(words.across, color=INK)
     axes.set_ylabel("voltage [V]", color=INK)
     add_legend(figure, (axes,))
@@ -151,8 +133,6 @@ def plot_hold_angles(
         f"Each of the {len(holds)} measured angles has two marks. They are the lowest and the "
         "highest voltage that hold the arm there."
     )
-    if here is not None:
-        alt += f" A star marks {to_text(at)} V at {to_text(here)} degrees."
     header = (words.angle, "no longer falls [V]", "begins to rise [V]", "middle [V]",
               "half the width [V]")  # fmt: skip
     rows = tuple(

@@ -1,4 +1,4 @@
-"""A fit's simulation beside its log: what was measured, what the gains say, and what is left.
+"""A fit's simulation beside its log: measured, simulated, and residual.
 
 A simulation that is right leaves nothing but noise, so beneath each curve stands what it leaves,
 with the band in which noise alone would keep it 95 times of a hundred.
@@ -27,7 +27,7 @@ EVERY = 40  # runs: more in one picture are too small to read, and too large to 
 
 
 def plot_measured_vs_simulated(one: RunReplay, *, per: Unit) -> Picture:
-    """One run: velocity and position, measured and simulated, what is left, and the voltage.
+    """One run: velocity and position, measured and simulated, their residuals, and the voltage.
 
     Args:
         one: the run.
@@ -78,7 +78,7 @@ def describe_run(one: RunReplay, *, per: Unit) -> str:
 
 
 def make_error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
-    """How far the simulation is off, run by run."""
+    """A table of the simulation's errors, run by run."""
     rows = []
     for one in runs:
         velocity, position = _misses(one)
@@ -102,7 +102,7 @@ def make_error_table(runs: Sequence[RunReplay], *, per: Unit) -> Table:
 
 
 def _misses(one: RunReplay) -> tuple[float, float]:
-    """RMS of what is left of velocity and position while it moves."""
+    """RMS residuals of velocity and position while it moves."""
     where = one.moving if one.moving.any() else np.ones(len(one.run), dtype=bool)
     return (
         float(np.sqrt(np.mean(one.velocity_error[where] ** 2))),
@@ -119,7 +119,7 @@ def _farthest(values: Array) -> float:
 
 
 def _draw(figure: Figure | SubFigure, one: RunReplay, *, per: Unit) -> None:
-    """Velocity left, position right; what is left of them beneath; the voltage below."""
+    """Velocity on the left, position on the right; their residuals beneath; the voltage below."""
     grid = figure.subplots(
         ROWS, 2, sharex=True, squeeze=False, gridspec_kw={"height_ratios": (3, 1.5, 1.5)}
     )

@@ -36,7 +36,7 @@ def plot_r2_vs_gain_error(
     score: str,
     off: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Picture:
-    """A badge for each fit, passed or failed, and beside it the truth.
+    """The score of each fit, and the errors of its gains beside it.
 
     Args:
         scores: fit -> its score, from top to bottom.

@@ -11,7 +11,7 @@ WIDTH = 3.0  # [times] the scale shows at least, so that a small change looks sm
 
 
 def plot_relative_change(times: Mapping[str, float]) -> Picture:
-    """Numbers after a change, each divided by what it was before.
+    """Several numbers after a change, each divided by its value before.
 
     Args:
         times: name -> now over before, from top to bottom.

@@ -17,7 +17,7 @@ LIT = "#F5C2A3"  # a paler vermilion: words over it stay legible
 
 
 def plot_runway(drive: FloorTest, *, moment: float = 1.0) -> Picture:
-    """A test on its floor from above, and below it speed and battery over time.
+    """A test on a floor, seen from above, and its speed and battery voltage over time.
 
     Args:
         drive: the test, in meters.

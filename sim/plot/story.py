@@ -18,7 +18,7 @@ __all__ = [
 
 
 def make_findings_table(story: Story) -> Table:
-    """What was found, one row each: name, size, parameters with errors, the gap it changes."""
+    """A table of the findings: name, size, parameters with errors, and change of the gap."""
     rows = []
     for one in story.findings:
         parameters = "; ".join(

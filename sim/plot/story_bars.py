@@ -17,7 +17,7 @@ LOOKS = {TAKEN: (COLORS[0], ""), PASSED: (COLORS[4], ".."), REFUSED: ("#CCCCCC",
 
 
 def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
-    """Bars of the candidates tried on a chapter's model: how much each would explain.
+    """Bars of the candidates of a round: how much each would explain.
 
     Args:
         story: what was found.
@@ -56,7 +56,7 @@ def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
     most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
     for place, one in enumerate(drawn):
-        kind = candidate_status(one, taken)
+        kind = describe_candidate_status(one, taken)
         color, hatch = LOOKS[kind]
         axes.barh(
             place, max(one.score, 0.0), color=color, hatch=hatch, edgecolor=INK, linewidth=0.6,
@@ -68,7 +68,7 @@ def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
 
 
 def make_candidate_table(story: Story, chapter: int) -> Table:
-    """A table of all candidates tried on a chapter's model."""
+    """A table of all candidates of a round."""
     taken = find_next_effect(story, chapter)
     rows = tuple(
         (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
@@ -79,12 +79,12 @@ def make_candidate_table(story: Story, chapter: int) -> Table:
 
 
 def find_next_effect(story: Story, chapter: int) -> str:
-    """The effect that was taken on top of a chapter's model; empty if none was."""
+    """The effect that was added after a round of the story; empty if none was."""
     chapter %= len(story.chapters)
     return story.chapters[chapter + 1].added if chapter + 1 < len(story.chapters) else ""
 
 
-def candidate_status(one: TriedCandidate, taken: str) -> str:
+def describe_candidate_status(one: TriedCandidate, taken: str) -> str:
     """Whether a candidate was added, was admissible, or was rejected."""
     if one.effect == taken:
         return TAKEN
@@ -92,7 +92,7 @@ def candidate_status(one: TriedCandidate, taken: str) -> str:
 
 
 def _why(one: TriedCandidate, taken: str) -> str:
-    kind = candidate_status(one, taken)
+    kind = describe_candidate_status(one, taken)
     return f"{kind}: {one.why}" if kind == REFUSED and one.why else kind
 
 
@@ -102,7 +102,7 @@ def _points(score: float) -> str:
 
 
 def plot_gap_by_round(story: Story) -> Picture:
-    """The gap on the shown log, chapter by chapter, in noise floors."""
+    """The gap on the shown log after each round, in multiples of the noise."""
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     floor = story.noise_floor if story.noise_floor > 0.0 else 1.0
     gaps = [one.gap / floor for one in story.chapters]
@@ -133,7 +133,7 @@ def plot_gap_by_round(story: Story) -> Picture:
 
 
 def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
-    """A bar for each gap; the base model's is hatched, and one that ran away the longest."""
+    """A bar for each gap; the base model's is hatched, and a diverged one is the longest."""
     longest = max([gap for gap in gaps if np.isfinite(gap)] or [1.0])
     for place, gap in enumerate(gaps):
         length = gap if np.isfinite(gap) else 1.3 * longest

@@ -40,10 +40,10 @@ TITLES = {
 
 
 def plot_residual_maps(story: Story) -> Picture:
-    """Where the base model disagrees with the shown log, and what is left of that at the end.
+    """Maps of the residuals on the shown log, of the base model and of the last model.
 
     Raises:
-        BadRequest: there is nothing to compare, or each simulation ran away.
+        BadRequest: there is nothing to compare, or each simulation diverged.
     """
     base, *more = story.chapters
     wanted = {"base model": base}

@@ -27,7 +27,7 @@ BEFORE, AFTER = (COLORS[1], "--"), (COLORS[0], "-")
 
 @dataclass(frozen=True, eq=False)
 class RunOverlay:
-    """One run of the shown log, with what two models make of it.
+    """One run of the shown log, with its simulation by two models.
 
     Args:
         run: as it was measured.
@@ -42,13 +42,13 @@ class RunOverlay:
     compared: NDArray[np.bool_]
 
     def error(self, track: Array) -> Array:
-        """(n, 2) measured less simulated; nan where it is not compared."""
+        """(n, 2) measured minus simulated; nan where nothing is compared."""
         rest = np.column_stack([self.run.position, self.run.velocity]) - track
         rest[~self.compared | ~np.isfinite(rest).all(axis=1)] = np.nan
         return rest
 
-    def rms_error(self, track: Array) -> float:
-        """[unit/s] RMS of the velocity missed; infinite where the simulation ran away."""
+    def compute_rms_error(self, track: Array) -> float:
+        """[unit/s] RMS velocity error; infinite if the simulation diverged."""
         rest = self.error(track)[:, 1]
         if not np.isfinite(track[self.compared]).all() or np.isnan(rest).all():
             return math.inf
@@ -56,7 +56,7 @@ class RunOverlay:
 
 
 def make_run_overlays(story: Story, before: int, after: int) -> list[RunOverlay]:
-    """The runs of the shown log under the models of two chapters.
+    """The runs of the shown log, simulated by the models of two rounds.
 
     Args:
         story: what was found.
@@ -70,7 +70,7 @@ def make_run_overlays(story: Story, before: int, after: int) -> list[RunOverlay]
 
 
 def plot_overlays(story: Story, chapter: int = -1) -> Picture:
-    """Each shown run, simulated before a chapter's effect was added and after.
+    """Each shown run, simulated before an effect was added and after.
 
     Args:
         story: what was found.
@@ -148,7 +148,9 @@ def _words(runs: Sequence[RunOverlay], said: Sequence[str], *, per: Unit, noise:
     )
     told = []
     for one in runs:
-        sizes = [_floors(one.rms_error(track) / per.si, noise) for track in _tracks(one, said)]
+        sizes = [
+            _floors(one.compute_rms_error(track) / per.si, noise) for track in _tracks(one, said)
+        ]
         told.append(f"{one.run.test}: {' before, '.join(sizes)}{' after' * (len(sizes) - 1)}.")
     if len(runs) > DRAWN:
         told.append(f"The other {len(runs) - DRAWN} runs are not drawn.")
@@ -165,7 +167,7 @@ def _numbers(runs: Sequence[RunOverlay], said: Sequence[str], story: Story) -> T
         (
             f"{number}: {one.run.test}",
             *(
-                _floors(one.rms_error(track) / per.si, story.noise_floor)
+                _floors(one.compute_rms_error(track) / per.si, story.noise_floor)
                 for track in _tracks(one, said)
             ),
         )

@@ -1,4 +1,4 @@
-"""A chase: a velocity that is asked for, what follows it, and its error."""
+"""Tracking: a target velocity, the velocities that follow it, and their errors."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -53,24 +53,22 @@ def plot_tracking_error(
     *,
     unit: str = "m/s",
     title: str = "",
-    quantity: str = "velocity",
 ) -> Picture:
-    """A target and what followed it, and below it the error of each.
+    """A target and the curves that followed it, with the error of each below.
 
     Args:
         time: (n,) [s].
-        target: (n,) what was asked for.
+        target: (n,) the target.
         followers: name -> (n,) what came of it.
         unit: of all values.
         title: above the picture; may be empty.
-        quantity: ``velocity`` or ``position``: what the target is.
 
     Raises:
         BadRequest: nobody follows, or lengths differ.
     """
     if not followers or any(len(one) != len(time) for one in (*followers.values(), target)):
         raise BadRequest(
-            f"every {quantity} needs one value for each time",
+            "every velocity needs one value for each time",
             advice="Give one or more, of equal length.",
         )
     figure, ((upper,), (lower,)) = make_panels(2, 1, height=4.4, shared=True)
@@ -83,16 +81,15 @@ def plot_tracking_error(
                 linestyle=LINES[(index + 1) % len(LINES)], linewidth=1.5, markersize=4,
                 marker=MARKERS[(index + 1) % len(MARKERS)], markevery=APART, label=name,
             )  # fmt: skip
-    upper.set_ylabel(f"{quantity} [{unit}]", color=INK)
-    more = "too fast by" if quantity == "velocity" else "too far by"
-    lower.set_ylabel(f"{more} [{unit}]", color=INK)
+    upper.set_ylabel(f"velocity [{unit}]", color=INK)
+    lower.set_ylabel(f"too fast by [{unit}]", color=INK)
     lower.set_xlabel("time [s]", color=INK)
     if title:
         upper.set_title(title, fontsize=10, color=INK)
     add_legend(figure, (upper,))
     found = {name: measure_tracking_error(target, velocity) for name, velocity in followers.items()}
     alt = (
-        f"A target {quantity} over time, between {to_text(float(np.min(target)))} and "
+        f"A target velocity over time, between {to_text(float(np.min(target)))} and "
         f"{to_text(float(np.max(target)))} {unit}, and curves that follow it. "
         "Below are their errors. "
         + " ".join(

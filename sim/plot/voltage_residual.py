@@ -47,7 +47,7 @@ _ASKED = ("speed", "since", "ahead", "upward", "driven")  # of each sample; the 
 
 @dataclass(frozen=True, eq=False)
 class ResidualView:
-    """The missing volts, sorted along one axis.
+    """The voltage residual, sorted along one axis.
 
     Args:
         at: (n,) where each sample is; nan where it is nowhere.
@@ -99,7 +99,7 @@ def compute_missing_volts(
 def make_residual_views(
     log: Log, simulated: Sequence[Array], gains: Mapping[str, float]
 ) -> dict[str, ResidualView]:
-    """The four sides that the missing volts are seen from.
+    """The voltage residual along four axes.
 
     Friction and drag act along the motion, what follows a jump acts along the jump, and a battery
     that gives way acts along the voltage: each side counts its volts in its own direction.

@@ -1,4 +1,4 @@
-"""Voltage against velocity: what speed costs, and what it costs to begin."""
+"""Voltage against velocity: the line of kS and kV through the quasistatic tests."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -50,21 +50,18 @@ class _Ramps:
     voltage: Array
 
 
-def plot_voltage_velocity(
-    log: Log, *, lines: Mapping[str, Line] | None = None, zoom: float | None = None
-) -> Picture:
-    """Voltage against velocity of the quasistatic tests, all of it and the part near standstill.
+def plot_voltage_velocity(log: Log, *, lines: Mapping[str, Line] | None = None) -> Picture:
+    """Voltage against velocity of the quasistatic tests, as a whole and near standstill.
 
-    The second panel shows forward motion; of a mechanism with gravity both directions, because
-    there the two meet standstill at different voltages, kG + kS and kG - kS.
+    The second panel shows the slowest eighth of forward motion; of a mechanism with gravity of both
+    directions, because there the two meet standstill at different voltages, kG + kS and kG - kS.
 
     Args:
         log: with a quasistatic test.
         lines: name -> straight line for forward motion, per the log's unit; extended to v = 0.
-        zoom: [unit/s] width of the second panel; None takes an eighth of the top speed.
 
     Raises:
-        BadRequest: the log has no quasistatic test, or the zoom is not above zero.
+        BadRequest: the log has no quasistatic test.
     """
     per = find_unit(log.units)
     ramps = _ramps([run for run in log.runs if run.kind == "quasistatic" and len(run)], per)
@@ -74,11 +71,9 @@ def plot_voltage_velocity(
             where=log.source,
             advice="Use a log with a slow ramp in it.",
         )
-    if zoom is not None and not zoom > 0.0:
-        raise BadRequest(f"a zoom of {zoom:g} {per.symbol}/s", advice="Choose one above 0.")
     drawn = dict(lines or {})
     top = max(float(np.abs(one.velocity).max()) for one in ramps)
-    near = zoom or top / 8.0 or 1.0  # of what never moved, any width shows the same
+    near = top / 8.0 or 1.0  # of what never moved, any width shows the same
     figure, ((whole, close),) = make_panels(1, 2)
     _draw(whole, ramps, drawn, top=top, most=MOST)
     _limit(close, ramps, drawn, near=near, both=log.type in {"elevator", "arm"})
@@ -179,9 +174,8 @@ def _stray(one: _Ramps, *, top: float) -> float | None:
     velocity, voltage = one.velocity[moving], one.voltage[moving]
     if velocity.size < FEWEST or not np.ptp(velocity) > 0.0:
         return None
-    across, up = velocity - velocity.mean(), voltage - voltage.mean()
-    slope = float(across @ up) / float(across @ across)
-    return float(np.sqrt(np.mean((up - slope * across) ** 2)))
+    line = np.polynomial.Polynomial.fit(velocity, voltage, 1)
+    return float(np.sqrt(np.mean((voltage - line(velocity)) ** 2)))
 
 
 def _two(value: float) -> str:

@@ -25,10 +25,15 @@ from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import ExcludedInterval
 from sim.physics.engine import load_engine
-from sim.reconcile.cross_validation import make_folds, missed_motion, open_loop_errors, rms_gap
+from sim.reconcile.cross_validation import (
+    compute_missed_motion,
+    compute_open_loop_errors,
+    compute_rms_gap,
+    make_folds,
+)
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import judge_damage
-from sim.reconcile.findings import list_remarks, make_findings, reported_rounds
+from sim.reconcile.findings import list_remarks, make_findings, select_reported_rounds
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
@@ -69,7 +74,7 @@ def reconcile(
         damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
         time_limit: [s] of processor time after which the best model so far is taken, and the
             verdict says so. The search ends at ``SEARCH`` of it; the rest is for the findings.
-        progress: told what is done, and the share of it [1].
+        progress: called with a step's description and the share done [1].
 
     Raises:
         BadRequest: a log of another mechanism, or positions beyond the travel.
@@ -129,10 +134,10 @@ def _make_story(
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
     left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
     findings, judged = make_findings(
-        problem, done, faults, chapters, without=shown.gaps_without(done),
+        problem, done, faults, chapters, without=shown.measure_gaps_without(done),
         held_out=shown.held_out, left=left, per=per,
     )  # fmt: skip
-    chapters = chapters[: len(reported_rounds(done, findings))]
+    chapters = chapters[: len(select_reported_rounds(done, findings))]
     verdict, remainder, remains = reach_verdict(
         findings, done, problem, left=left, cut=cut, per=per
     )
@@ -140,7 +145,8 @@ def _make_story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
-        where=shown.gap_places(chapters[0]), chapters=chapters, shown=shown.log, how=shown.kind,
+        where=shown.find_gap_places(chapters[0]),
+        chapters=chapters, shown=shown.log, how=shown.kind,
         notes=(*list_remarks(problem, done, findings, left), *seen),
         compared=shown.compared_samples,
         judged=judged,
@@ -201,8 +207,8 @@ def _fit_base_model(
 
 def _missed_share(problem: PredictionErrorProblem, base: Estimate) -> float:
     """[1] of the motion that a point misses."""
-    gap = rms_gap(open_loop_errors(problem, base, base.nuisance)).velocity
-    return missed_motion(gap / problem.noise.velocity, problem)
+    gap = compute_rms_gap(compute_open_loop_errors(problem, base, base.nuisance)).velocity
+    return compute_missed_motion(gap / problem.noise.velocity, problem)
 
 
 def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:

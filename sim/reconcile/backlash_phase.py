@@ -1,7 +1,7 @@
 """Estimates where in its backlash each run started.
 
-Teeth that rest on one another push at once, others first cross the slack and then meet; which it
-is, is left from whatever was before the run.
+Teeth in contact push at once; others first cross the backlash. Where a run starts depends on the
+motion before it, which is not recorded.
 """
 
 import math
@@ -23,7 +23,7 @@ BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only fri
 def estimate_backlash_phase(
     problem: PredictionErrorProblem, point: Estimate, *, aside: bool = False
 ) -> Estimate:
-    """The same values with the likeliest backlash phase of each run; unchanged without backlash.
+    """The estimate with the likeliest backlash phase of each run.
 
     Args:
         problem: the measurements.
@@ -55,13 +55,14 @@ def estimate_backlash_phase(
     found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
     return (
         found
-        if found.cost + backlash_phase_prior(found) < point.cost + backlash_phase_prior(point)
+        if found.cost + compute_backlash_phase_prior(found)
+        < point.cost + compute_backlash_phase_prior(point)
         else point
     )
 
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """Half the backlash, with each run's phase estimated anew."""
+    """The estimate with half the backlash, and the phase of each run estimated anew."""
     slacks = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
     values = {**point.values, **slacks}
     return estimate_backlash_phase(
@@ -75,14 +76,14 @@ def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 def _costs_by_run(
     problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array
 ) -> Array:
-    """(runs,) what the innovations of each cost, by the spread at a point, and what was told."""
+    """(runs,) -2 log L of each run's innovations, with the prior of its backlash phase."""
     squares = np.square(problem.whiten(point, ahead)).reshape(-1, 2).sum(axis=1)
     costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + _prior_costs(meshed)
     return costs
 
 
-def backlash_phase_prior(point: Estimate) -> float:
-    """[of -2 log L] prior cost of the backlash phases."""
+def compute_backlash_phase_prior(point: Estimate) -> float:
+    """Prior cost of the backlash phases, as -2 log L."""
     return float(np.sum(_prior_costs(point.nuisance.backlash_phase)))
 
 

@@ -10,13 +10,13 @@ from dataclasses import replace
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
-from sim.reconcile.cross_validation import Gap, validation_gap
+from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.local_minimum import minimize
 from sim.reconcile.model_selection import (
     WIDENS,
-    rejection_reason,
-    required_improvement,
-    score_improvement,
+    compare_scores,
+    explain_rejection,
+    find_required_improvement,
 )
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
@@ -24,17 +24,17 @@ from sim.reconcile.thresholds import CLOSE, LOOKED_ALIKE, ONCE, SIMPLER, SURER
 
 
 def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Replace an earlier effect by another where that is likelier now."""
+    """The rounds, with an earlier effect replaced where another one is likelier now."""
     problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
         others = _look_alikes(done, place)
         if not others:
             continue
-        reduced = refit_without(problem, last.candidate, effect)
-        needed = reduced.score - last.candidate.score >= required_improvement(effect)
+        reduced = refit_without_effect(problem, last.candidate, effect)
+        needed = reduced.score - last.candidate.score >= find_required_improvement(effect)
         if not needed:
-            gap = validation_gap(problem, reduced.estimate, data.folds)
+            gap = compute_validation_gap(problem, reduced.estimate, data.folds)
             if not math.isfinite(gap.velocity + gap.position):
                 continue
             best = replace(reduced, effect=last.candidate.effect)
@@ -46,12 +46,12 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
         )  # fmt: skip
         if data.out_of_time():
             break
-        if not found or score_improvement(last.candidate, found[0]) < _required_advantage(
+        if not found or compare_scores(last.candidate, found[0]) < _required_advantage(
             effect, found[0].effect
         ):
             continue
-        gap = validation_gap(problem, found[0].estimate, data.folds)
-        if rejection_reason(gap, last.gap, SURER) == WIDENS:
+        gap = compute_validation_gap(problem, found[0].estimate, data.folds)
+        if explain_rejection(gap, last.gap, SURER) == WIDENS:
             continue
         return _replace_one(done, place, found[0], gap)
     return done
@@ -64,7 +64,7 @@ def _required_advantage(effect: str, other: str) -> float:
 
 
 def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Replace effects by their simpler forms where these explain as much.
+    """The rounds, with effects replaced by simpler forms that explain as much.
 
     What an effect had to explain before all was found may have needed its further parameters.
     """
@@ -81,9 +81,9 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
         if begun is None or not math.isfinite(begun.cost):
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
-        gap = validation_gap(problem, found.estimate, data.folds)
+        gap = compute_validation_gap(problem, found.estimate, data.folds)
         as_good = found.score - last.candidate.score <= SIMPLER
-        if as_good and rejection_reason(gap, last.gap, SURER) != WIDENS:
+        if as_good and explain_rejection(gap, last.gap, SURER) != WIDENS:
             done = _replace_one(done, place, found, gap)
     return done
 
@@ -113,20 +113,22 @@ def _replace_one(
 
 
 def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Each round with the estimate that lacks its effect."""
+    """The rounds, each with the estimate that lacks its effect."""
     last = done[-1].candidate
     if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
         return done
     told = [done[0]]
     for one in done[1:]:
-        reduced = refit_without(data.problem, last, one.candidate.effect)
-        gap = validation_gap(data.problem, reduced.estimate, data.folds)
+        reduced = refit_without_effect(data.problem, last, one.candidate.effect)
+        gap = compute_validation_gap(data.problem, reduced.estimate, data.folds)
         cost = reduced.score - last.score
         told.append(replace(one, removal_cost=cost, without=reduced, gap_without=gap))
     return told
 
 
-def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect: str) -> Candidate:
+def refit_without_effect(
+    problem: PredictionErrorProblem, candidate: Candidate, effect: str
+) -> Candidate:
     """A model refitted without one of its effects."""
     point = candidate.estimate
     structure = point.structure - effect
@@ -135,6 +137,6 @@ def refit_without(problem: PredictionErrorProblem, candidate: Candidate, effect:
     return score_estimate(problem, minimize(problem, begin))
 
 
-def separating_test(effect: str, other: str) -> str:
+def find_separating_test(effect: str, other: str) -> str:
     """The test that separates two effects; empty if none is known."""
     return EFFECTS[effect].apart.get(other, "") or EFFECTS[other].apart.get(effect, "")

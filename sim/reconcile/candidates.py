@@ -12,18 +12,18 @@ from dataclasses import dataclass
 
 from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
-from sim.estimation.random_friction import laplace_correction
+from sim.estimation.random_friction import compute_laplace_correction
 from sim.physics.effect import Effect, are_compatible
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
-from sim.reconcile.backlash_phase import backlash_phase_prior
+from sim.reconcile.backlash_phase import compute_backlash_phase_prior
 from sim.reconcile.local_minimum import (
     AGITATED,
     CALM,
     Begun,
+    compute_total_cost,
     minimize,
-    predicted_improvement,
-    total_cost,
+    rate_starts,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
 from sim.reconcile.two_body_starts import TwoBodyStarts
@@ -63,8 +63,8 @@ class Candidate:
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     values = point.structure.free_count * math.log(max(problem.sample_count, 2))
-    own = laplace_correction(point.values, problem.friction_jacobian(point))
-    return Candidate(effect, point, point.cost + own + backlash_phase_prior(point) + values)
+    own = compute_laplace_correction(point.values, problem.compute_friction_jacobian(point))
+    return Candidate(effect, point, point.cost + own + compute_backlash_phase_prior(point) + values)
 
 
 def rank_candidates(
@@ -123,8 +123,8 @@ def descend_candidate(
 ) -> Estimate:
     """A candidate after a few optimizer steps, for comparison with others.
 
-    Where in free play a run began is told before the gains have adjusted to it: if that leads to
-    less than the point without the candidate, the start may do better untold.
+    The backlash phase of a run is estimated before the gains have adjusted to it. If the result is
+    worse than without the candidate, the start is tried again without backlash phases.
 
     Args:
         problem: the measurements.
@@ -139,7 +139,7 @@ def descend_candidate(
     untold = problem.evaluate(
         start.structure, start.values, start.nuisance.without_backlash_phase, start.process_noise
     )
-    return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=total_cost)
+    return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=compute_total_cost)
 
 
 def _ends_in_two_bodies(point: Estimate) -> bool:
@@ -195,7 +195,7 @@ def simplify_effect(
 def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Estimate] = {}
-    for one in sorted(points, key=total_cost):
+    for one in sorted(points, key=compute_total_cost):
         best.setdefault(one.structure.effects[-1], one)
     return list(best.values())
 
@@ -231,7 +231,7 @@ def _best_starts(
             more += scan_onsets(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
-        begun = predicted_improvement(problem, point, structure, more, kept=kept, as_given=shakes)
+        begun = rate_starts(problem, point, structure, more, kept=kept, as_given=shakes)
         begun.sort(key=lambda one: -one[0])
         if begun:
             found.append(begun if shakes else begun[:1])

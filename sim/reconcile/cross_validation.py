@@ -65,7 +65,9 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
     return tuple(Fold(tuple(m for m in every if m != n), (n,)) for n in every)
 
 
-def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequence[Fold]) -> Gap:
+def compute_validation_gap(
+    problem: PredictionErrorProblem, point: Estimate, parts: Sequence[Fold]
+) -> Gap:
     """The gap on runs to which the values were not fitted."""
     errors = [np.empty((0, 2))]
     for part in parts:
@@ -81,9 +83,11 @@ def validation_gap(problem: PredictionErrorProblem, point: Estimate, parts: Sequ
         found = levenberg_marquardt(fitted, begin, steps=REFIT)
         nuisance = point.nuisance.select_runs(part.predicted).with_common_friction
         errors.append(
-            open_loop_errors(_select_records(problem, part.predicted), found, nuisance, eased=True)
+            compute_open_loop_errors(
+                _select_records(problem, part.predicted), found, nuisance, eased=True
+            )
         )
-    return rms_gap(np.concatenate(errors))
+    return compute_rms_gap(np.concatenate(errors))
 
 
 def _has_comparison(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
@@ -92,7 +96,7 @@ def _has_comparison(problem: PredictionErrorProblem, chosen: Sequence[int]) -> b
     return any(problem.informative[edges[n] : edges[n + 1]].any() for n in chosen)
 
 
-def open_loop_errors(
+def compute_open_loop_errors(
     problem: PredictionErrorProblem, point: Estimate, nuisance: RunNuisance, *, eased: bool = False
 ) -> Array:
     """(n, 2) measured minus simulated, position and velocity, without correction, while it moves.
@@ -101,8 +105,8 @@ def open_loop_errors(
         problem: the runs.
         point: values that are simulated.
         nuisance: how each run begins.
-        eased: each run may have a friction of its own, as ``friction.py`` has it: what one run's
-            accident does to the gap says nothing about an effect.
+        eased: each run may have a friction of its own, as in ``random_friction.py``, so that an
+            accident in one run does not count for or against an effect.
     """
     track = problem.simulate(point.structure.model(point.values), nuisance)
     errors = problem.measured - track.sensor_readings
@@ -138,14 +142,14 @@ def _with_run_friction(
     costs = _costs_by_share(problem, every, moves)
     best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
-    aside = parabola_minima(less, here, more)
+    aside = find_parabola_minima(less, here, more)
     between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs_by_share(problem, every, moves), axis=0)
     return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(moves))])
 
 
-def parabola_minima(less: Array, here: Array, more: Array) -> Array:
+def find_parabola_minima(less: Array, here: Array, more: Array) -> Array:
     """Minima of parabolas through values at -1, 0 and 1; 0 where there is none."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         aside = 0.5 * (less - more) / (less - 2.0 * here + more)
@@ -164,13 +168,13 @@ def _costs_by_share(
 
 
 def _open_loop_errors(problem: PredictionErrorProblem, track: Track) -> Array:
-    """(n, 2) measured less simulated, without end where a simulation ran away."""
+    """(n, 2) measured minus simulated; infinite where a simulation diverged."""
     seen = track.sensor_readings
     away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
     return np.where(away, np.inf, problem.measured - seen)
 
 
-def rms_gap(errors: Array) -> Gap:
+def compute_rms_gap(errors: Array) -> Gap:
     """RMS of errors (n, 2); nan where nothing was measured."""
     if not errors.size:
         return Gap(0.0, 0.0)
@@ -180,8 +184,8 @@ def rms_gap(errors: Array) -> Gap:
     return Gap(float(velocity), float(position))
 
 
-def missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
-    """[1] share of the motion that a gap of so many noise floors amounts to."""
+def compute_missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
+    """[1] a gap, given in noise floors, as a share of the motion."""
     speeds = problem.measured[problem.moving, 1]
     size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
     return strays * problem.noise.velocity / max(size, 1e-300)

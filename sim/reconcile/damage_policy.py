@@ -26,7 +26,7 @@ WHOLE = ("sign-flip",)
 
 @dataclass(frozen=True)
 class DamageDecision:
-    """Which damage is cut out, and which is reported.
+    """Which damage is excluded from the fit, and which is only reported.
 
     Args:
         excluded: which log -> stretches that are left out.
@@ -36,7 +36,7 @@ class DamageDecision:
     excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
     reported: tuple[DamagedInterval, ...] = ()
 
-    def excluded_from(self, name: str) -> tuple[ExcludedInterval, ...]:
+    def list_excluded(self, name: str) -> tuple[ExcludedInterval, ...]:
         """The intervals of a log that are left out of the fit."""
         return self.excluded.get(name, ())
 

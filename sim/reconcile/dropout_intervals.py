@@ -20,7 +20,9 @@ from sim.reconcile.thresholds import (
 )
 
 
-def dropout_intervals(run: Run, *, start: float, end: float) -> tuple[tuple[float, float], ...]:
+def find_dropout_intervals(
+    run: Run, *, start: float, end: float
+) -> tuple[tuple[float, float], ...]:
     """Start and end times [s] to exclude; the whole interval where the motion did not react.
 
     Args:

@@ -12,18 +12,18 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import append_prior_rows
 from sim.physics.effect import ONSET
 from sim.physics.effects import EFFECTS
-from sim.reconcile.backward_elimination import separating_test
-from sim.reconcile.cross_validation import Gap, missed_motion
+from sim.reconcile.backward_elimination import find_separating_test
+from sim.reconcile.cross_validation import Gap, compute_missed_motion
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
     Evidence,
     JudgedEffect,
-    log_gap_ratio,
-    log_size,
-    log_strays,
-    probability_of,
-    rival_share,
+    compute_log_gap,
+    compute_log_ratio,
+    compute_log_size,
+    compute_probability,
+    compute_rival_share,
 )
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
@@ -94,8 +94,8 @@ def make_findings(
         effects = [
             one for one in effects if one.size == "major" or _narrows(rounds[one.effect], done[-1])
         ]
-    alone = {one.effect: one.gap for one in done[0].tried}
-    effects.sort(key=lambda one: -_expected_share_closed(told[one.effect], alone))
+    closed = _shares_closed(done)
+    effects.sort(key=lambda one: -one.probability * closed[one.effect])
     return tuple(sorted((*faults, *effects), key=_sort_key)), judged
 
 
@@ -110,40 +110,46 @@ def judge_effects(
 
     Args:
         problem: the measurements.
-        done: the base and the rounds.
-        left: what the last model leaves.
-        damaged: whether anything was set aside as damage.
+        done: the base model and the selection rounds.
+        left: residuals of the last model.
+        damaged: whether damaged intervals were excluded.
     """
     last = done[-1].candidate.estimate
     noises = done[-1].gap.velocity / problem.noise.velocity
-    if not missed_motion(noises, problem) <= LOST:  # no number at all is lost, too
+    if not compute_missed_motion(noises, problem) <= LOST:  # no number at all is lost, too
         return ()
     found = []
     for before, now in pairwise(done):
         name = now.candidate.effect
         if is_ordinary_size(name, last.values) or is_contradicted(name, problem, last, left):
             continue
-        with_, bare = gaps_with_and_without(now, done[-1])
+        with_, bare = compare_gaps(now, done[-1])
         added = before.candidate.score - now.candidate.score
         evidence = Evidence(
             likelihood=math.log(max(_removal_cost(before, now), 1.0)),
-            gap=log_gap_ratio(with_.velocity, bare.velocity),
-            size=log_size(name, last.values),
-            rival=rival_share(name, added, rival_scores(before, last.structure.effects, name)),
-            strays=log_strays(noises),
+            gap=0.5
+            * (
+                compute_log_ratio(with_.velocity, bare.velocity)
+                + compute_log_ratio(with_.position, bare.position)
+            ),
+            size=compute_log_size(name, last.values),
+            rival=compute_rival_share(
+                name, added, list_rival_scores(before, last.structure.effects, name)
+            ),
+            strays=compute_log_gap(noises),
             structure=float(left.has_structure),
             once=float(EFFECTS[name].has_onset),
             damaged=float(damaged and EFFECTS[name].has_onset),
         )
         found.append((name, now.rivals, evidence))
     return tuple(
-        JudgedEffect(name, rivals, whole, probability_of(whole))
+        JudgedEffect(name, rivals, whole, compute_probability(whole))
         for name, rivals, one in found
         for whole in [_compare(one, [other for _, _, other in found if other is not one])]
     )
 
 
-def rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
+def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
     """Candidate -> its score in the round of an effect, without other effects of the last model.
 
     Those explain something else: they are in the model beside it.
@@ -173,20 +179,25 @@ def _removal_cost(before: SelectionRound, now: SelectionRound) -> float:
     return now.removal_cost
 
 
-def _expected_share_closed(one: JudgedEffect, alone: Mapping[str, float]) -> float:
-    """[1] of the gap that an effect is expected to close: the largest is the most important.
+def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
+    """Effect -> [1] of the velocity gap that it closes: the largest is the most important.
 
     What it closes as the first effect and as the last one differs, so the geometric mean of both
-    counts, as in the Shapley value of two effects.
+    counts, as in the Shapley value of two effects. For an effect that was not tried alone, what it
+    closes as the last one counts.
 
     Args:
-        one: the effect.
-        alone: effect -> [1] of the base model's gap that it leaves alone. For one that was not
-            tried alone, what it closes as the last one counts.
+        done: the base and the rounds.
     """
-    last = one.evidence.gap
-    first = log_gap_ratio(alone[one.effect], 1.0) if one.effect in alone else last
-    return one.probability * (1.0 - math.exp(0.5 * (first + last)))
+    alone = {one.effect: one.gap for one in done[0].tried}
+    found = {}
+    for one in done[1:]:
+        name = one.candidate.effect
+        with_, bare = compare_gaps(one, done[-1])
+        last = compute_log_ratio(with_.velocity, bare.velocity)
+        first = compute_log_ratio(alone[name], 1.0) if name in alone else last
+        found[name] = 1.0 - math.exp(0.5 * (first + last))
+    return found
 
 
 def _classify_size(
@@ -203,7 +214,7 @@ def _classify_size(
     the one that closed most of it is major.
     """
     least = FAR_MAJOR if far else MAJOR
-    errors = standard_errors(problem, done[-1].candidate.estimate)
+    errors = compute_standard_errors(problem, done[-1].candidate.estimate)
     found = [
         _make_effect_finding(
             done[n - 1],
@@ -232,12 +243,12 @@ def _demote_unseen(one: Finding) -> Finding:
 
 def _narrows(added: SelectionRound, end: SelectionRound) -> bool:
     """Whether the last model's gap, of velocity and position, is narrower with an effect."""
-    with_, bare = gaps_with_and_without(added, end)
+    with_, bare = compare_gaps(added, end)
     product = with_.velocity * with_.position
     return product <= NARROWER**2 * bare.velocity * bare.position
 
 
-def gaps_with_and_without(added: SelectionRound, end: SelectionRound) -> tuple[Gap, Gap]:
+def compare_gaps(added: SelectionRound, end: SelectionRound) -> tuple[Gap, Gap]:
     """The gap of the last model, and of the same without one effect, refitted.
 
     Where the last model has one effect only, that is what its round brought.
@@ -273,7 +284,7 @@ def is_contradicted(
     return onset + KNOCK * problem.period < moment.start < onset + AFTER
 
 
-def reported_rounds(
+def select_reported_rounds(
     done: Sequence[SelectionRound], findings: Sequence[Finding]
 ) -> Sequence[SelectionRound]:
     """The rounds up to the last effect that is named or narrows the gap of other runs."""
@@ -298,7 +309,7 @@ def list_remarks(
     named = {one.effect for one in findings}
     unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
     rest = [name for name in structure.effects if name not in {*named, *unsure}]
-    kept = reported_rounds(done, findings)[-1].candidate.estimate.structure.effects
+    kept = select_reported_rounds(done, findings)[-1].candidate.estimate.structure.effects
     said = []
     if inside := [name for name in rest if name in kept]:
         what = " and ".join(inside)
@@ -341,7 +352,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     name = now.candidate.effect
     effect = EFFECTS[name]
     last = end.candidate.estimate
-    with_, bare = gaps_with_and_without(now, end)
+    with_, bare = compare_gaps(now, end)
     major = with_.velocity <= least * bare.velocity
     score = _removal_cost(before, now)
     parameters = {}
@@ -353,7 +364,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
             last.values[whole] * scale, None if error is None else error * scale,
             one.unit.format(u=per.symbol),
         )  # fmt: skip
-    tests = [test for rival in now.rivals if (test := separating_test(name, rival))]
+    tests = [test for rival in now.rivals if (test := find_separating_test(name, rival))]
     return Finding(
         effect=name, kind="effect", size="major" if major else "minor", ambiguous_with=now.rivals,
         parameters=parameters, gap_before=gap_before, gap_after=gap_after,
@@ -363,7 +374,7 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
     )  # fmt: skip
 
 
-def standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
+def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
     """Parameter -> standard error, from the Jacobian of the innovations."""
     table, _ = append_prior_rows(problem, point)
     size = np.linalg.norm(table, axis=0)

@@ -9,17 +9,17 @@ from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
-from sim.reconcile.cross_validation import missed_motion, validation_gap
+from sim.reconcile.cross_validation import compute_missed_motion, compute_validation_gap
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
     WIDENS,
     choose_simplest,
+    compare_scores,
+    explain_rejection,
     is_ordinary_size,
-    list_blocked,
+    list_blocked_candidates,
     list_rivals,
-    rejection_reason,
-    score_improvement,
     weigh_candidates,
 )
 from sim.reconcile.onset_scan import flip_duration, refine_onset
@@ -54,7 +54,7 @@ def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
         data: the measurements.
         base: the best point without effects.
     """
-    gap = validation_gap(data.problem, base, data.folds)
+    gap = compute_validation_gap(data.problem, base, data.folds)
     done = _continue_search(data, [SelectionRound(score_estimate(data.problem, base), gap, gap)])
     done = add_pair(data, done)
     done = choose_path(data, done)
@@ -97,12 +97,12 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
     spring until that is there, too. Such a pair has to close much of the gap.
     """
     now = done[-1]
-    found = list_blocked(now.candidates)
+    found = list_blocked_candidates(now.candidates)
     if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
         return done
     path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
-    narrows = closes and rejection_reason(path[-1].gap, now.gap, SURER) != WIDENS
+    narrows = closes and explain_rejection(path[-1].gap, now.gap, SURER) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
@@ -112,16 +112,16 @@ def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[Selecti
     best, problem = done, data.problem
     if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
         return best
-    for place, other in alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
+    for place, other in list_alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
         path = [*done[: place + 1], _next_round(done[place], other)]
         path = _continue_search(_on_another_path(data), path)
-        likelier = score_improvement(best[-1].candidate, path[-1].candidate) >= CLOSE
-        if likelier and rejection_reason(path[-1].gap, best[-1].gap, SURER) != WIDENS:
+        likelier = compare_scores(best[-1].candidate, path[-1].candidate) >= CLOSE
+        if likelier and explain_rejection(path[-1].gap, best[-1].gap, SURER) != WIDENS:
             best = path
     return best
 
 
-def alternative_paths(
+def list_alternative_paths(
     done: Sequence[SelectionRound], *, lost: bool
 ) -> list[tuple[int, WeighedCandidate]]:
     """Rounds in which another effect came close, and that effect.
@@ -150,7 +150,7 @@ def alternative_paths(
 
 
 def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """The same, and a round for each effect that narrows the gap."""
+    """The rounds, with one more for each effect that narrows the gap."""
     done = list(done)
     while len(done) <= MOST and not _is_dead_end(data.problem, done):
         data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
@@ -159,7 +159,7 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
         tried = tuple(one.report for one in weighed)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
-        admitted, quiet = admissible_candidates(weighed, most=MOST_QUIET - now.nuisance_effects)
+        admitted, quiet = select_admissible(weighed, most=MOST_QUIET - now.nuisance_effects)
         if quiet and not any(one.report.score > PART * quiet[0].report.score for one in admitted):
             one = quiet[0]
             if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
@@ -191,7 +191,7 @@ def _on_another_path(data: SelectionData) -> SelectionData:
     return replace(data, progress=lambda what, _: data.progress(what, BESIDE))
 
 
-def admissible_candidates(
+def select_admissible(
     weighed: Sequence[WeighedCandidate], *, most: int
 ) -> tuple[list[WeighedCandidate], list[WeighedCandidate]]:
     """Candidates that may be added next.
@@ -221,12 +221,12 @@ def admissible_candidates(
 
 
 def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
-    """Whether the model is lost, and has nothing to add to, or its last effect took little away.
+    """Whether a model misses most of the motion, and its last effect hardly improved that.
 
-    Of such a model nothing is told in the end, and it may take minutes to see four effects of it.
+    Nothing would be reported of such a model, and further effects would take minutes to try.
     """
     now = done[-1]
-    share = missed_motion(now.gap.velocity / problem.noise.velocity, problem)
+    share = compute_missed_motion(now.gap.velocity / problem.noise.velocity, problem)
     if share <= LOST:
         return False
     values = now.candidate.estimate.values
@@ -248,8 +248,8 @@ def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandid
         point = minimize(problem, near)
     if abs(candidate.estimate.cost - point.cost) < ENOUGH:
         return best
-    gap = validation_gap(problem, point, data.folds)
-    if rejection_reason(gap, best.gap, SURER) == WIDENS:
+    gap = compute_validation_gap(problem, point, data.folds)
+    if explain_rejection(gap, best.gap, SURER) == WIDENS:
         return best
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
 

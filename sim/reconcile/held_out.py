@@ -15,10 +15,10 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.run_nuisance import RunNuisance
 from sim.gap import Place
 from sim.reconcile.backlash_phase import estimate_backlash_phase
-from sim.reconcile.cross_validation import open_loop_errors, rms_gap
+from sim.reconcile.cross_validation import compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_map import map_residuals
-from sim.reconcile.selection_round import SelectionRound, reported_estimate
+from sim.reconcile.selection_round import SelectionRound, choose_reported_estimate
 from sim.reconcile.story import Chapter
 from sim.reconcile.thresholds import OTHER_MATTER
 
@@ -63,7 +63,7 @@ class HeldOutLog:
 
     @classmethod
     def choose(cls, recordings: Recordings) -> "HeldOutLog":
-        """The one that was used least: held out, else validation, else the log itself."""
+        """The log that was used least: held out, else validation, else the log itself."""
         name = next(one for one in HOW if one in recordings.logs_by_name)
         # numbers of one story have one unit
         log = replace(recordings.logs_by_name[name], units=recordings.log.units)
@@ -102,11 +102,11 @@ class HeldOutLog:
 
     @property
     def compared_samples(self) -> tuple[NDArray[np.bool_], ...]:
-        """A run -> (n,) its samples that count: where it moves, and nothing was set aside."""
+        """Per run, (n,) which samples are compared: it moves, and nothing is excluded."""
         return tuple(one.measurements.informative for one in self.problem.records)
 
-    def gap_places(self, base: Chapter) -> tuple[Place, ...]:
-        """Places where the base model's velocity is off, the most significant first."""
+    def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
+        """Places where the base model's velocity is wrong, the most significant first."""
         noise = self.problem.noise.velocity
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(TOLD, signal="velocity") if found else ()
@@ -115,25 +115,25 @@ class HeldOutLog:
         """Each model's gap and simulated runs."""
         return tuple(map(self._chapter, done))
 
-    def gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
-        """[owner's unit/s] effect -> the gap of the last model without it.
+    def measure_gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
+        """[owner's unit/s] effect -> the gap of the last model without this effect.
 
-        Where the rest of the model runs away without an effect, that of the model before it.
+        If the model diverges without an effect, the gap of the model before it.
         """
         found = {}
         for before, one in pairwise(done):
             gap = self._gap(one.without.estimate) if one.without else math.inf
-            gap = gap if math.isfinite(gap) else self._gap(reported_estimate(before))
+            gap = gap if math.isfinite(gap) else self._gap(choose_reported_estimate(before))
             found[one.candidate.effect] = gap
         return found
 
     def _gap(self, point: Estimate, nuisance: RunNuisance | None = None) -> float:
         nuisance = self._initial_nuisance(point) if nuisance is None else nuisance
-        errors = open_loop_errors(self.problem, point, nuisance)
-        return rms_gap(errors).velocity / find_unit(self.log.units).si
+        errors = compute_open_loop_errors(self.problem, point, nuisance)
+        return compute_rms_gap(errors).velocity / find_unit(self.log.units).si
 
     def _chapter(self, one: SelectionRound) -> Chapter:
-        point = reported_estimate(one)
+        point = choose_reported_estimate(one)
         model = point.structure.model(point.values)
         nuisance = self._initial_nuisance(point)
         gap = self._gap(point, nuisance)

@@ -25,7 +25,7 @@ from sim.reconcile.thresholds import (
 
 
 def check_logs(recordings: Recordings, *, travel: float | None) -> None:
-    """Refuse logs that cannot answer.
+    """Refuse logs that do not suffice to reconcile model and log.
 
     Args:
         recordings: the logs.

@@ -17,7 +17,7 @@ from sim.estimation.optimize import (
     tune_process_noise,
 )
 from sim.reconcile.backlash_phase import (
-    backlash_phase_prior,
+    compute_backlash_phase_prior,
     estimate_backlash_phase,
     halve_backlash,
 )
@@ -32,7 +32,7 @@ ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
 AGAIN = 6  # times that a point is settled at most
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 HALVED = 6  # times at most that play is halved
-Begun = tuple[float, Estimate]  # what a start promises, and where it begins
+Begun = tuple[float, Estimate]  # predicted improvement of a start, and the start
 
 
 def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -63,7 +63,7 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     if found[0].process_noise > AGITATED * calm:
         calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
         found.append(_alternate(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
-    best = min(found, key=total_cost)
+    best = min(found, key=compute_total_cost)
     return _tighten_backlash(problem, best) if point.structure.has_backlash else best
 
 
@@ -72,16 +72,16 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
     best = point
     for _ in range(HALVED):
         less = minimize(problem, halve_backlash(problem, point))
-        if not total_cost(less) < total_cost(best) + CLOSE:
+        if not compute_total_cost(less) < compute_total_cost(best) + CLOSE:
             break
         point = less
-        best = min(best, point, key=total_cost)
+        best = min(best, point, key=compute_total_cost)
     return point
 
 
-def total_cost(point: Estimate) -> float:
-    """[of -2 log L] of an estimate, with the priors of its nuisance parameters."""
-    return point.cost + backlash_phase_prior(point)
+def compute_total_cost(point: Estimate) -> float:
+    """-2 log L of an estimate, with the priors of its nuisance parameters."""
+    return point.cost + compute_backlash_phase_prior(point)
 
 
 def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -94,16 +94,16 @@ def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     return point
 
 
-def predicted_improvement(
+def rate_starts(
     problem: PredictionErrorProblem, point: Estimate, structure: ModelStructure,
     more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
 ) -> list[Begun]:  # fmt: skip
-    """What each start of a candidate may gain once the gains have adjusted, to second order.
+    """Estimates at a candidate's starts, each with its predicted decrease of -2 log L.
 
-    A start that goes too far, or the wrong way, as it may beside another effect that no start knows
-    of, is tried again at the size that would gain most, if what it does were proportional to it;
-    the best of all is halved while that promises more, for what does not act in proportion (free
-    play, a limit) and is smaller than every start.
+    The prediction lets the gains adjust, to second order. A start that is too large, or has the
+    wrong sign because of an effect that is missing, is tried again at the size that would improve
+    most if the effect were proportional to it. The best of all is halved while that improves the
+    prediction: effects that are not proportional (backlash, a limit) may be smaller than any start.
 
     Args:
         problem: the measurements.
@@ -122,19 +122,19 @@ def predicted_improvement(
             other = estimate_backlash_phase(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        return square - kept.residual_square(
+        return square - kept.compute_residual_square(
             problem.whiten(point, other.innovations)
-        ) - backlash_phase_prior(other), other
+        ) - compute_backlash_phase_prior(other), other
 
     now = problem.whiten(point, point.innovations)
-    square = kept.residual_square(now)
+    square = kept.compute_residual_square(now)
     found = []
     for one in more:
         gained, other = begun(one)
         if not math.isfinite(gained):
             continue
         change = problem.whiten(point, other.innovations) - now
-        along, size = kept.residual_products(change, now)
+        along, size = kept.compute_residual_products(change, now)
         part = -along / size if size > 0.0 else 0.0
         found.append((gained, other))
         if as_given or not _is_other_size_worthwhile(structure, part):
@@ -190,7 +190,7 @@ def _scale_start(
 
 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same values with the likeliest process noise of its whole range."""
+    """The estimate with the likeliest process noise of its whole range."""
     tried = [
         problem.evaluate(
             point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power

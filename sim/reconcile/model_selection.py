@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates
-from sim.reconcile.cross_validation import Gap, validation_gap
+from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
@@ -38,14 +38,14 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
     stop = data.out_of_time
     for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds, stop=stop):
         score = now.candidate.score - candidate.score
-        if score < required_improvement(candidate.effect):
+        if score < find_required_improvement(candidate.effect):
             tried = TriedCandidate(
                 candidate.effect, score, 1.0, admitted=False, why="explains too little"
             )
             found.append(WeighedCandidate(candidate, now.gap, tried))
             continue
-        gap = validation_gap(data.problem, candidate.estimate, data.folds)
-        why = rejection_reason(gap, now.gap, score)
+        gap = compute_validation_gap(data.problem, candidate.estimate, data.folds)
+        why = explain_rejection(gap, now.gap, score)
         if why == HARDLY and EFFECTS[candidate.effect].has_onset:
             why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
@@ -54,12 +54,12 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
     return [] if stop() else found  # a round that was cut short compares nothing
 
 
-def required_improvement(effect: str) -> float:
-    """[of -2 log L] by which a candidate has to improve the model."""
+def find_required_improvement(effect: str) -> float:
+    """Least decrease of -2 log L for which a candidate is added."""
     return ONCE if EFFECTS[effect].has_onset else SURE
 
 
-def rejection_reason(gap: Gap, before: Gap, score: float) -> str:
+def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
     """Why a candidate is not admitted; empty if it is."""
     if not math.isfinite(gap.velocity + gap.position):
         return WIDENS
@@ -132,8 +132,8 @@ def contains_effect(effect: str, other: str) -> bool:
     return bool(simpler)
 
 
-def list_blocked(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
-    """Candidates that improve the likelihood much and yet widen the gap of other runs.
+def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
+    """Candidates that are much likelier, but simulate other runs worse.
 
     It is not what is missing, or not alone: something is. What happens once is left out, of which
     other runs know nothing, and so is what any robot has a little of.
@@ -154,7 +154,7 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     return known.is_ordinary({name: values[f"{effect}.{name}"] for name in known.names})
 
 
-def score_improvement(now: Candidate, other: Candidate) -> float:
-    """[of -2 log L] by which one model is likelier than another."""
+def compare_scores(now: Candidate, other: Candidate) -> float:
+    """Decrease of -2 log L from one model to another, fewer parameters counted in."""
     fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
     return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)

@@ -78,7 +78,7 @@ def scan_onsets(
         kept: what the point adjusts to.
     """
     scan = _Scan(problem, point, effect, kept)
-    for kind in fixed_parameter_choices(effect):
+    for kind in list_fixed_choices(effect):
         likeliest = sorted(scan.scan_coarsely(kind), key=lambda one: -one.improvement)[:SHOWN]
         for one in map(scan.refine, likeliest):
             yield {
@@ -102,7 +102,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
             for record in problem.records
         ]
         over = min((end for end in ends if end > onset), default=LATER)
-        for kind, until in product(fixed_parameter_choices(effect), (over, LATER)):
+        for kind, until in product(list_fixed_choices(effect), (over, LATER)):
             changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
             values = {**point.values, **changed}
             if values != point.values:
@@ -132,7 +132,7 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     return point
 
 
-def fixed_parameter_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
+def list_fixed_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
     """Values of the parameters that the search keeps fixed, apart from onset times."""
     ends = {
         one.name: (one.least, one.most)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 
-from sim.physics.effects import EFFECTS
+from sim.physics.effects import EFFECTS, find_motion_class
 from sim.reconcile.thresholds import FEWEST_NOISES, MOST_NOISES, NARROWEST, SIZES
 
 FILE = Path(__file__).with_name("probability.json")
@@ -20,14 +20,16 @@ FILE = Path(__file__).with_name("probability.json")
 
 @dataclass(frozen=True)
 class Evidence:
-    """What the search measured of one effect.
+    """The measurements of one effect from which its probability is computed.
 
     Args:
         likelihood: ln of the -2 log L that the last model loses without it, at least 0.
-        gap: ln of the validation's velocity gap with it over that without it.
+        gap: ln of the validation's gap with it over that without it, geometric mean of velocity's
+            and position's.
         size: ln of its size over the largest that is everyday.
-        rival: score of the best other effect that lasts, over its own, in its round, 0 to 1.
-        strays: ln of the last model's gap in noises of a velocity.
+        rival: score of the best other effect that lasts, over its own, in its round, 0 to 1. What
+            is the same wherever the mechanism moves is no other effect.
+        strays: ln of the last model's gap in noise floors of the velocity.
         structure: 1 if the last model leaves more than noise, else 0.
         once: 1 if it begins at a moment, else 0.
         behind: ``likelihood`` less the largest of the other effects, 0 at most.
@@ -57,12 +59,12 @@ FEATURES = tuple(one.name for one in fields(Evidence))
 
 @dataclass(frozen=True)
 class JudgedEffect:
-    """An effect of the last model, and how likely it is right.
+    """An effect of the last model, and the probability that it is real.
 
     Args:
         effect: its name.
         ambiguous_with: other effects that would explain as much.
-        evidence: what was measured of it.
+        evidence: its measurements.
         probability: that it, or one of the others, is in the mechanism and not in the base model.
     """
 
@@ -72,8 +74,8 @@ class JudgedEffect:
     probability: float
 
 
-def probability_of(evidence: Evidence) -> float:
-    """[1] How likely an effect of which this was measured is right."""
+def compute_probability(evidence: Evidence) -> float:
+    """[1] probability that an effect is real, given its evidence."""
     weights = _read_coefficients()
     odds = weights["intercept"] + sum(
         weights[name] * value for name, value in zip(FEATURES, evidence.features, strict=True)
@@ -81,23 +83,23 @@ def probability_of(evidence: Evidence) -> float:
     return 1.0 / (1.0 + math.exp(-odds))
 
 
-def log_gap_ratio(with_: float, without: float) -> float:
+def compute_log_ratio(with_: float, without: float) -> float:
     """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
     return math.log(min(max(with_ / without, NARROWEST), 1.0 / NARROWEST))
 
 
-def log_strays(noises: float) -> float:
-    """Logarithm of a gap in noises, clipped to the range that matters.
+def compute_log_gap(noises: float) -> float:
+    """Logarithm of a gap in noise floors, clipped to the range that matters.
 
     Args:
-        noises: of it [noises of a velocity].
+        noises: [noise floors of the velocity] the gap.
     """
     return math.log(min(max(noises, FEWEST_NOISES), MOST_NOISES))
 
 
-def log_size(effect: str, values: Mapping[str, float]) -> float:
+def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
     """Logarithm of an effect's size over the largest ordinary size, clipped to ``SIZES``.
 
     Args:
@@ -125,19 +127,20 @@ def log_size(effect: str, values: Mapping[str, float]) -> float:
     return high
 
 
-def rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
+def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
     """[1] Score of the best other effect over an effect's own, 0 to 1.
 
     Args:
         effect: that was added.
-        score: [of -2 log L] by which it was likelier when it was.
-        tried: candidate of its round -> the same.
+        score: its decrease of -2 log L when it was added.
+        tried: candidate of its round -> the same decrease.
     """
     own = tried.get(effect, score)
     others = [
         other
         for name, other in tried.items()
-        if name != effect and (EFFECTS[effect].has_onset or not EFFECTS[name].has_onset)
+        if find_motion_class(name) != find_motion_class(effect)
+        and (EFFECTS[effect].has_onset or not EFFECTS[name].has_onset)
     ]
     return min(max(max(others, default=0.0) / max(own, 1.0), 0.0), 1.0)
 

@@ -10,7 +10,12 @@ from sim.core.log import Log, Run
 from sim.core.units import Unit, find_unit
 from sim.estimation.initial_guess import guess_gains
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.estimation.run_records import RunRecord, join_records, run_records, session_length
+from sim.estimation.run_records import (
+    RunRecord,
+    compute_session_length,
+    join_records,
+    make_run_records,
+)
 from sim.reconcile.damage_policy import DamageDecision
 
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
@@ -18,14 +23,14 @@ ORDER = ("log", "validation", "held_out")  # in which they were recorded
 
 @dataclass(frozen=True, eq=False)
 class Recordings:
-    """The logs of one mechanism.
+    """The logs of one mechanism that are reconciled with a model.
 
     Args:
         log: runs to fit.
         validation: runs by which effects are chosen, if given.
         held_out: runs on which the gap is shown, if given.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
-        damage: what is left out of each, by the names above.
+        damage: the excluded intervals of each log, by the names above.
     """
 
     log: Log
@@ -36,13 +41,13 @@ class Recordings:
 
     @property
     def logs_by_name(self) -> Mapping[str, Log]:
-        """Name -> log, of those that were given, in the order in which they were recorded."""
+        """Name -> log, in the order in which the logs were recorded."""
         logs = zip(ORDER, (self.log, self.validation, self.held_out), strict=True)
         return {name: log for name, log in logs if log is not None}
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit in which results are told: that of the first log."""
+        """The unit of all results: that of the first log."""
         return find_unit(self.log.units)
 
     @cached_property
@@ -67,7 +72,7 @@ class Recordings:
         return PredictionErrorProblem.from_records(self._records(name))
 
     def count_repeated_runs(self, name: str) -> int:
-        """How many runs of a log stand in those before it as well, sample by sample."""
+        """Number of a log's runs that also are in an earlier log, sample by sample."""
         if name not in self.logs_by_name:
             return 0
         known = [run for log in self._before(name) for run in log.runs]
@@ -83,11 +88,11 @@ class Recordings:
 
     def _records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
         """The runs of one log; its clock goes on where the log before it ended."""
-        return run_records(
+        return make_run_records(
             self.logs_by_name[name],
             session=session,
-            since=session_length(*self._before(name)),
-            aside=self.damage.excluded_from(name),
+            since=compute_session_length(*self._before(name)),
+            aside=self.damage.list_excluded(name),
         )
 
 

@@ -10,13 +10,13 @@ from sim.core.log import Array, Log, Run
 from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
 from sim.gap import GapMap, Residuals, map_gap
 
-FEWEST = 4  # samples of a run that is simulated, as ``run_records`` takes them
+FEWEST = 4  # samples of a run that is simulated, as ``make_run_records`` takes them
 
 
 def map_residuals(
     log: Log, tracks: Sequence[Array], *, compared: Sequence[NDArray[np.bool_]] = (), floor: float
 ) -> GapMap | None:
-    """What a simulation leaves of a log; None where there is nothing to compare, or it ran away.
+    """The binned residuals of a simulation; None if it diverged or nothing is compared.
 
     Args:
         log: that is shown.

@@ -1,4 +1,4 @@
-"""What every step of the selection works on: the measurements, and which runs predict which."""
+"""The data of every selection step: the measurements, and which runs predict which."""
 
 import math
 import time
@@ -19,7 +19,7 @@ class SelectionData:
         log: all runs that may be fitted.
         problem: the measurements of these.
         folds: which runs predict which.
-        progress: told what is done, and the share of it [1].
+        progress: called with a step's description and the share done [1].
         deadline: [s] of ``time.process_time`` after which the best model so far is taken.
     """
 
@@ -30,7 +30,7 @@ class SelectionData:
     deadline: float = math.inf
 
     def out_of_time(self) -> bool:
-        """Whether the deadline is over."""
+        """Whether the time limit has passed."""
         return time.process_time() > self.deadline
 
     def voltage_residual(self, point: Estimate) -> VoltageResidual:

@@ -58,7 +58,7 @@ class SelectionRound:
     candidates: tuple[WeighedCandidate, ...] = ()
 
 
-def reported_estimate(one: SelectionRound) -> Estimate:
+def choose_reported_estimate(one: SelectionRound) -> Estimate:
     """The estimate of a round that is shown to people."""
     plain = (
         one.reported_candidate

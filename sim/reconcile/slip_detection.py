@@ -42,11 +42,11 @@ from sim.reconcile.thresholds import (
 
 @dataclass(frozen=True, eq=False)
 class _Errors:
-    """What an open loop leaves of a run's velocity.
+    """The velocity residual of a run in an open-loop simulation.
 
     Args:
         record: the run.
-        left: (n,) measured less simulated.
+        left: (n,) measured minus simulated.
         speed: (n,) simulated.
         told: (n,) whether it is compared, and not at the very beginning or end.
         since: (n,) [s] since it moved.
@@ -96,7 +96,7 @@ def detect_slips(
 
 
 def _errors(problem: PredictionErrorProblem, point: Estimate) -> Iterator[tuple[int, _Errors]]:
-    """Which run -> what is left of it."""
+    """Index of a run -> its residual."""
     speeds = problem.simulate(point.structure.model(point.values), point.nuisance).seen
     near = max(round(SLIP_NEIGHBORHOOD / problem.period), 3)
     for number, (first, last) in enumerate(pairwise(problem.run_edges.tolist())):

@@ -78,7 +78,7 @@ def describe_effect(effect: str) -> str:
 
 
 def describe_size(one: Finding) -> str:
-    """How large a finding is and how likely it is right: ``major, 93 % likely``."""
+    """The size of a finding and its probability: ``major, 93 % likely``."""
     if one.kind == FAULT:
         return "damage to the log"
     if one.probability > ALMOST_SURE:
@@ -87,7 +87,7 @@ def describe_size(one: Finding) -> str:
 
 
 def describe_parameter(effect: str, parameter: str) -> str:
-    """What a parameter of an effect means; empty where nobody knows."""
+    """The meaning of an effect's parameter; empty if none is known."""
     known = EFFECTS[effect].parameters if effect in EFFECTS else ()
     return next((one.what for one in known if one.name == parameter), "")
 
@@ -113,7 +113,7 @@ def format_parameter(name: str, one: ParameterEstimate) -> str:
 
 
 def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
-    """What to look at on the robot, or to do: for a finding, and for each of its look-alikes."""
+    """Things to inspect on the robot: for a finding, and for effects that look alike."""
     if one.kind == FAULT:
         return (("What to do", one.inspect),)
     rivals = [(name, EFFECTS[name].inspect) for name in one.ambiguous_with if name in EFFECTS]
@@ -124,7 +124,7 @@ def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
 
 
 def list_next_tests(story: Story) -> tuple[str, ...]:
-    """Which tests to record next, each once; empty if none would tell more."""
+    """The tests to record next, each once; empty if none would help."""
     tests = dict.fromkeys(one.separating_test for one in story.findings if one.separating_test)
     return tuple(tests)
 

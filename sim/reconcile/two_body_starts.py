@@ -13,7 +13,7 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
-from sim.reconcile.local_minimum import Begun, predicted_improvement, total_cost
+from sim.reconcile.local_minimum import Begun, compute_total_cost, rate_starts
 from sim.reconcile.thresholds import SURE
 
 SLOW = "quasistatic"  # tests that say little of them
@@ -66,7 +66,7 @@ class TwoBodyStarts:
         tried = list(more)
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
-        begun = predicted_improvement(self.problem, self.point, structure, tried, kept=self.kept)
+        begun = rate_starts(self.problem, self.point, structure, tried, kept=self.kept)
         gone = self._find_step(_best_of_each(begun, effect))
         for most in GO_ON:
             gone = self._find_step(_one_per_valley(gone, names)[:most])
@@ -81,7 +81,7 @@ class TwoBodyStarts:
         return [levenberg_marquardt(self.problem, one, steps=1) for one in points]
 
     def _gain(self, point: Estimate) -> float:
-        return self.point.cost - total_cost(point)
+        return self.point.cost - compute_total_cost(point)
 
 
 def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
@@ -96,7 +96,7 @@ def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
 def _one_per_valley(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
     """The likeliest first, one of each valley."""
     found: list[Estimate] = []
-    for one in sorted(points, key=total_cost):
+    for one in sorted(points, key=compute_total_cost):
         if not any(_same(one, other, names) for other in found):
             found.append(one)
     return found

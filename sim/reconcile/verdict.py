@@ -6,8 +6,8 @@ from itertools import permutations
 
 from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.reconcile.cross_validation import missed_motion
-from sim.reconcile.model_selection import contains_effect, list_blocked
+from sim.reconcile.cross_validation import compute_missed_motion
+from sim.reconcile.model_selection import contains_effect, list_blocked_candidates
 from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidual
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
@@ -32,7 +32,7 @@ def reach_verdict(
     strays, before = (
         gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].gap_before)
     )
-    share = missed_motion(strays, problem)
+    share = compute_missed_motion(strays, problem)
     if not share <= LOST:
         remains = (
             f"The last model misses {share:.0%} of the motion on runs it was not fitted to, so "
@@ -79,7 +79,7 @@ def _describe_remainder(
             f"The last model misses the log by {strays:.1f} times the noise of the velocity, "
             "and no effect in the catalogue makes that smaller."
         )
-    if likely := list_blocked(done[-1].candidates):
+    if likely := list_blocked_candidates(done[-1].candidates):
         return (
             f"With {likely[0].candidate.effect} the model fits this log far better, but "
             "predicts other runs worse: something else is missing, or more than one thing."

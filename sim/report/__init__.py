@@ -40,7 +40,7 @@ class Report:
 
     Args:
         title: where the log came from.
-        found: the fit, in the unit to show; its doubts are those that are told.
+        found: the fit, in the unit to show, with the doubts to show.
         log: what it was fitted to.
         preset: the motor controller that ``tried`` is for.
         tried: feedback gains on trial; empty if there are none.

@@ -18,7 +18,7 @@ from sim.fit import Fit
 from sim.report.robot_code_snippet import (
     ORDER,
     SPELLINGS,
-    class_name,
+    make_class_name,
     refuse_impossible_gains,
     round_to_error,
 )
@@ -29,7 +29,7 @@ TURN = 2.0 * math.pi  # [rad]
 
 @dataclass(frozen=True)
 class Conversion:
-    """How many units of the log are one unit of the target.
+    """The factor from units of the log to units of the target.
 
     Args:
         name: the Java constant that holds it.
@@ -44,7 +44,7 @@ class Conversion:
 
 @dataclass(frozen=True)
 class Target:
-    """Something that takes gains.
+    """A motor controller or a library that takes gains.
 
     Args:
         name: as people say it, with the release it was checked against.
@@ -95,7 +95,7 @@ def write_controller_code(
             advice="Fit the log of the drive motors with --type simple.",
         )
     converted = convert_units(found, chosen.unit, radius=radius)
-    class_ = class_name(name or found.type)
+    class_ = make_class_name(name or found.type)
     return "\n".join(
         (
             *(f"import {one};" for one in chosen.imports(found, season)),

@@ -10,8 +10,8 @@ from sim.core.log import Log
 from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
 from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
-from sim.fit.result import Fit, gain_unit
-from sim.report.gain_verdicts import gain_verdict
+from sim.fit.result import Fit, format_gain_unit
+from sim.report.gain_verdicts import write_gain_verdict
 
 FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
 
@@ -24,7 +24,6 @@ def show_fit(
     log: Log | None = None,
     tried: Sequence[FeedbackTrial] = (),
     notes: Sequence[str] = (),
-    console: Console | None = None,
 ) -> None:
     """Print what is wrong, a verdict, gains with errors and units, feedback gains, and doubts.
 
@@ -35,15 +34,14 @@ def show_fit(
         log: what it was fitted to, for the advice in the verdict.
         tried: feedback gains on trial, with their doubts among the fit's.
         notes: what is well, a sentence each.
-        console: where to print; standard output if None.
     """
-    console = console or Console(soft_wrap=True, highlight=False)
+    console = Console(soft_wrap=True, highlight=False)
     per = find_unit(found.units)
-    doubts = found.doubts if tried else found.all_doubts(preset)
+    doubts = found.doubts if tried else found.list_doubts(preset)
     for doubt in doubts:
         if doubt.grave:
             console.print(f"wrong: {doubt.message}", style="bold")
-    console.print(f"Verdict: {gain_verdict(found, log)}", style="bold")
+    console.print(f"Verdict: {write_gain_verdict(found, log)}", style="bold")
     console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     rows.add_column("gain")
@@ -80,7 +78,7 @@ def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
             "angle" if name == "offset_rad" else name,
             _digits(value, found.errors.get(name, math.nan)),
             format_error(value, found.errors.get(name, math.nan)),
-            gain_unit(name, per),
+            format_gain_unit(name, per),
         )
         for name, value in found.gains.items()
     ]
@@ -102,7 +100,7 @@ def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) ->
 
 
 def format_error(value: float, error: float) -> str:
-    """The error, or that it is below what matters on a robot, or that nobody recognizes it."""
+    """A standard error as text: a number, ``not known``, or that it is negligible."""
     if not math.isfinite(error):
         return "not known"
     return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"

@@ -23,7 +23,7 @@ ANGLE = 0.05  # [rad] the same for an arm's angle
 SMALL_STEP = 3.0  # [V] a dynamic test below it hardly rises above friction
 
 
-def gain_verdict(found: Fit, log: Log | None = None) -> str:
+def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
     """The sentence about all gains of a fit.
 
     Args:

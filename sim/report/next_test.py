@@ -15,7 +15,7 @@ from sim.core.vocabulary import FOUR_TESTS
 from sim.fit.result import Fit
 from sim.inspect.detect_faults import Inspection
 from sim.inspect.fault import Damage
-from sim.inspect.launch import step_start
+from sim.inspect.launch import find_step_start
 from sim.report.gain_verdicts import list_gain_advice
 
 SETTLES = 3.0  # [timescales] in which a step has almost reached its speed, as the lessons plan it
@@ -26,7 +26,7 @@ ENOUGH = "Enough: every gain is usable."
 
 
 def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Sequence[str]) -> str:
-    """What to do next.
+    """Advice about the next test, in one sentence.
 
     Args:
         log: all runs so far, in the order they were recorded.
@@ -54,8 +54,8 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
 
 
 def list_missing_tests(log: Log) -> tuple[str, ...]:
-    """Those of the four tests of SysId of which a log has no run."""
-    return tuple(test for test in FOUR_TESTS if not log.runs_of_test(test))
+    """The tests of SysId's four of which a log has no run."""
+    return tuple(test for test in FOUR_TESTS if not log.list_runs_of_test(test))
 
 
 def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspection) -> str:
@@ -83,7 +83,7 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
 
 
 def find_voltage_limit(run: Run) -> tuple[float, float] | None:
-    """How long a limit held the voltage of a step down after it came on, and to what at first.
+    """Duration and first voltage of a limit at the start of a step; None without one.
 
     The command of a step is constant. Where the voltage at the motor is lower at first, by as much
     as would make a step of the command (``LEAST_STEP``), the current was limited or the battery
@@ -94,7 +94,7 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
     """
     if run.kind != "dynamic" or not len(run):
         return None
-    first = step_start(run)
+    first = find_step_start(run)
     size = np.abs(run.voltage[first:])
     free = size > (1.0 - LEAST_STEP) * np.percentile(size, 90)
     count = int(np.argmax(free))
@@ -105,11 +105,11 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
 
 def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
     """Advice for a step that ended at a stop: how soon, and a step that settles before it."""
-    first = step_start(run)
+    first = find_step_start(run)
     after = max(stop.where.start - float(run.time[first]), 0.0)
     most = float(np.abs(run.voltage).max())
     way = abs(float(np.interp(stop.where.start, run.time, run.position) - run.position[first]))
-    volts = 0.5 * most if found is None else settled_step(found.gains, way)
+    volts = 0.5 * most if found is None else find_settled_step(found.gains, way)
     volts = min(volts, 0.5 * most) if not 0.0 < volts < most else volts
     return (
         f"{run.test} reached its end after {after * 1000.0:.0f} ms. Repeat it with "
@@ -117,8 +117,8 @@ def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
     )
 
 
-def settled_step(gains: Mapping[str, float], way: float) -> float:
-    """[V] the largest step that has almost reached its speed within some way.
+def find_settled_step(gains: Mapping[str, float], way: float) -> float:
+    """[V] largest step that almost reaches its speed within a distance.
 
     From rest, x(t) = v·(t - τ·(1 - exp(-t/τ))) with τ = kA/kV and v = (V - kS)/kV, solved for V at
     t = ``SETTLES``·τ.

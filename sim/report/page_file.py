@@ -37,7 +37,7 @@ def _shown(value: object) -> object:
 
 
 def choose_page_path(path: str | os.PathLike[str]) -> Path:
-    """Where a page goes.
+    """The path that a page is written to.
 
     Raises:
         BadRequest: its name does not end as a page's.

@@ -25,7 +25,7 @@ PERIOD = 1e3 * PRESETS["default"].period  # [ms] between the two velocities, WPI
 
 @dataclass(frozen=True)
 class Language:
-    """How a language writes things down; the words in braces are filled in."""
+    """Templates of one language; the words in braces are filled in."""
 
     comment: str
     indent: str
@@ -40,7 +40,7 @@ class Language:
 
 @dataclass(frozen=True)
 class Spelling:
-    """What a season's WPILib calls things.
+    """The names in one season's WPILib.
 
     Args:
         module: where the feedforward classes are.
@@ -127,7 +127,7 @@ def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str
     spelling = _spelling(language, season)
     refuse_impossible_gains(found)
     write = LANGUAGES[language]
-    class_ = class_name(name or found.type)
+    class_ = make_class_name(name or found.type)
     cls = CLASSES.get(found.type) or (
         write.angular if find_unit(found.units).angular else write.linear
     )
@@ -193,8 +193,8 @@ def refuse_impossible_gains(found: Fit) -> None:
             )
 
 
-def class_name(name: str) -> str:
-    """The class of a mechanism's gains: ``LeftDriveGains`` of ``left drive``.
+def make_class_name(name: str) -> str:
+    """The class name for a mechanism's gains: ``LeftDriveGains`` of ``left drive``.
 
     Raises:
         BadRequest: the name has no letter in front.
@@ -227,7 +227,7 @@ def _constants(found: Fit, write: Language) -> Iterator[str]:
     shown = found.in_units("radians") if found.type == "arm" else found
     for gain in ORDER[found.type]:
         error = shown.errors.get(gain, math.nan)
-        yield _line(write, gain, shown.gains[gain], error, shown.gain_unit(gain))
+        yield _line(write, gain, shown.gains[gain], error, shown.format_gain_unit(gain))
     if found.type != "arm":
         return
     reading = "measured"

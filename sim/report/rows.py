@@ -8,7 +8,12 @@ from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.feedback import PRESETS, Preset
 from sim.fit import Fit
-from sim.fit.feedback_trial import SUGGESTED, FeedbackTrial, feedback_delay, try_feedback_gains
+from sim.fit.feedback_trial import (
+    SUGGESTED,
+    FeedbackTrial,
+    choose_feedback_delay,
+    try_feedback_gains,
+)
 from sim.plot.table import to_text
 from sim.report.fit_terminal import format_error
 from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, write_robot_code
@@ -70,7 +75,7 @@ def make_gain_rows(found: Fit) -> list[Gain]:
                 _minus(round_to_error(value, error)),
                 format_error(value, error),
                 _minus(between),
-                found.gain_unit(name),
+                found.format_gain_unit(name),
                 MEANS[name],
             )
         )
@@ -78,7 +83,7 @@ def make_gain_rows(found: Fit) -> list[Gain]:
 
 
 def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
-    """How well the gains explain the log: name, number, what it says."""
+    """Rows about the goodness of fit: name, number, and what it means."""
     per = find_unit(found.units).symbol
     rows = [
         (
@@ -124,7 +129,7 @@ def make_controller_rows(found: Fit) -> list[ControllerRow]:
             if trial.owner == SUGGESTED
         }
         if {"velocity", "position"} <= set(tried):
-            delays = {1000.0 * feedback_delay(found, preset, loop=loop) for loop in tried}
+            delays = {1000.0 * choose_feedback_delay(found, preset, loop=loop) for loop in tried}
             rows.append(
                 ControllerRow(
                     preset.name,

@@ -24,12 +24,12 @@ from sim.reconcile.story_text import (
 COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
 PLACES = 5  # that are told
 
-Told = Callable[[str, float], None]
+ShowStep = Callable[[str, float], None]
 
 
 @contextmanager
-def show_progress() -> Iterator[Told]:
-    """A progress bar on the terminal; it takes a step's words and the share that is done.
+def show_progress() -> Iterator[ShowStep]:
+    """A progress bar on the terminal; yields a function of a step's text and the share done.
 
     Where nobody watches it is not drawn.
     """
@@ -44,7 +44,7 @@ def show_progress() -> Iterator[Told]:
 
 
 def show_story(story: Story, *, title: str, console: Console | None = None) -> None:
-    """Print the verdict, then what it rests on.
+    """Print the verdict, then the findings and gaps behind it.
 
     Args:
         story: what was found.

@@ -1,1 +1,1 @@
-"""What is no system identification: files, processes, terminals, catalogues."""
+"""Files, processes, terminals and catalogues: nothing about system identification."""

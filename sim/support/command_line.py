@@ -57,7 +57,7 @@ def run_command(
 
 
 def print_error(said: str, *, name: str) -> None:
-    """One line to standard error.
+    """Print one line to standard error.
 
     Args:
         said: the line; line breaks in it become spaces.

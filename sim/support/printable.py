@@ -1,6 +1,7 @@
-"""Make text from strangers safe to display."""
+"""Text to display: safe if it comes from strangers, short if it is a list."""
 
 import unicodedata
+from collections.abc import Sequence
 
 KEPT = "\n\t"
 DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
@@ -21,6 +22,12 @@ def make_printable(text: str) -> str:
     if text.isprintable():
         return text
     return "".join(INSTEAD if _commands(sign) else sign for sign in text)
+
+
+def list_first(names: Sequence[str], *, most: int, separator: str = ", ") -> str:
+    """Text with the first of many names, and how many more there are."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return separator.join(names[:most]) + more
 
 
 def _commands(sign: str) -> bool:

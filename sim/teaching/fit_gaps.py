@@ -19,7 +19,7 @@ Solved = Callable[[float, float, float], object]
 
 @dataclass(frozen=True)
 class FilledGaps:
-    """The lines of a fit: the learner's where they are right, ours where they are not.
+    """The lines of a fit: the learner's if they are right, ours if not.
 
     Args:
         left: voltage, velocity, acceleration, each (n,) -> (n,) what stands on the left side.
@@ -92,7 +92,7 @@ def _in_order(gains: object) -> object:
 
 
 def judge_gap(answer: Callable[[], object], expected: object, hint: str) -> str:
-    """What is said to one gap of a learner: right, still empty, or not yet with a hint."""
+    """The feedback to one gap of a learner: right, still empty, or not yet with a hint."""
     try:
         found = answer()
         if found is ... or (isinstance(found, list | tuple) and any(one is ... for one in found)):

@@ -30,7 +30,7 @@ class Prediction:
 
     @property
     def value(self) -> str | None:
-        """What was chosen; None as long as nothing was."""
+        """The chosen answer; None as long as nothing was chosen."""
         chosen: str | None = self._buttons.value
         return chosen
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sim.bench.mechanism import Mechanism
-from sim.bench.simulate import power_path_arrays
+from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.physics.engine import State as Body
@@ -75,7 +75,7 @@ class TrapezoidProfile:
 
     @property
     def duration(self) -> float:
-        """[s]."""
+        """[s] duration of the move."""
         return abs(self.goal - self.start) / self.top_speed + self.top_speed / self.max_acceleration
 
     def calculate(self, time: float) -> Setpoint:
@@ -113,7 +113,7 @@ class ElevatorFeedforward:
     period: float = LOOP
 
     def calculateWithVelocities(self, current: float, following: float) -> float:  # noqa: N802 - WPILib's name
-        """[V] that bring the mechanism from one velocity to the next in a period.
+        """[V] voltage that takes the mechanism from one velocity to the next in a period.
 
         kS gets the sign of the current velocity: from rest there is none in the first loop.
 
@@ -149,7 +149,7 @@ class PIDController:
         self._total, self._last = 0.0, 0.0
 
     def calculate(self, measurement: float, setpoint: float) -> float:
-        """[V] for the error of one loop.
+        """[V] output of the controller in one loop.
 
         Args:
             measurement: [m or rad] measured position.
@@ -166,7 +166,7 @@ class PIDController:
 
 @dataclass(frozen=True)
 class LoopInput:
-    """What a controller knows in one loop.
+    """The values that a controller knows in one loop.
 
     Args:
         now: what the profile asks for now.
@@ -183,13 +183,13 @@ class LoopInput:
 
 @dataclass(frozen=True, eq=False)
 class FollowedMove:
-    """A move as it went, loop by loop.
+    """A simulated move, loop by loop.
 
     Args:
         time: (n,) [s].
-        target: (n,) [m or rad] asked for.
+        target: (n,) [m or rad] target position.
         position: (n,) [m or rad] reached.
-        voltage: (n,) [V] asked for from each time on.
+        voltage: (n,) [V] command from each time on.
     """
 
     time: Array
@@ -219,14 +219,14 @@ def follow_in_closed_loop(
 
     Args:
         mechanism: the bench's, with its hidden effects, between its stops.
-        profile: what is asked for.
+        profile: the desired motion.
         volts: the controller, called once each loop; its answer is held until the next.
         period: [s] of the loop: ``LOOP`` in a robot program, ``ONBOARD`` in a motor controller.
 
     Raises:
         BadRequest: the controller answers with no finite number.
     """
-    model, wires = mechanism.model, power_path_arrays(mechanism)
+    model, wires = mechanism.model, make_power_path_array(mechanism)
     body = Body.cold_at(profile.start)
     count = math.ceil((profile.duration + STILL) / period)
     position, velocity, asked = [profile.start], [0.0], []
@@ -262,19 +262,19 @@ OURS = " The next cells use our loop until then."
 
 @dataclass(frozen=True)
 class CheckedLoop:
-    """A learner's loop, and what was found.
+    """A learner's loop, and the feedback to it.
 
     Args:
-        volts: the learner's loop where it is right, ours where it is not.
-        report: one line.
+        loop: the learner's feedback function if it is right, else ours.
+        report: the feedback to it, one line.
     """
 
-    volts: Loop
+    loop: Loop
     report: str
 
 
-def feedforward_and_feedback(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
-    """[V] of the loop that lesson 8 asks for."""
+def compute_loop_voltage(ff: ElevatorFeedforward, pid: PIDController, one: LoopInput) -> float:
+    """[V] output of the loop that lesson 8 asks for: feedforward plus feedback."""
     forward = ff.calculateWithVelocities(one.now.velocity, one.after.velocity)
     return forward + pid.calculate(one.position, one.now.position)
 
@@ -289,19 +289,19 @@ def check_loop(mine: Callable[..., object]) -> CheckedLoop:
         answer = mine(*_controllers(), EXAMPLE)
         if answer is ... or answer is None:
             said = "Your loop: still empty. Put your answer in place of the three dots."
-            return CheckedLoop(feedforward_and_feedback, said + OURS)
+            return CheckedLoop(compute_loop_voltage, said + OURS)
         found = float(answer)  # type: ignore[arg-type]  # whatever it is, the next lines say so
     except Exception as error:  # noqa: BLE001 - a learner's line may fail in any way
         said = f"Your loop: it stops with an error: {error}."
-        return CheckedLoop(feedforward_and_feedback, said + OURS)
-    wanted = feedforward_and_feedback(*_controllers(), EXAMPLE)
+        return CheckedLoop(compute_loop_voltage, said + OURS)
+    wanted = compute_loop_voltage(*_controllers(), EXAMPLE)
     if math.isclose(found, wanted, rel_tol=CLOSE):
         return CheckedLoop(mine, RIGHT)  # type: ignore[arg-type]  # judged to answer with a number
     hint = next(
         (says for value, says in _wrong_loops() if math.isclose(found, value, rel_tol=CLOSE)),
         "Add two things: ff.calculateWithVelocities(…) and pid.calculate(…).",
     )
-    return CheckedLoop(feedforward_and_feedback, f"Your loop: not yet. {hint}{OURS}")
+    return CheckedLoop(compute_loop_voltage, f"Your loop: not yet. {hint}{OURS}")
 
 
 def _controllers() -> tuple[ElevatorFeedforward, PIDController]:
@@ -352,10 +352,10 @@ def _wrong_loops() -> list[tuple[float, str]]:
     ]
 
 
-def phoenix_volts(
+def compute_phoenix_voltage(
     gains: Mapping[str, float], one: LoopInput, *, meters_per_rotation: float
 ) -> float:
-    """[V] of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
+    """[V] output of Motion Magic with the gains of ``Slot0Configs``, in a loop of ``ONBOARD``.
 
     Args:
         gains: kS and kG [V], kV [V per rot/s], kA [V per rot/s²], kP [V per rot], all per rotation

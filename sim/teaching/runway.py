@@ -15,7 +15,7 @@ import numpy as np
 
 from sim.bench.mechanism import Mechanism
 from sim.bench.routine import Routine
-from sim.bench.simulate import power_path_arrays
+from sim.bench.simulate import make_power_path_array
 from sim.core.errors import BadRequest
 from sim.core.log import Array
 from sim.physics.engine import State, simulate_run
@@ -112,7 +112,7 @@ def drive_test(mechanism: Mechanism, routine: Routine, *, test: str, floor: Floo
         time=asked,
         voltage=np.array([routine.command_voltage(test, t) for t in asked.tolist()]),
         state=State(),
-        wires=power_path_arrays(mechanism),
+        wires=make_power_path_array(mechanism),
     )
     on = _until_released(track.position, floor)
     way, speed = _braked(

@@ -20,13 +20,16 @@ Formula = Callable[..., object]
 
 @dataclass(frozen=True)
 class FilledFormulas:
-    """The formulas: the learner's where they are right, ours where they are not.
+    """The formulas: the learner's if they are right, ours if not.
 
     Args:
-        radius: [rad] of the robot, [m] lever, turns of the wheel -> [m].
-        inertia: [kg] mass, [m] lever, kA turning, kA straight -> [kg·m²].
-        grip: [N·m] of a motor, gear ratio, [m] radius, [kg] mass -> [1].
-        report: what was found, one line for each formula.
+        radius: function of robot rotation [rad], lever arm [m] and turns of the wheel; the radius
+            of the wheel [m].
+        inertia: function of mass [kg], lever arm [m], kA of turning and kA of straight motion; the
+            moment of inertia [kg·m²].
+        grip: function of motor torque [N·m], gear ratio, wheel radius [m] and mass [kg]; the
+            coefficient of friction [1].
+        report: the feedback, one line for each formula.
     """
 
     radius: Callable[[float, float, float], float]
@@ -36,12 +39,12 @@ class FilledFormulas:
 
 
 def compute_radius(turned: float, lever: float, wheel_turns: float) -> float:
-    """[m] of a wheel that rolled on a circle around the middle of the robot."""
+    """[m] radius of a wheel that rolled on a circle around the middle of the robot."""
     return turned * lever / (2.0 * math.pi * wheel_turns)
 
 
 def compute_inertia(mass: float, lever: float, ka_turning: float, ka_straight: float) -> float:
-    """[kg·m²] of a robot, from the kA of turning on the spot and of going straight."""
+    """[kg·m²] moment of inertia of a robot, from kA of turning on the spot and going straight."""
     return mass * lever * ka_turning / ka_straight
 
 

@@ -1,6 +1,6 @@
 """Wrong answers to exercise 11, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, change_number, set_answer
+from grader.mistake import Mistake, change_number, make_wrong_answer
 
 ANSWERS = "answers.toml"
 
@@ -8,16 +8,26 @@ ANSWERS = "answers.toml"
 def chose(name: str, words: str, says: str, code: str = "") -> Mistake:
     """A wrong option, chosen by its first words: letters are everybody's own."""
     check = name.lower().replace("_", "-")
-    return Mistake(f"{name}: {words}", ANSWERS, set_answer(name, f'"{words}"'), check, says, code)
+    return Mistake(
+        f"{name}: {words}", ANSWERS, make_wrong_answer(name, f'"{words}"'), check, says, code
+    )
 
 
 MISTAKES = (
-    Mistake("nothing chosen", ANSWERS, set_answer("KC1_answer", '""'), "kc1-answer", "nothing yet"),
-    Mistake("a number", ANSWERS, set_answer("KC1_answer", "1"), "kc1-answer", "not a letter"),
+    Mistake(
+        "nothing chosen",
+        ANSWERS,
+        make_wrong_answer("KC1_answer", '""'),
+        "kc1-answer",
+        "nothing yet",
+    ),
+    Mistake(
+        "a number", ANSWERS, make_wrong_answer("KC1_answer", "1"), "kc1-answer", "not a letter"
+    ),
     Mistake(
         "a letter too far",
         ANSWERS,
-        set_answer("KC1_answer", '"z"'),
+        make_wrong_answer("KC1_answer", '"z"'),
         "kc1-answer",
         "of your questions.md: a",
     ),
@@ -89,35 +99,35 @@ MISTAKES = (
     Mistake(
         "no test for the drivetrain",
         ANSWERS,
-        set_answer("drivetrain", '"usually not"'),
+        make_wrong_answer("drivetrain", '"usually not"'),
         "decision-drivetrain",
         "autonomous path",
     ),
     Mistake(
         "a shooter that may be guessed",
         ANSWERS,
-        set_answer("shooter", '"optional"'),
+        make_wrong_answer("shooter", '"optional"'),
         "decision-shooter",
         "3 % too slow",
     ),
     Mistake(
         "always, without a reason that carries it",
         ANSWERS,
-        set_answer("conveyor", '"always"'),
+        make_wrong_answer("conveyor", '"always"'),
         "decision-conveyor",
         "do better",
     ),
     Mistake(
         "a word that is none",
         ANSWERS,
-        set_answer("arm", '"maybe"'),
+        make_wrong_answer("arm", '"maybe"'),
         "decision-arm",
         "Choose one of: always, recommended, optional, usually not",
     ),
     Mistake(
         "no reason",
         ANSWERS,
-        set_answer("climber_reason", '""'),
+        make_wrong_answer("climber_reason", '""'),
         "reason-climber",
         "letter of a reason",
     ),

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, set_answer
+from grader.mistake import Mistake, make_wrong_answer
 
 ANSWERS = "answers.toml"
 LINE = re.compile(r"^(?P<name>[a-z-]+\.\w+) = (?P<value>[-+.\de]+)$", re.MULTILINE)
@@ -40,15 +40,23 @@ def gaps_swapped(text: str) -> str:
     )
     if before is None or after is None:
         raise ValueError("the solution has no gaps")
-    return set_answer("gap_before", after[1])(set_answer("gap_after", before[1])(text))
+    return make_wrong_answer("gap_before", after[1])(
+        make_wrong_answer("gap_after", before[1])(text)
+    )
 
 
 MISTAKES = (
-    Mistake("no effect named", ANSWERS, set_answer("effects", "[]"), "first-effect", "nothing yet"),
+    Mistake(
+        "no effect named",
+        ANSWERS,
+        make_wrong_answer("effects", "[]"),
+        "first-effect",
+        "nothing yet",
+    ),
     Mistake(
         "kA fixes it",
         ANSWERS,
-        set_answer("effects", '["kA"]'),
+        make_wrong_answer("effects", '["kA"]'),
         "first-effect",
         "hides the missing effect",
     ),
@@ -65,7 +73,7 @@ MISTAKES = (
     Mistake(
         "a word of one's own",
         ANSWERS,
-        set_answer("effects", '["air resistance"]'),
+        make_wrong_answer("effects", '["air resistance"]'),
         "first-effect",
         "sysid effects lists the names",
     ),
@@ -132,7 +140,7 @@ MISTAKES = (
     Mistake(
         "no gaps written down",
         ANSWERS,
-        set_answer("gap_after", '""'),
+        make_wrong_answer("gap_after", '""'),
         "held-out",
         "gap_after: nothing",
     ),
@@ -146,7 +154,7 @@ MISTAKES = (
     Mistake(
         "a gap below what noise allows",
         ANSWERS,
-        set_answer("gap_after", "0.2"),
+        make_wrong_answer("gap_after", "0.2"),
         "held-out",
         "not the gap of your model",
     ),

@@ -6,9 +6,9 @@ from grader.mistake import (
     Mistake,
     change_number,
     exchange_numbers,
+    make_wrong_answer,
     replace_text,
     scale_numbers,
-    set_answer,
 )
 
 ANSWERS = "answers.toml"
@@ -18,11 +18,11 @@ MODULES = ("front-left", "front-right", "back-left", "back-right")
 def another_module(text: str) -> str:
     """The module after the right one."""
     right = next(name for name in MODULES if f'worn = "{name}"' in text)
-    return set_answer("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
+    return make_wrong_answer("worn", f'"{MODULES[MODULES.index(right) - 1]}"')(text)
 
 
 MISTAKES = (
-    Mistake("nothing for kV", ANSWERS, set_answer("kV", '""'), "kv", "nothing yet"),
+    Mistake("nothing for kV", ANSWERS, make_wrong_answer("kV", '""'), "kv", "nothing yet"),
     Mistake(
         "velocity per minute",
         ANSWERS,
@@ -48,7 +48,11 @@ MISTAKES = (
     ),
     Mistake("another module", ANSWERS, another_module, "worn", "turns more often over the same"),
     Mistake(
-        "a module there is not", ANSWERS, set_answer("worn", '"middle"'), "worn", "none of them"
+        "a module there is not",
+        ANSWERS,
+        make_wrong_answer("worn", '"middle"'),
+        "worn",
+        "none of them",
     ),
     Mistake(
         "a diameter",
@@ -85,7 +89,7 @@ MISTAKES = (
     Mistake(
         "a rate called volts",
         ANSWERS,
-        set_answer("rate_unit", '"volts"'),
+        make_wrong_answer("rate_unit", '"volts"'),
         "rate-unit",
         "SysId knows only volts",
         "M-UNITS",
@@ -93,7 +97,7 @@ MISTAKES = (
     Mistake(
         "a rate in degrees",
         ANSWERS,
-        set_answer("rate_unit", '"degrees-per-second"'),
+        make_wrong_answer("rate_unit", '"degrees-per-second"'),
         "rate-unit",
         "compare it with the gyro",
         "M-UNITS",
@@ -127,7 +131,7 @@ MISTAKES = (
     Mistake(
         "a unit that measures something else",
         ANSWERS,
-        set_answer("inertia", '"5 kg·m"'),
+        make_wrong_answer("inertia", '"5 kg·m"'),
         "inertia",
         "is not a unit of",
         "M-UNITS",

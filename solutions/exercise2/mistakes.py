@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, change_number, scale_numbers, set_answer
+from grader.mistake import Mistake, change_number, make_wrong_answer, scale_numbers
 
 ANSWERS = "answers.toml"
 
@@ -17,12 +17,12 @@ def measured(right: str) -> float:
 
 def verdict(text: str) -> str:
     """A verdict of another bucket: ok, or what a low kV is called."""
-    return set_answer("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
+    return make_wrong_answer("verdict", '"ok"' if '"ok"' not in text else '"inspect"')(text)
 
 
 def flag(text: str) -> str:
     """Another word about kS."""
-    return set_answer("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
+    return make_wrong_answer("ks_flag", '"stop"' if '"stop"' not in text else '"fine"')(text)
 
 
 def wires_first(text: str) -> str:
@@ -36,11 +36,11 @@ def wires_first(text: str) -> str:
 
 def causes(*words: str) -> Callable[[str], str]:
     """Make another list of causes."""
-    return set_answer("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
+    return make_wrong_answer("inspection", "[" + ", ".join(f'"{one}"' for one in words) + "]")
 
 
 MISTAKES = (
-    Mistake("nothing", ANSWERS, set_answer("kV_theory", '""'), "kv-theory", "nothing yet"),
+    Mistake("nothing", ANSWERS, make_wrong_answer("kV_theory", '""'), "kv-theory", "nothing yet"),
     Mistake(
         "divided by rpm",
         ANSWERS,
@@ -91,7 +91,7 @@ MISTAKES = (
     Mistake(
         "a unit that measures something else",
         ANSWERS,
-        set_answer("kV_theory", '"2 m/s"'),
+        make_wrong_answer("kV_theory", '"2 m/s"'),
         "kv-theory",
         "is not a unit of",
         "M-UNITS",
@@ -130,7 +130,7 @@ MISTAKES = (
     Mistake(
         "a word that is none",
         ANSWERS,
-        set_answer("verdict", '"great"'),
+        make_wrong_answer("verdict", '"great"'),
         "verdict",
         "Choose one of: bookkeeping, ok, watch, inspect",
     ),
@@ -173,7 +173,7 @@ MISTAKES = (
     Mistake(
         "no list",
         ANSWERS,
-        set_answer("inspection", "[]"),
+        make_wrong_answer("inspection", "[]"),
         "inspection",
         "Choose from: constant-friction",
     ),

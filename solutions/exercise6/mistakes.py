@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, scale_numbers, set_answer
+from grader.mistake import Mistake, make_wrong_answer, scale_numbers
 
 ANSWERS = "answers.toml"
 BIG, SLOW = "M-BIG-STEP", "M-SLOW-SAFE"
@@ -14,7 +14,7 @@ def puts(**values: str) -> Callable[[str], str]:
 
     def edit_text(text: str) -> str:
         for name, value in values.items():
-            text = set_answer(name, value)(text)
+            text = make_wrong_answer(name, value)(text)
         return text
 
     return edit_text
@@ -28,7 +28,7 @@ def turn_around(item: str) -> Callable[[str], str]:
         found = re.search(rf'^check_{item} = "(.*)"$', text, re.MULTILINE)
         if found is None:
             raise ValueError(f"the solution decides nothing about {item}")
-        return set_answer(f"check_{item}", f'"{other[found[1]]}"')(text)
+        return make_wrong_answer(f"check_{item}", f'"{other[found[1]]}"')(text)
 
     return edit_text
 
@@ -39,7 +39,7 @@ MISTAKES = (
     Mistake(
         "nothing for the ramp",
         ANSWERS,
-        set_answer("drivetrain_ramp", '""'),
+        make_wrong_answer("drivetrain_ramp", '""'),
         "drivetrain",
         "drivetrain_ramp: nothing yet",
     ),
@@ -69,7 +69,7 @@ MISTAKES = (
     Mistake(
         "a step that burns rubber",
         ANSWERS,
-        set_answer("drivetrain_step", "11"),
+        make_wrong_answer("drivetrain_step", "11"),
         "drivetrain",
         "The wheels spin, and the encoder counts",
         BIG,
@@ -77,7 +77,7 @@ MISTAKES = (
     Mistake(
         "a step beyond the current limit",
         ANSWERS,
-        set_answer("shooter_step", "9"),
+        make_wrong_answer("shooter_step", "9"),
         "shooter",
         "at standstill your step draws",
         BIG,
@@ -85,21 +85,21 @@ MISTAKES = (
     Mistake(
         "a step that drowns in noise",
         ANSWERS,
-        set_answer("turret_step", "0.5"),
+        make_wrong_answer("turret_step", "0.5"),
         "turret",
         "times. You cannot see it in the",
     ),
     Mistake(
         "a step that gravity eats",
         ANSWERS,
-        set_answer("elevator_step", "0.3"),
+        make_wrong_answer("elevator_step", "0.3"),
         "elevator",
         "does not move it",
     ),
     Mistake(
         "a timeout that ends it too soon",
         ANSWERS,
-        set_answer("shooter_timeout", "2"),
+        make_wrong_answer("shooter_timeout", "2"),
         "shooter",
         "s until the timeout; at least 3 s",
     ),
@@ -113,7 +113,7 @@ MISTAKES = (
     Mistake(
         "a mark too far away",
         ANSWERS,
-        lambda text: set_answer("elevator_timeout", "10")(
+        lambda text: make_wrong_answer("elevator_timeout", "10")(
             scale_numbers(4.0, "elevator_release")(text)
         ),
         "elevator",
@@ -122,7 +122,7 @@ MISTAKES = (
     Mistake(
         "a timeout that saves nobody",
         ANSWERS,
-        set_answer("shooter_timeout", "30"),
+        make_wrong_answer("shooter_timeout", "30"),
         "shooter",
         "no test may be longer",
     ),
@@ -143,7 +143,7 @@ MISTAKES = (
     Mistake(
         "a speed for a mark",
         ANSWERS,
-        set_answer("drivetrain_release", '"3 m/s"'),
+        make_wrong_answer("drivetrain_release", '"3 m/s"'),
         "drivetrain",
         "is not a unit of",
         "M-UNITS",
@@ -151,7 +151,7 @@ MISTAKES = (
     Mistake(
         "a mark that is none",
         ANSWERS,
-        set_answer("elevator_release", '"at the top"'),
+        make_wrong_answer("elevator_release", '"at the top"'),
         "elevator",
         "if nobody lets go before it",
     ),
@@ -179,35 +179,37 @@ MISTAKES = (
     Mistake(
         "a decision that is none",
         ANSWERS,
-        set_answer("check_guard", '"perhaps"'),
+        make_wrong_answer("check_guard", '"perhaps"'),
         "checklist",
         "Choose one of: go, no-go",
     ),
     Mistake(
         "gains before they are looked at",
         ANSWERS,
-        set_answer("steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'),
+        make_wrong_answer(
+            "steps", '["wire-routine", "run-tests", "place-gains", "inspect-and-fit"]'
+        ),
         "steps",
         "place-gains comes too early",
     ),
     Mistake(
         "three steps",
         ANSWERS,
-        set_answer("steps", '["wire-routine", "run-tests", "place-gains"]'),
+        make_wrong_answer("steps", '["wire-routine", "run-tests", "place-gains"]'),
         "steps",
         "each of the four once",
     ),
     Mistake(
         "where the program lies",
         ANSWERS,
-        set_answer("log_2026", '"/home/lvuser/deploy"'),
+        make_wrong_answer("log_2026", '"/home/lvuser/deploy"'),
         "log-2026",
         "your program is there, but not its",
     ),
     Mistake(
         "last year's controller",
         ANSWERS,
-        set_answer("log_2027", '"/home/lvuser/logs"'),
+        make_wrong_answer("log_2027", '"/home/lvuser/logs"'),
         "log-2027",
         "a Systemcore has another user name than",
     ),
@@ -222,7 +224,7 @@ MISTAKES = (
     Mistake(
         "in the pit",
         ANSWERS,
-        set_answer("schedule", '"first-regional"'),
+        make_wrong_answer("schedule", '"first-regional"'),
         "schedule",
         "there are eight minutes between matches, and",
     ),

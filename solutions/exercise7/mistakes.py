@@ -6,7 +6,7 @@ They change the first log, which has one fault in a part of one test.
 import re
 from collections.abc import Callable
 
-from grader.mistake import Mistake, set_answer
+from grader.mistake import Mistake, make_wrong_answer
 
 ANSWERS = "answers.toml"
 FIRST = re.compile(
@@ -32,7 +32,7 @@ def first(line: str, **changes: Callable[[str], str]) -> Callable[[str], str]:
             raise ValueError("the first line of the solution is not what it was")
         parts = found.groupdict()
         parts |= {name: change(parts[name]) for name, change in changes.items()}
-        return set_answer("log01", f'"{line.format(**parts)}"')(text)
+        return make_wrong_answer("log01", f'"{line.format(**parts)}"')(text)
 
     return edit_text
 
@@ -48,12 +48,12 @@ MISTAKES = (
     Mistake(
         "all sound, as R² is fine",
         ANSWERS,
-        set_answer("log01", '"clean"'),
+        make_wrong_answer("log01", '"clean"'),
         "log01",
         "Something is wrong here. The R² may",
         "M-R2",
     ),
-    Mistake("nothing", ANSWERS, set_answer("log01", '""'), "log01", "nothing yet"),
+    Mistake("nothing", ANSWERS, make_wrong_answer("log01", '""'), "log01", "nothing yet"),
     Mistake(
         "what it is taken for",
         ANSWERS,
@@ -96,7 +96,7 @@ MISTAKES = (
     Mistake(
         "a word that is none",
         ANSWERS,
-        set_answer("log01", '"sensor broke, rerun"'),
+        make_wrong_answer("log01", '"sensor broke, rerun"'),
         "log01",
         "Choose one of: clean, encoder-slip",
     ),

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from grader.mistake import Mistake, scale_numbers, set_answer
+from grader.mistake import Mistake, make_wrong_answer, scale_numbers
 
 ANSWERS = "answers.toml"
 RAMPS = ("quasistatic_forward", "quasistatic_reverse")
@@ -14,7 +14,7 @@ def windows(span: str, *names: str) -> Callable[[str], str]:
 
     def edit_text(text: str) -> str:
         for name in names:
-            text = set_answer(name, f'"{span}"')(text)
+            text = make_wrong_answer(name, f'"{span}"')(text)
         return text
 
     return edit_text
@@ -36,7 +36,9 @@ MISTAKES = (
         "nothing is done",
         ANSWERS,
         both(
-            windows("all", *RAMPS, *STEPS), set_answer("threshold", "0"), set_answer("median", "1")
+            windows("all", *RAMPS, *STEPS),
+            make_wrong_answer("threshold", "0"),
+            make_wrong_answer("median", "1"),
         ),
         "ka",
         "comes out",
@@ -51,16 +53,18 @@ MISTAKES = (
     Mistake(
         "a filter for a picture",
         ANSWERS,
-        set_answer("median", "15"),
+        make_wrong_answer("median", "15"),
         "ka",
         "A median of so many samples flattens",
         "M-FILTER-FREE",
     ),
-    Mistake("no filter", ANSWERS, set_answer("median", "1"), "ka", "Single readings are far off"),
+    Mistake(
+        "no filter", ANSWERS, make_wrong_answer("median", "1"), "ka", "Single readings are far off"
+    ),
     Mistake(
         "no threshold",
         ANSWERS,
-        set_answer("threshold", "0"),
+        make_wrong_answer("threshold", "0"),
         "ks",
         "You keep samples from before the mechanism",
     ),
@@ -97,18 +101,26 @@ MISTAKES = (
         "M-TRIM-PRETTY",
     ),
     Mistake(
-        "nothing yet", ANSWERS, set_answer("threshold", '""'), "kept", "threshold: nothing yet"
+        "nothing yet",
+        ANSWERS,
+        make_wrong_answer("threshold", '""'),
+        "kept",
+        "threshold: nothing yet",
     ),
     Mistake(
         "a threshold in volts",
         ANSWERS,
-        set_answer("threshold", '"0.2 V"'),
+        make_wrong_answer("threshold", '"0.2 V"'),
         "kept",
         "is not a unit of",
         "M-UNITS",
     ),
     Mistake(
-        "half a sample", ANSWERS, set_answer("median", "2.5"), "kept", "whole number of samples"
+        "half a sample",
+        ANSWERS,
+        make_wrong_answer("median", "2.5"),
+        "kept",
+        "whole number of samples",
     ),
     Mistake("it ends before it begins", ANSWERS, windows("3 to 1", *RAMPS), "kept", "ends before"),
     Mistake("no times", ANSWERS, windows("most of it", *STEPS), "kept", "two times are needed"),

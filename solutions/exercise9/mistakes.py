@@ -8,9 +8,9 @@ from grader.mistake import (
     Mistake,
     change_number,
     exchange_numbers,
+    make_wrong_answer,
     replace_text,
     scale_numbers,
-    set_answer,
 )
 
 ANSWERS, FUNCTION = "answers.toml", "fit.py"
@@ -74,7 +74,7 @@ MISTAKES = (
     Mistake(
         "a calculation",
         ANSWERS,
-        set_answer("kS", '"0.1 + 0.05"'),
+        make_wrong_answer("kS", '"0.1 + 0.05"'),
         "ks",
         "which is a calculation",
     ),

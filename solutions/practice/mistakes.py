@@ -1,6 +1,6 @@
 """Wrong answers to the practice, and what a learner must be told about each."""
 
-from grader.mistake import Mistake, change_number, replace_text, scale_numbers, set_answer
+from grader.mistake import Mistake, change_number, make_wrong_answer, replace_text, scale_numbers
 
 ANSWERS = "answers.toml"
 
@@ -21,7 +21,7 @@ class ExampleSubsystem extends SubsystemBase {
 
 MISTAKES = (
     Mistake("kV for rpm", ANSWERS, scale_numbers(1 / 60, "kV"), "gains-kv", "rpm", "M-UNITS"),
-    Mistake("no kP noted", ANSWERS, set_answer("kP", '""'), "gains-kp", "nothing yet"),
+    Mistake("no kP noted", ANSWERS, make_wrong_answer("kP", '""'), "gains-kp", "nothing yet"),
     Mistake(
         "R² in percent",
         ANSWERS,
@@ -41,7 +41,7 @@ MISTAKES = (
     Mistake(
         "a wrong verdict",
         ANSWERS,
-        set_answer("verdict", '"inspect"'),
+        make_wrong_answer("verdict", '"inspect"'),
         "theory-verdict",
         "with its sign",
     ),

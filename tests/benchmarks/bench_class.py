@@ -22,9 +22,9 @@ from bench_grade import loaded, spent
 from class_made import ROOT, SECRET, asked, make_class
 
 from grader.variant import use_class_secret
-from sim.support.work.process_pool import available_cores
+from sim.support.work.process_pool import count_available_cores
 
-CORES = available_cores()
+CORES = count_available_cores()
 TARGET = 300.0  # [s] for 500 students
 SAMPLE = 20  # [students] of all the class that are graded one exercise after another
 LOOK = 0.5  # [s] between two looks at the memory
@@ -103,7 +103,7 @@ def main() -> None:
         secret, handed_in = folder / "secret", folder / "class"
         secret.write_bytes(SECRET)
         kinds = make_class(
-            students, course=folder / "course", out=handed_in, processes=available_cores()
+            students, course=folder / "course", out=handed_in, processes=count_available_cores()
         )
         said = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
         print(f"{students} students x 13 exercises on {CORES} cores; {said}")

@@ -23,7 +23,7 @@ from playwright.sync_api import sync_playwright
 from test_open_in_browser import BROWSERS, DRAG, FLAGS, opened
 from wpilog_file import records
 
-from sim.io.formats.wpilog.control import Start, parse_control_record, start_payload
+from sim.io.formats.wpilog.control import Start, make_start_payload, parse_control_record
 
 OTHERS = 432  # entries of a mixed log
 REPETITIONS = 3
@@ -53,7 +53,7 @@ def match_log(path: Path, megabytes: float) -> Path:
         said = parse_control_record(payload) if number == 0 else None
         if isinstance(said, Start):
             moved = Start(said.id + OTHERS, said.name, said.type, said.metadata)
-            parts.append(record(0, START + moment, start_payload(moved)))
+            parts.append(record(0, START + moment, make_start_payload(moved)))
         elif number:
             parts.append(record(number + OTHERS, START + moment, payload))
     path.write_bytes(b"".join(parts))

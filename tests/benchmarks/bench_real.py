@@ -47,6 +47,7 @@ from sim.reconcile.story import Story
 SUFFIXES = (".csv", ".json", ".wpilog")
 GAINS = ("kS", "kV", "kA", "kG")
 DAY = re.compile(r"20\d\d[-_]?\d\d[-_]?\d\d")
+REBUILT = 1.25  # [1] volts per speed over those of another recording: another mechanism
 WITHIN = 2.0  # [1] standard errors of a difference, within which two recordings agree
 PAST = (1, 2, 3, 5, 8, 13)  # [samples] how far back the black box sees voltage and simulation
 FOUND = 0.9  # [1] of the base model's error, below which the black box found something
@@ -205,17 +206,35 @@ def print_fits(fitted: Sequence[FittedLog]) -> None:
     )
 
 
+def volts_at_top_speed(log: Log) -> float:
+    """[V per unit/s] voltage over velocity, median of the fastest hundredth of a log's samples."""
+    speed = np.abs(np.concatenate([run.velocity for run in log.runs]))
+    volts = np.abs(np.concatenate([run.voltage for run in log.runs]))
+    fastest = speed >= np.nanquantile(speed, 0.99)
+    return float(np.nanmedian(volts[fastest] / speed[fastest]))
+
+
 def print_repetitions(fitted: Sequence[FittedLog]) -> None:
-    """How many pairs of gains from recordings of one mechanism agree within their errors."""
+    """How many pairs of gains from recordings of one mechanism agree within their errors.
+
+    Where the fastest samples of two recordings need volts per speed that differ by more than
+    ``REBUILT``, the gears or the conversion factor changed between them: such a pair is listed, and
+    does not count.
+    """
     print("\nREPETITIONS")
-    groups: dict[tuple[str, ...], list[tuple[str, Fit]]] = defaultdict(list)
+    groups: dict[tuple[str, ...], list[tuple[str, Fit, float]]] = defaultdict(list)
     for log in fitted:
-        if log.fit is not None and log.recording[2]:
-            groups[log.recording].append((log.path.stem[-50:], log.fit))
+        if log.fit is not None and log.log is not None and log.recording[2]:
+            price = volts_at_top_speed(log.log)
+            groups[log.recording].append((log.path.stem[-50:], log.fit, price))
     agree = count = 0
     differences: dict[str, list[float]] = defaultdict(list)
     for group in groups.values():
-        for (name, one), (_, other) in combinations(group, 2):
+        for (name, one, price), (_, other, other_price) in combinations(group, 2):
+            if max(price, other_price) > REBUILT * min(price, other_price):
+                print(f"{name} changed between two recordings: {price:.4g} and "
+                      f"{other_price:.4g} V per unit/s; not counted")  # fmt: skip
+                continue
             for gain in GAINS:
                 both = one.gains.get(gain), other.gains.get(gain)
                 if not all(both):

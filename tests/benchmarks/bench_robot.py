@@ -43,7 +43,11 @@ def main() -> None:
                 lambda: seconds(["4", str(starter)], cwd=folder),
                 None,
             ),
-            ("the run by itself", lambda: bench.run(ANSWER, "ExampleSubsystem"), None),
+            (
+                "the run by itself",
+                lambda: bench.run_sysid_routine(ANSWER, "ExampleSubsystem"),
+                None,
+            ),
         ):
             print(line(name, several(work, repeats=times), target=target))
 

@@ -18,7 +18,7 @@ import numpy as np
 from wpiutil.log import DataLogReader
 
 from sim.io.formats.wpilog.contents import read_contents
-from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.control import Start, make_start_payload
 from sim.io.formats.wpilog.entry import KINDS
 from sim.io.formats.wpilog.records import MAGIC, load_records
 
@@ -39,7 +39,7 @@ def record(number: int, time: int, payload: bytes) -> bytes:
 def started(kinds: list[str]) -> list[bytes]:
     """The beginning of a file with entries of these types."""
     entries = (Start(i, f"NT:/Robot/entry {i}", kind, "") for i, kind in enumerate(kinds, 1))
-    return [HEADER] + [record(0, START, start_payload(entry)) for entry in entries]
+    return [HEADER] + [record(0, START, make_start_payload(entry)) for entry in entries]
 
 
 def doubles(count: int, rng: np.random.Generator) -> bytes:

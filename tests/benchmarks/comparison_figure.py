@@ -41,14 +41,14 @@ def picture(figures: Measured) -> Picture:
         said.append(real(axes[-1], figures.real))
         some = ratios(figures)
         said[-1] += (
-            f" Our error is {np.median(some):.2f} times the recipe's error in the median run, and "
+            f" It is {np.median(some):.2f} times the recipe's error in the median run, and "
             f"{some.max():.2f} times in the worst run."
         )
     else:
         axes[-1].remove()
     alt = (
-        "The picture shows two things for two methods: the kA that the method finds, divided by "
-        "the true kA, and the velocity error on held-out runs of real robots. " + " ".join(said)
+        "For two methods: the median kA, divided by the true kA, and the velocity error on "
+        "held-out runs of real robots. " + " ".join(said)
     )
     return Picture(figure, alt)
 
@@ -71,8 +71,8 @@ def simulated(axes: Axes, section: Section, figures: Measured) -> str:
     row = told(section, figures)
     medians = {w: _compared(np.median(figures.rows[row][w].gains["kA"]) / row.ka) for w in WAYS}
     return (
-        f"{section.title} ({row.name}): the median kA of {WAYS[RECIPE]} is {medians[RECIPE]}, and "
-        f"{WAYS[OURS]} is {medians[OURS]}."
+        f"{section.title} ({row.name}): {WAYS[RECIPE]} is {medians[RECIPE]}, {WAYS[OURS]} "
+        f"{medians[OURS]}."
     )
 
 
@@ -127,10 +127,7 @@ def real(axes: Axes, runs: Sequence[HeldOutScore]) -> str:
     )  # fmt: skip
     axes.set_title("Real robots: a run held out, predicted", fontsize=10, color=INK, loc="left")
     better = sum(one.ours <= one.recipe for one in runs)
-    return (
-        f"Real robots: our error is no larger than the recipe's error in {better} of "
-        f"{len(runs)} runs."
-    )
+    return f"Real robots: our error is no larger than the recipe's in {better} of {len(runs)} runs."
 
 
 def tick(name: str) -> str:

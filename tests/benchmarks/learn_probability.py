@@ -25,14 +25,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import sim
-from sim.cli.reconcile import default_time_limit, inspect_damage
+from sim.cli.reconcile import choose_time_limit, inspect_damage
 from sim.core.errors import BadRequest
+from sim.physics.effects import find_motion_class
 from sim.reconcile import reconcile
 from sim.reconcile.probability import FEATURES, FILE
 
 HERE = Path(__file__).resolve().parent
 LOGS = {"log": "train", "validation": "validation", "held_out": "test"}
-SAME = {"asymmetric-friction": "constant-load"}  # identical wherever the mechanism moves
 BINS = np.linspace(0.0, 1.0, 11)
 SURE = 0.9  # from which at least as many of the findings have to be right
 
@@ -69,7 +69,7 @@ def _solve(case: Path) -> Mapping[str, Any]:
         damages = {name: inspect_damage(log) for name, log in logs.items()}
         story = reconcile(
             **logs, type=told["type"], travel=told.get("travel"), damages=damages,
-            time_limit=default_time_limit(),
+            time_limit=choose_time_limit(),
         )  # fmt: skip
     except BadRequest as refusal:
         return {"refused": str(refusal)}
@@ -95,9 +95,9 @@ def read_rows(path: Path) -> Rows:
     found = []
     for line in path.read_text(encoding="utf-8").splitlines():
         row = json.loads(line)
-        hidden = {SAME.get(name, name) for name in row["truth"]["effects"]}
+        hidden = {find_motion_class(name) for name in row["truth"]["effects"]}
         for one in row.get("judged", ()):
-            named = {SAME.get(name, name) for name in (one["effect"], *one["ambiguous_with"])}
+            named = {find_motion_class(name) for name in (one["effect"], *one["ambiguous_with"])}
             features = tuple(one["evidence"][name] for name in FEATURES)
             found.append((features, bool(named & hidden)))
     return found

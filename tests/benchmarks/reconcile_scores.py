@@ -5,7 +5,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-SAME = {"asymmetric-friction": "constant-load"}  # identical whenever the mechanism moves
+from sim.physics.effects import find_motion_class
+
 UNKNOWN = "unknown"
 SIZES = {"real": "realistic", "subtle": "subtle"}
 
@@ -135,10 +136,10 @@ def mark(want: Sequence[str], found: Sequence[str], major: Sequence[str], *, fla
 
 
 def _scored(answer: Mapping[str, Any], truth: Mapping[str, Any]) -> Scored:
-    want = tuple(SAME.get(name, name) for name in truth["effects"])
+    want = tuple(find_motion_class(name) for name in truth["effects"])
     said: Mapping[str, Any] = answer["said"] or {}
     findings = said.get("findings", [])
-    found = tuple(SAME.get(one["effect"], one["effect"]) for one in findings)
+    found = tuple(find_motion_class(one["effect"]) for one in findings)
     major = tuple(n for n, one in zip(found, findings, strict=True) if one["size"] == "major")
     flagged = said.get("verdict") == "unexplained" or bool(said.get("remainder"))
     judged = mark(want, found, major, flagged=flagged) if answer["said"] else CRASH

@@ -162,7 +162,7 @@ def _stranger(
         example=example,
         start_values=no_starts,
         hooks=acts,
-        fastest_time=pace,
+        shortest_time=pace,
         order=99 if "transform_voltage" in acts else 0,
         reason_against=cannot,
     )

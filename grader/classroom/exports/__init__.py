@@ -44,7 +44,7 @@ def list_exports() -> dict[str, ExportFormat]:
 
 
 def choose_exports(wanted: Sequence[str], *, roster: Roster | None) -> tuple[ExportFormat, ...]:
-    """The export formats to write: the gradebook, and those that were asked for.
+    """The export formats to write: the gradebook, and the chosen ones.
 
     Args:
         wanted: names of formats.

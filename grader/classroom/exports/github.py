@@ -44,7 +44,7 @@ def _result(one: GradedStudent) -> dict[str, Any]:
         "version": 1,
         "status": next((status for status in ("error", "fail") if status in told), "pass"),
         "message": None,
-        "max_score": sum(_number(record["max_score"]) for record in one.records),
+        "max_score": sum(float(record["max_score"]) for record in one.records),
         "tests": tests,
     }
 
@@ -61,10 +61,6 @@ def _test(number: int, record: dict[str, Any]) -> dict[str, Any]:
         "filename": str(record["file"]),
         "line_no": 0,
         "duration": 0.0,
-        "score": _number(record["score"]),
+        "score": float(record["score"]),
         "output": output if len(output) <= LONGEST else output[: LONGEST - 1] + "…",
     }
-
-
-def _number(value: object) -> float:
-    return float(str(value))

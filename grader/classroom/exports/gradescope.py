@@ -49,11 +49,6 @@ def _result(one: GradedStudent) -> dict[str, Any]:
                 "visibility": "visible",
             }
             for place, record in enumerate(one.records, start=1)
-            for number, check in enumerate(_checks(record), start=1)
+            for number, check in enumerate(record["checks"], start=1)
         ],
     }
-
-
-def _checks(record: dict[str, Any]) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = record["checks"]
-    return found

@@ -33,7 +33,7 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
 
 
 def _suite(one: GradedStudent) -> ET.Element:
-    cases = [_case(record, check) for record in one.records for check in _checks(record)]
+    cases = [_case(record, check) for record in one.records for check in record["checks"]]
     count = {tag: sum(case.find(tag) is not None for case in cases) for tag in _KINDS}
     suite = ET.Element(
         "testsuite",
@@ -65,11 +65,6 @@ def _case(record: dict[str, Any], check: dict[str, Any]) -> ET.Element:
     elif check["status"] != "passed":
         ET.SubElement(case, "skipped", message=said)
     return case
-
-
-def _checks(record: dict[str, Any]) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = record["checks"]
-    return found
 
 
 def _plain(value: object) -> str:

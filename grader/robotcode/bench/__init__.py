@@ -1,21 +1,21 @@
 """Robot code run for real: RobotPy in WPILib's own simulation, against motors of ours.
 
-    file ──apart──▶ on_bench (a process of its own) ──▶ robot.wpilog, seen.json ──logged──▶ Ran
+    file ──sandboxed_run──▶ a process of its own ──▶ robot.wpilog, seen.json ──log_facts──▶ RunFacts
 
-``on_bench`` lets the real scheduler run the four tests of the learner's SysIdRoutine on a tired
-battery, while what the motor controllers put out moves a model that the encoders see (and
-``on_buttons`` presses every button of a whole robot, in test mode and out of it). ``logged``
-holds the log that the robot wrote against what the bench saw. ``season`` knows when a program is
-written for another year than the RobotPy that is installed, ``contradiction`` puts what the run
-showed into words.
+``run_routine_child`` lets the real scheduler run the four tests of the learner's SysIdRoutine on a
+tired battery, while what the motor controllers put out moves a model that the encoders see (and
+``run_buttons_child`` presses every button of a whole robot, in test mode and out of it).
+``log_facts`` holds the log that the robot wrote against what the bench saw. ``season`` knows when a
+program is written for another year than the RobotPy that is installed, ``findings`` puts what the
+run showed into words.
 
-A learner's code shares its process with ``on_bench``. What keeps it from forging a run: the bench
-proves with a nonce that it came to its end (``apart``), and code that could find the nonce or
-change WPILib is refused before it is run (``tampering``).
+A learner's code shares its process with the bench. What keeps it from forging a run: the bench
+proves with a nonce that it came to its end (``sandboxed_run``), and code that could find the nonce
+or change WPILib is refused before it is run (``tampering``).
 
 A run takes about a second, needs the extra ``robot``, and executes what the learner wrote: a copy
-of it (``given``), shut in as far as the system can (``apart.confined``). Whoever only wants to read
-never comes here.
+of it (``sandbox_files``), shut in as far as the system can. Whoever only wants to read never comes
+here.
 """
 
 from dataclasses import replace
@@ -52,21 +52,21 @@ __all__ = [
     "is_robotpy_installed",
     "press_buttons",
     "refuse_tampering",
-    "run",
+    "run_sysid_routine",
 ]
 
 SECONDS = 10.0  # [s] a run takes 0.5 s alone on a machine, and several on one that is busy
 
 
 def is_robotpy_installed() -> bool:
-    """Whether RobotPy is here to run code with."""
+    """Whether RobotPy is installed."""
     return all(find_spec(name) is not None for name in ("wpilib", "commands2"))
 
 
-def run(
+def run_sysid_routine(
     path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
 ) -> RunFacts:
-    """Run the SysIdRoutine of a RobotPy file.
+    """Run the SysIdRoutine of one subsystem of a RobotPy file.
 
     Args:
         path: the learner's file.
@@ -83,7 +83,7 @@ def run(
 def press_buttons(
     path: Path, name: str, *, start: Start = run_confined, seconds: float = SECONDS
 ) -> RunFacts:
-    """Press every button of a robot in RobotPy, in test mode and out of it.
+    """Press every button of a RobotPy robot, in test mode and out of it.
 
     Args:
         path: the learner's file.

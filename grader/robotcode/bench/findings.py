@@ -30,7 +30,7 @@ SLIPS = {  # what a velocity is of the slope of its position, and how that comes
 
 @dataclass(frozen=True)
 class RunFault:
-    """Something the run shows to be wrong.
+    """A fault in the code that its run shows.
 
     Args:
         seen: what happened, with figures.
@@ -46,7 +46,7 @@ class RunFault:
 
 
 def find_stop(ran: RunFacts, *, where: str) -> RunFault | None:
-    """The code's own error, or its endless loop.
+    """A fault if the code raised an error, or never ended.
 
     Args:
         ran: the run.
@@ -61,7 +61,7 @@ def find_stop(ran: RunFacts, *, where: str) -> RunFault | None:
 def check_setting(
     got: float, wanted: float, *, said: str, unit: str, advice: str, within: float = 1e-6
 ) -> RunFault | None:
-    """Compare a number of the Config with what the exercise asks for.
+    """A fault if a number of the Config is not what the exercise asks for.
 
     Args:
         got: what the run showed, in SI.
@@ -78,7 +78,7 @@ def check_setting(
 
 
 def check_driven_motors(ran: RunFacts) -> RunFault | None:
-    """Compare the voltage that every motor got with what the tests asked for."""
+    """A fault if a motor got another voltage than the tests commanded."""
     wrong = [(motor, fault) for motor in ran.motors if (fault := _driven(motor))]
     if not wrong:
         return None
@@ -106,7 +106,7 @@ def _driven(motor: DrivenMotor) -> tuple[str, str, str] | None:
 
 
 def check_logged_motors(ran: RunFacts, *, demanded: int = 0) -> RunFault | None:
-    """Compare the logged voltages with those that each motor got.
+    """A fault if a logged voltage is not what the motor got.
 
     Args:
         ran: the run.
@@ -159,7 +159,7 @@ def _sign(one: LoggedMotor) -> RunFault | None:
 
 
 def check_logged_units(ran: RunFacts) -> RunFault | None:
-    """Whether positions and velocities fit each other, and the bench's encoders."""
+    """A fault if positions and velocities fit neither each other nor the bench's encoders."""
     return next(filter(None, _units(ran)), None)
 
 
@@ -196,7 +196,7 @@ def _slip(factor: float) -> str:
 
 
 def check_requirements(ran: RunFacts) -> RunFault | None:
-    """Whether the tests require the subsystem they drive."""
+    """A fault if the tests do not require the subsystem that they drive."""
     if ran.required:
         return None
     hint = "Pass self after the two callbacks. Then nothing else moves the motors during a test."
@@ -204,7 +204,7 @@ def check_requirements(ran: RunFacts) -> RunFault | None:
 
 
 def check_release(ran: RunFacts) -> RunFault | None:
-    """Whether a test stops when its button is let go."""
+    """A fault if a test goes on when its button is released."""
     for one in ran.presses:
         if one.stayed:
             hint = (
@@ -217,7 +217,7 @@ def check_release(ran: RunFacts) -> RunFault | None:
 
 
 def check_guard(ran: RunFacts) -> RunFault | None:
-    """Whether a button starts a test while the robot is driven."""
+    """A fault if a button starts a test while the robot is driven."""
     for one in ran.presses:
         if not one.test_mode:
             hint = "The guard does not stop it. Check test mode each time a button is pressed."

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from grader.isolation import one_line
+from grader.isolation import format_one_line
 from grader.robotcode.bench.run_facts import (
     ButtonPress,
     DrivenMotor,
@@ -48,7 +48,7 @@ NOT_OURS = (ValueError, KeyError, TypeError, IndexError, AttributeError, Arithme
 
 @dataclass(frozen=True, eq=False)
 class BenchTrace:
-    """What the bench saw in every loop of a test.
+    """The simulation's own record of every loop of a test.
 
     Args:
         test: (n,) name of the test.
@@ -131,7 +131,7 @@ def _gone(folder: Path, file: Path, *, ended: bool, seconds: float) -> RunFacts:
 
 def _facts(seen: dict[str, Any], folder: Path, file: Path) -> RunFacts:
     if "cannot" in seen:
-        return RunFacts(RunOutcome.CANNOT, one_line(seen["cannot"]))
+        return RunFacts(RunOutcome.CANNOT, format_one_line(seen["cannot"]))
     if "crash" in seen:
         return _crash(seen["crash"], file)
     if "presses" in seen:
@@ -159,33 +159,37 @@ def _facts(seen: dict[str, Any], folder: Path, file: Path) -> RunFacts:
 
 def _press(seen: dict[str, Any]) -> ButtonPress:
     """One press; the routine calls its tests ``kDynamicForward``."""
-    tests = (re.sub(r"(?<=[a-z])(?=[A-Z])", "-", one_line(one)[1:]) for one in seen["tests"][:4])
-    held = bool(seen["test mode"]), int(seen["port"]), one_line(seen["button"])
+    tests = (
+        re.sub(r"(?<=[a-z])(?=[A-Z])", "-", format_one_line(one)[1:]) for one in seen["tests"][:4]
+    )
+    held = bool(seen["test mode"]), int(seen["port"]), format_one_line(seen["button"])
     return ButtonPress(*held, tuple(one.lower() for one in tests), bool(seen["stayed"]))
 
 
 def _crash(crash: dict[str, Any], file: Path) -> RunFacts:
     """One line of a learner's traceback; the other season's names are nobody's mistake."""
-    error, line = one_line(crash["error"]), int(crash["line"])
+    error, line = format_one_line(crash["error"]), int(crash["line"])
     other = explain_other_season(error, file.read_text(encoding="utf-8", errors="replace"))
     if other:
         return RunFacts(RunOutcome.CANNOT, other)
-    place = f"{one_line(crash['file'])}, line {line}: " if line else ""
-    return RunFacts(RunOutcome.CRASHED, f"{place}{error}", line, one_line(crash["where"]))
+    place = f"{format_one_line(crash['file'])}, line {line}: " if line else ""
+    return RunFacts(RunOutcome.CRASHED, f"{place}{error}", line, format_one_line(crash["where"]))
 
 
 def _driven(names: list[str], trace: BenchTrace) -> tuple[DrivenMotor, ...]:
     asked = np.abs(trace.asked)
     rows = np.flatnonzero((asked > AWAKE) & (asked < WHOLE))
     if not rows.size:
-        return tuple(DrivenMotor(one_line(name), _own(name), None, 0.0, 0.0) for name in names)
+        return tuple(
+            DrivenMotor(format_one_line(name), _own(name), None, 0.0, 0.0) for name in names
+        )
     late = rows[: np.count_nonzero(trace.test[rows] == trace.test[rows[0]])]  # of its first test
     example = late[late.size * 4 // 5]
     driven = []
     for number, name in enumerate(names):
         share = float(np.median(trace.applied[rows, number] / trace.asked[rows]))
         at = float(trace.applied[example, number]), float(trace.asked[example])
-        driven.append(DrivenMotor(one_line(name), _own(name), round(share, 4), *at))
+        driven.append(DrivenMotor(format_one_line(name), _own(name), round(share, 4), *at))
     return tuple(driven)
 
 
@@ -200,7 +204,7 @@ def _with_log(path: Path, trace: BenchTrace, facts: dict[str, Any]) -> RunFacts:
     except FileNotFoundError:
         return RunFacts(RunOutcome.RAN, **facts, lacking="it is gone")
     except Refusal as refusal:
-        return RunFacts(RunOutcome.RAN, **facts, lacking=one_line(refusal.what))
+        return RunFacts(RunOutcome.RAN, **facts, lacking=format_one_line(refusal.what))
     if names is None:
         return RunFacts(RunOutcome.RAN, **facts)
     if not names:
@@ -238,7 +242,7 @@ def _recorded(name: str, log: Log, trace: BenchTrace) -> LoggedMotor:
     encoder, scale = _followed(pairs, size=find_unit(log.units).si)
     as_asked = bool(np.ptp(voltage) > 0 and np.allclose(voltage, asked, rtol=0, atol=1e-9))
     return LoggedMotor(
-        one_line(name),
+        format_one_line(name),
         _share(voltage[awake], got[awake]),
         as_asked and not np.allclose(got, asked, rtol=0, atol=1e-9),
         kept,

@@ -4,7 +4,7 @@
 
 CLASS in FILE is the robot's container. Each button of each controller is held for a moment and let
 go, in test mode and driven by a person; FOLDER gets ``seen.json``: which test of SysId it started,
-and whether that went on. Runs beside ``on_bench``, of which it is made.
+and whether that went on. Runs beside ``run_routine_child``, of which it is made.
 """
 
 import importlib
@@ -58,7 +58,7 @@ class Panel:
         return log_state
 
     def observe(self) -> dict[str, object]:
-        """Press every button; what those did that started a test."""
+        """Press every button; the facts about those that started a test."""
         presses = []
         for testing in (True, False):
             self.named(self.sim, "setTest")(testing)

@@ -15,7 +15,7 @@ class RunOutcome(Enum):
 
 @dataclass(frozen=True)
 class DrivenMotor:
-    """What one motor did.
+    """The voltage and motion of one motor in a run.
 
     Args:
         name: the field that holds it, ``left``, or ``PWM 2`` where none does.
@@ -35,15 +35,14 @@ class DrivenMotor:
 
 @dataclass(frozen=True)
 class LoggedMotor:
-    """What one motor's entries in the log hold, held against what happened.
+    """One motor's entries in the log, compared with the simulation.
 
     Args:
         name: as in ``log.motor(...)``.
         voltage: the logged voltage as a share of the motor's; None where nothing tells.
-        as_asked: whether it is, to the last digit, what the tests asked for, where the motor got
-            something else.
-        kept: [V] what the log says while the battery is low, and ...
-        lowered: [V] ... what the motor got; both 0 where no dynamic test was that long.
+        as_asked: whether it is exactly the commanded voltage although the motor got another.
+        kept: [V] logged voltage while the battery is low; 0 if no dynamic test lasts until then.
+        lowered: [V] voltage of the motor at that time; 0 likewise.
         rate: the logged velocity as a share of the slope of the logged position; 1 is right. None
             where nothing moved.
         forward: whether a positive voltage goes with a positive velocity; None where nothing moved.
@@ -67,7 +66,7 @@ class LoggedMotor:
 
 @dataclass(frozen=True)
 class ButtonPress:
-    """What a button did that was held for a moment.
+    """What happened when a button was held for a moment.
 
     Args:
         test_mode: whether the robot was in test mode; else it was driven by a person.
@@ -86,12 +85,12 @@ class ButtonPress:
 
 @dataclass(frozen=True)
 class RunFacts:
-    """What running showed; nothing but ``outcome``, ``said`` and where, unless it ran.
+    """The facts that a run showed; without a run only ``outcome``, ``said`` and ``where``.
 
     Args:
         outcome: how it ended.
         said: in one line why it did not run; empty if it did.
-        line: where in the learner's code, from 1; 0 if that cannot be told.
+        line: where in the learner's code, from 1; 0 if unknown.
         where: the callback in which that was, ``drive`` or ``log``; empty otherwise.
         ramp: [V/s] of the quasistatic test.
         step: [V] of the dynamic test.

@@ -37,7 +37,7 @@ CHANNELS, DEEP = 20, 4  # for PWM on a roboRIO; fields of fields that are looked
 
 
 class CannotRun(Exception):  # noqa: N818 - says what is lacking; no fault of the learner's
-    """The simulation cannot run this program."""
+    """The program cannot be run in the simulation."""
 
 
 def get_by_season_name(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy's own classes have no types here
@@ -47,7 +47,7 @@ def get_by_season_name(thing: Any, name: str) -> Any:  # noqa: ANN401 - RobotPy'
 
 
 class Wheel:
-    """What a motor turns: V = kS·sgn(v) + kV·v + kA·a."""
+    """The simulated load of a motor: V = kS·sgn(v) + kV·v + kA·a."""
 
     def __init__(self, number: int) -> None:
         self.ks, self.kv, self.ka = (GAINS[name] + number * STEP[name] for name in GAINS)
@@ -157,7 +157,7 @@ class Bench:
         get_by_season_name(self.simulation, "stepTiming")(PERIOD)
 
     def observe(self) -> dict[str, object]:
-        """Run the four tests: what was seen, and how long each took [s] until it was over."""
+        """Run the four tests; the recorded values, and each test's duration [s]."""
         import commands2  # noqa: PLC0415 - whoever only reads needs none
         from wpilib import Timer  # noqa: PLC0415 - the same
 

@@ -38,7 +38,7 @@ def make_child_command(
         name: the class that is run: its subsystem, or its container.
         folder: where the results go.
         seconds: after which it gives up by itself.
-        script: ``on_bench`` or ``on_buttons``.
+        script: ``BENCH`` or ``BUTTONS``.
     """
     return [
         *(sys.executable, "-B", "-P", str(script)),

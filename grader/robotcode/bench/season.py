@@ -14,7 +14,7 @@ IMPORTS = re.compile(r"(ImportError|ModuleNotFoundError): ")
 
 
 def explain_other_season(error: str, code: str) -> str:
-    """In words, if an error comes from a name that WPILib has in another season; else empty.
+    """An explanation if an error comes from a name of another WPILib season; else empty.
 
     Args:
         error: Python's own line: ``AttributeError: ... has no attribute 'set_voltage'``.

@@ -23,8 +23,8 @@ from grader.robotcode.name_resolution import (
     find_called_functions,
     find_constructed_class,
     find_methods,
-    last_name,
-    simple_type_name,
+    get_last_name,
+    get_simple_type_name,
 )
 from grader.robotcode.readings import find_device, find_quantity
 from grader.robotcode.scope import Scope, walk_with_scopes
@@ -86,16 +86,16 @@ KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
 
 
 def find_type_errors(names: SymbolTable) -> Iterator[ParseProblem]:
-    """Arguments of the SysId log, of units and of the callbacks that are of another type."""
+    """Arguments of the SysId log, of units and of callbacks whose type is not the declared one."""
     for node, scope in walk_with_scopes(names.main.body, Scope(names.main)):
         if isinstance(node, Operation) and node.sign in ARITHMETIC:
             yield from _operands(node, scope, names)
         if not isinstance(node, Call):
             continue
-        name = last_name(node.target)
+        name = get_last_name(node.target)
         if isinstance(node.target, Member):
             yield from _one_argument(node, node.target, scope, names)
-            owner, line = last_name(node.target.owner), node.place.line
+            owner, line = get_last_name(node.target.owner), node.place.line
             yield from find_call_on_class(name, owner, held="m_routine", line=line)
         if isinstance(node.target, Member) and node.args:
             yield from _argument(node, node.target, name, scope, names)
@@ -130,16 +130,16 @@ def _argument(
         kinds = {NUMBER: "a plain number", SIGNAL: "a signal"}
         said = kinds.get(given, f"a {given}")
         yield ParseProblem(f"{name}() takes a {wanted}, and this is {said}", line)
-    unit = measure_of_unit(last_name(target.owner)) if name == "of" else ""
+    unit = find_measure_of_unit(get_last_name(target.owner)) if name == "of" else ""
     if unit and (given in MEASURES or given == SIGNAL):
         what = "a signal: add getValueAsDouble()" if given == SIGNAL else f"a {given}"
         yield ParseProblem(
-            f"{last_name(target.owner)}.of() takes a number, and this is {what}", line
+            f"{get_last_name(target.owner)}.of() takes a number, and this is {what}", line
         )
     owner = infer_expression_type(target.owner, scope, names) if name == "in" else ""
-    asked = measure_of_unit(last_name(call.args[0])) if name == "in" else ""
+    asked = find_measure_of_unit(get_last_name(call.args[0])) if name == "in" else ""
     if owner in MEASURES and asked and asked != owner:
-        yield ParseProblem(f"a {owner} cannot be given in {last_name(call.args[0])}", line)
+        yield ParseProblem(f"a {owner} cannot be given in {get_last_name(call.args[0])}", line)
     if name == "setVoltage" and given in {SIGNAL, *MEASURES} - {"Voltage"}:
         yield ParseProblem(f"setVoltage() takes volts, and this is a {given}", line)
 
@@ -155,7 +155,7 @@ def _one_argument(
     if len(call.args) == 1:
         return
     takes = name in WANTED and _logs(target)
-    takes |= name == "of" and bool(measure_of_unit(last_name(target.owner)))
+    takes |= name == "of" and bool(find_measure_of_unit(get_last_name(target.owner)))
     if name == "in":
         takes |= infer_expression_type(target.owner, scope, names) in MEASURES
     elif name == "setVoltage":
@@ -219,10 +219,10 @@ def _part_of_routine(call: Call, scope: Scope) -> str:
     outer = target
     while isinstance(outer, Member):
         outer = outer.owner
-    path = next((one.path for one in scope.module.imports if one.name == last_name(outer)), "")
+    path = next((one.path for one in scope.module.imports if one.name == get_last_name(outer)), "")
     ours = path.startswith(tuple(PACKAGES_OF)) and ".sysid.SysIdRoutine" in path
-    name = last_name(target)
-    owner = last_name(target.owner) if isinstance(target, Member) else ""
+    name = get_last_name(target)
+    owner = get_last_name(target.owner) if isinstance(target, Member) else ""
     if not ours or not isinstance(outer, Name):
         return ""
     if name in CONFIG_FACTORIES:
@@ -234,7 +234,7 @@ def _logs(target: Member) -> bool:
     """Whether a method belongs to a chain that begins with ``log.motor(...)``."""
     node: Node = target.owner
     while isinstance(node, Call | Member):
-        if isinstance(node, Call) and last_name(node.target) == "motor":
+        if isinstance(node, Call) and get_last_name(node.target) == "motor":
             return True
         node = node.target if isinstance(node, Call) else node.owner
     return False
@@ -250,7 +250,7 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParsePr
         fits = [
             one
             for one, _ in found
-            if len(one.parameters) == 1 and simple_type_name(one.parameters[0].type) in allowed
+            if len(one.parameters) == 1 and get_simple_type_name(one.parameters[0].type) in allowed
         ]
         if found and not fits:
             wanted = max(allowed, key=len)
@@ -259,7 +259,7 @@ def _callbacks(call: Call, scope: Scope, names: SymbolTable) -> Iterator[ParsePr
             yield ParseProblem(said, given.place.line)
 
 
-def measure_of_unit(unit: str) -> str:
+def find_measure_of_unit(unit: str) -> str:
     """The measure that a unit's name stands for: ``LinearVelocity`` of ``MetersPerSecond``."""
     found = UNITS.get(unit)
     if found is None:
@@ -279,7 +279,7 @@ def measure_of_unit(unit: str) -> str:
 
 
 def infer_expression_type(node: Node, scope: Scope, names: SymbolTable, *, depth: int = 0) -> str:
-    """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if not told."""
+    """The type of an expression: ``double``, a measure or ``StatusSignal``; empty if unknown."""
     depth += 1
     found = ""
     if depth > DEEPEST:
@@ -300,7 +300,7 @@ def infer_expression_type(node: Node, scope: Scope, names: SymbolTable, *, depth
 
 
 def _named(type_: str) -> str:
-    name = simple_type_name(type_).removeprefix("Mut")
+    name = get_simple_type_name(type_).removeprefix("Mut")
     if name in NUMBERS:
         return NUMBER
     return name if name in MEASURES | {SIGNAL} else ""
@@ -326,11 +326,13 @@ def _of_call(call: Call, scope: Scope, names: SymbolTable, depth: int) -> str:
         return ""
     name = target.name
     unit = (
-        measure_of_unit(last_name(target.owner)) if isinstance(target.owner, Name | Member) else ""
+        find_measure_of_unit(get_last_name(target.owner))
+        if isinstance(target.owner, Name | Member)
+        else ""
     )
     if name in MAKES and unit:
         return unit
-    if name in PLAIN_NUMBERS or last_name(target.owner) == "Math":
+    if name in PLAIN_NUMBERS or get_last_name(target.owner) == "Math":
         return NUMBER
     return _of_device(target, scope, names) or _of_measure(target, scope, names, depth)
 
@@ -344,11 +346,11 @@ def _of_device(target: Member, scope: Scope, names: SymbolTable) -> str:
 
 
 def _of_measure(target: Member, scope: Scope, names: SymbolTable, depth: int) -> str:
-    """What a method of a measure or of a signal gives; empty if it cannot be told."""
+    """What a method of a measure or of a signal gives; empty if unknown."""
     name, inner = target.name, target.owner
     owner = infer_expression_type(inner, scope, names, depth=depth)
     if owner == SIGNAL and name == "getValue":
-        asked = last_name(inner.target) if isinstance(inner, Call) else ""
+        asked = get_last_name(inner.target) if isinstance(inner, Call) else ""
         return VALUES.get(find_quantity(asked, motor=True), "")
     if owner == SIGNAL:
         return SIGNAL if name == "refresh" else ""

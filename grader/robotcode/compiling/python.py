@@ -17,10 +17,18 @@ from grader.robotcode.compiling.season import (
 )
 from grader.robotcode.facts import ParseProblem
 from grader.robotcode.symbol_table import SymbolTable
-from grader.robotcode.vocabulary import java_spelling
+from grader.robotcode.vocabulary import spell_as_java
 
 ALWAYS = frozenset(dir(builtins)) | {"__file__", "__name__", "__doc__", "__annotations__"}
 OPEN = frozenset({"setattr", "vars", "__getattr__"})  # set attributes by a name nobody can read
+
+
+NAMED_BY: dict[type[ast.AST], str] = {  # the field with the name that a node brings into being
+    **dict.fromkeys((ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef), "name"),
+    **dict.fromkeys((ast.ExceptHandler, ast.MatchAs, ast.MatchStar), "name"),
+    ast.MatchMapping: "rest",
+    ast.arg: "arg",
+}
 
 
 def find_python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
@@ -45,6 +53,7 @@ def find_python_errors(names: SymbolTable) -> Iterator[ParseProblem]:
             method, line = one.func.attr, one.lineno
             yield from find_call_on_class(method, name, held="self.routine", line=line)
     yield from _attributes(every)
+    yield from _methods(every)
 
 
 def _self_in_class_body(every: list[ast.AST]) -> Iterator[ParseProblem]:
@@ -66,18 +75,18 @@ def _imports(every: list[ast.AST]) -> Iterator[ParseProblem]:
     for node in every:
         if isinstance(node, ast.Import):
             modules |= {one.asname or one.name: one.name for one in node.names}
-        if not isinstance(node, ast.ImportFrom) or node.level:
-            continue
-        module = node.module or ""
-        if module.partition(".")[0] not in ROBOTPY:
-            continue
-        for one in node.names:
-            yield from _imported(one.name, module, node.lineno)
+        elif isinstance(node, ast.ImportFrom) and not node.level and _is_robotpy(node.module or ""):
+            for one in node.names:
+                yield from _imported(one.name, node.module or "", node.lineno)
     for node in every:
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
             module = modules.get(node.value.id, "")
-            if module.partition(".")[0] in ROBOTPY and node.attr[:1].isupper():
+            if _is_robotpy(module) and node.attr[:1].isupper():
                 yield from _imported(node.attr, module, node.lineno)
+
+
+def _is_robotpy(module: str) -> bool:
+    return module.partition(".")[0] in ROBOTPY
 
 
 def _imported(name: str, module: str, line: int) -> Iterator[ParseProblem]:
@@ -97,21 +106,16 @@ def _bound(every: list[ast.AST]) -> set[str]:
             bound.add(one.id)
         elif isinstance(one, ast.Import | ast.ImportFrom):
             bound |= {(alias.asname or alias.name).partition(".")[0] for alias in one.names}
-        elif isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-            bound.add(one.name)
-        elif isinstance(one, ast.arg):
-            bound.add(one.arg)
-        elif isinstance(one, ast.ExceptHandler | ast.MatchAs | ast.MatchStar) and one.name:
-            bound.add(one.name)
-        elif isinstance(one, ast.MatchMapping) and one.rest:
-            bound.add(one.rest)
         elif isinstance(one, ast.Global | ast.Nonlocal):
             bound |= {*one.names}
+        elif type(one) in NAMED_BY:
+            bound.add(getattr(one, NAMED_BY[type(one)]))
         bound |= {word.name for word in getattr(one, "type_params", ())}
     return bound
 
 
 def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
+    """Attributes of ``self`` that nothing sets."""
     classes = {one.name: one for one in every if isinstance(one, ast.ClassDef)}
     for one in classes.values():
         known = _members(one, classes)
@@ -122,14 +126,18 @@ def _attributes(every: list[ast.AST]) -> Iterator[ParseProblem]:
                 used = isinstance(node.ctx, ast.Load) and node.value.id == "self"
                 if used and node.attr not in known and not node.attr.startswith("__"):
                     yield ParseProblem(f"self.{node.attr} is never set", node.lineno)
+
+
+def _methods(every: list[ast.AST]) -> Iterator[ParseProblem]:
+    """Methods of a library whose name is misspelled."""
     own = {one.name for one in every if isinstance(one, ast.FunctionDef)}
     own |= {one.attr for one in every if isinstance(one, ast.Attribute) and _is_set(one)}
     for node in every:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-            meant = suggest_name(node.func.attr, METHODS)
-            line = node.func.end_lineno or node.lineno
-            if meant and node.func.attr not in own and java_spelling(node.func.attr) not in METHODS:
-                yield make_spelling_problem("method", node.func.attr, meant=meant, line=line)
+            name, line = node.func.attr, node.func.end_lineno or node.lineno
+            meant = suggest_name(name, METHODS)
+            if meant and name not in own and spell_as_java(name) not in METHODS:
+                yield make_spelling_problem("method", name, meant=meant, line=line)
 
 
 def _is_set(node: ast.Attribute) -> bool:
@@ -138,7 +146,7 @@ def _is_set(node: ast.Attribute) -> bool:
 
 def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | None:
     """All attributes of a class; None where it inherits from a class out of sight."""
-    known = set(INHERITED) | {java_spelling(name) for name in INHERITED}
+    known = {*INHERITED}
     known |= {"".join(f"_{a.lower()}" if a.isupper() else a for a in name) for name in INHERITED}
     waiting, seen = [one], set()
     while waiting:
@@ -151,11 +159,11 @@ def _members(one: ast.ClassDef, classes: dict[str, ast.ClassDef]) -> set[str] | 
             return None
         waiting += [classes[name] for name in bases & classes.keys()]
         known |= {name for node in ast.walk(place) for name in _sets(node)}
+        variables = [node for node in place.body if isinstance(node, ast.Assign | ast.AnnAssign)]
         known |= {
             target.id
-            for node in place.body
+            for node in variables
             for target in ast.walk(node)
-            if isinstance(node, ast.Assign | ast.AnnAssign)
             if isinstance(target, ast.Name) and not isinstance(target.ctx, ast.Load)
         }
     return None if known & OPEN else known

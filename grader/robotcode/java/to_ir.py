@@ -23,7 +23,7 @@ SKIPPED = frozenset(
 
 
 class IrBuilder:
-    """One file on its way to the common syntax; leaves first, so that no depth can hurt."""
+    """Builds the common syntax of one file, leaves first, so that no depth overflows the stack."""
 
     def __init__(self, source: bytes, makers: dict[str, "Maker"]) -> None:
         self.source = source
@@ -60,16 +60,16 @@ class IrBuilder:
         return text.decode("utf-8", errors="replace")
 
     def nodes_of(self, trees: Iterable[Tree]) -> tuple[ir.Node, ...]:
-        """What some trees became."""
+        """The nodes of some trees."""
         return tuple(node for tree in trees for node in self.done[tree.id])
 
     def node_of(self, tree: Tree | None, *, around: Tree) -> ir.Node:
-        """What a tree became; where a mistake in the code left none, a node that says nothing."""
+        """The node of a tree; a node without meaning where a mistake in the code left none."""
         made = () if tree is None else self.done[tree.id]
         return made[0] if len(made) == 1 else ir.Opaque(self.span_of(tree or around), made)
 
     def child_node(self, tree: Tree, name: str) -> ir.Node:
-        """What one named child of a tree became."""
+        """The node of one named child of a tree."""
         return self.node_of(tree.child_by_field_name(name), around=tree)
 
 

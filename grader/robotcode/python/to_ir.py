@@ -21,7 +21,7 @@ SIGNS: dict[type[ast.AST], str] = {
 
 
 class IrBuilder:
-    """One file on its way to the common syntax; leaves first, so that no depth can hurt."""
+    """Builds the common syntax of one file, leaves first, so that no depth overflows the stack."""
 
     def __init__(self, source: bytes, makers: "dict[type[ast.AST], Maker]") -> None:
         self.source = source
@@ -58,11 +58,11 @@ class IrBuilder:
         return ir.SourceSpan(self.source, start, end, tree.lineno)
 
     def nodes_of(self, trees: Iterable[ast.AST]) -> tuple[ir.Node, ...]:
-        """What some trees became."""
+        """The nodes of some trees."""
         return tuple(node for tree in trees for node in self.done[id(tree)])
 
     def node_of(self, tree: ast.expr | ast.stmt) -> ir.Node:
-        """What a tree became, as one node."""
+        """The node of one tree."""
         made = self.done[id(tree)]
         return made[0] if len(made) == 1 else ir.Opaque(self.span_of(tree), made)
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from sim.bench.dataset.folder import file_digest, list_unknown_logs
-from sim.bench.dataset.key import entries_by_file, read_key
+from sim.bench.dataset.folder import compute_file_digest, list_unknown_logs
+from sim.bench.dataset.key import index_by_file, read_key
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
@@ -31,7 +31,7 @@ def verify_dataset(
             where=str(key),
             advice="Run sysid dataset again until it has finished, or name the key with --key.",
         )
-    files = entries_by_file(entries)
+    files = index_by_file(entries)
     asked = {file: job.fingerprint for job in jobs for file in job.files}
     try:
         return (
@@ -52,6 +52,6 @@ def verify_dataset(
 
 def _changed(folder: Path, hashes: dict[str, str]) -> Iterator[str]:
     for file, made in hashes.items():
-        found = file_digest(folder / file)
+        found = compute_file_digest(folder / file)
         if found != made:
             yield f"{'changed' if found else 'missing'}: {file}"

@@ -12,7 +12,6 @@ from sim.bench.dataset.plan import LogJob
 from sim.core.errors import BadRequest
 
 MOMENT = 946_684_800  # [s] 2000-01-01: when a file was made would tell how long it took, and why
-LISTED = 3  # [files] that a refusal names
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
             )
         for job in jobs:
             entry = entries.pop(job.fingerprint, None)
-            hashes = {file: file_digest(folder / file) for file in job.files}
+            hashes = {file: compute_file_digest(folder / file) for file in job.files}
             there = {file: found for file, found in hashes.items() if found}
             if entry and hashes == entry["files"]:
                 kept.append(entry)
@@ -71,7 +70,7 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
     return FolderSurvey(tuple(kept), tuple(todo), tuple(foreign), tuple(stale))
 
 
-def file_digest(path: Path) -> str:
+def compute_file_digest(path: Path) -> str:
     """SHA-256 of a file; empty if there is none.
 
     Raises:
@@ -96,14 +95,8 @@ def list_unknown_logs(folder: Path, *, known: Iterable[str]) -> tuple[str, ...]:
     return tuple(file for file in found if file not in mine)
 
 
-def name_files(files: Sequence[str]) -> str:
-    """The first of some files, and how many more there are."""
-    more = f" and {len(files) - LISTED} more" if len(files) > LISTED else ""
-    return ", ".join(files[:LISTED]) + more
-
-
 class DatasetFolder:
-    """Puts files into the folder, each whole or not at all.
+    """The folder that a dataset is written to; each file is written atomically.
 
     Args:
         folder: of the dataset; made when the first file comes.
@@ -150,7 +143,7 @@ class DatasetFolder:
                     part.unlink()
 
     def remove_empty_folders(self) -> None:
-        """Remove folders that were made and stayed empty."""
+        """Remove the folders that were made here and stayed empty."""
         for folder in reversed(self._made):
             with suppress(OSError):  # there is a file in it
                 folder.rmdir()

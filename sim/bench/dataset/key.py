@@ -26,19 +26,19 @@ SEAL = "seal"
 Entry = Mapping[str, Any]
 
 
-def default_key_path(folder: Path) -> Path:
-    """Where the key of a dataset lies if nobody says: beside its folder, not in it."""
+def choose_key_path(folder: Path) -> Path:
+    """The default path of a dataset's key: beside its folder, not in it."""
     folder = Path(os.path.abspath(folder))  # noqa: PTH100 - as it is called, not where it leads
     return folder.with_name(f"{folder.name or 'dataset'}{ENDING}")
 
 
-def entries_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
-    """File -> its entry."""
+def index_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
+    """Map of each file to its entry in the key."""
     return {file: entry for entry in entries for file in entry["files"]}
 
 
 def read_key(path: Path, *, secret: Secret) -> tuple[Entry, ...]:
-    """The entries of a key, once its seal is found whole; none if there is no key.
+    """The entries of a key, after its seal was verified; none if there is no key.
 
     Raises:
         BadRequest: it cannot be read, or its seal is not of this secret and content.
@@ -69,7 +69,7 @@ def read_key(path: Path, *, secret: Secret) -> tuple[Entry, ...]:
 
 
 def write_key(path: Path, journal: "Journal", *, dataset: str, secret: Secret) -> int:
-    """Write a key, whole or not at all, from a journal that holds all its logs.
+    """Write a key atomically from a journal that holds all its logs.
 
     One entry at a time is in memory, so a dataset may have any number of logs.
 
@@ -138,7 +138,7 @@ class Journal:
         self._stream: Any = None
 
     def read(self) -> tuple[Entry, ...]:
-        """The entries so far; a line that is torn or not sealed with this secret is passed over.
+        """The entries so far, without lines that are incomplete or not sealed with this secret.
 
         Raises:
             OSError: it cannot be read.
@@ -150,7 +150,7 @@ class Journal:
         return tuple(entry for line in lines if (entry := self._entry(line)) is not None)
 
     def locate_entries(self) -> list[tuple[int, int]]:
-        """Where in it each sealed line begins and how long it is, in the order of their files.
+        """Offset and length of each sealed line in the journal, in the order of their files.
 
         Raises:
             OSError: it cannot be read.
@@ -166,7 +166,7 @@ class Journal:
         return [(begin, length) for _, begin, length in sorted(found)]
 
     def read_entries_at(self, places: Iterable[tuple[int, int]]) -> Iterator[Entry]:
-        """Read the entries at some places, one after another.
+        """Read the entries at some offsets, one after another.
 
         Raises:
             OSError: it cannot be read, or was changed meanwhile.
@@ -220,14 +220,14 @@ class Journal:
             raise
 
     def close(self) -> None:
-        """Stop writing; what is in it stays for the next run, and an empty one goes."""
+        """Close the journal; it stays for the next run unless it is empty."""
         if self._stream is not None:
             self._stream.close()
             if not self.path.stat().st_size:
                 self.remove()
 
     def remove(self) -> None:
-        """Remove the journal, whose entries are in the key by now."""
+        """Delete the journal, whose entries are in the key by now."""
         with suppress(OSError):  # one that stays is passed over, or read again: both are right
             self.path.unlink()
 

@@ -22,7 +22,7 @@ FAULT = ("name", "severity", "test", "at", "chance")
 
 @dataclass(frozen=True)
 class LogSettings:
-    """How the tests of a log are run.
+    """Settings with which the tests of a log are run.
 
     Args:
         routine: the voltages.

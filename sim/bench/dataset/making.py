@@ -16,7 +16,7 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.simulate import simulate
 from sim.core.errors import Refusal
 from sim.core.log import Log, Run
-from sim.core.units import find_unit, gains_per
+from sim.core.units import convert_gains, find_unit
 from sim.inspect.contaminate import contaminate
 from sim.inspect.fault import DamagedLog, LogInterval
 from sim.io import write
@@ -35,10 +35,10 @@ DIGITS = {  # after the point, of what is in SI; finer than any encoder or conve
 
 @dataclass(frozen=True)
 class MadeLog:
-    """A log that is made.
+    """A log that was made: its files and its ground truth.
 
     Args:
-        job: what was asked for.
+        job: the job that it was made for.
         contents: path of a file in the dataset's folder -> its bytes.
         truth: about them, as it stands in the key.
     """
@@ -50,7 +50,7 @@ class MadeLog:
 
 @dataclass(frozen=True)
 class FailedLog:
-    """A log that cannot be made: a refusal as plain data, which every process can hand on."""
+    """A log that cannot be made: its error as plain data, which any process can pass on."""
 
     job: LogJob
     what: str
@@ -58,7 +58,7 @@ class FailedLog:
 
 
 def make_log(job: LogJob) -> MadeLog | FailedLog:
-    """Make a log. Threads of one process take turns: they would share its one processor anyway."""
+    """Make a log; the threads of a process take turns, as they share its one processor."""
     with ALONE:
         return _made(job)
 
@@ -70,7 +70,7 @@ def _made(job: LogJob) -> MadeLog | FailedLog:
         log = simulate(
             built,
             asked.routine,
-            rng=job.random_stream(RECORD),
+            rng=job.make_random_stream(RECORD),
             period=asked.period,
             duty_cycle=asked.duty_cycle,
             electrical=asked.electrical,
@@ -94,7 +94,7 @@ def _built(job: LogJob) -> Mechanism:
     """The mechanism, drawn and with its effects hidden."""
     built = MECHANISMS[job.mechanism]
     if job.drawn:
-        built = built.draw(job.random_stream(MECHANISM))
+        built = built.draw(job.make_random_stream(MECHANISM))
     for one in job.effects:
         built = built.hide(one.effect, size=one.size)
     return built
@@ -132,7 +132,7 @@ def _struck(log: Log, strike: PlannedFault, job: LogJob, number: int) -> Damaged
     """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
     attempt = 0
     while True:
-        rng = job.random_stream(DAMAGE, number, attempt)
+        rng = job.make_random_stream(DAMAGE, number, attempt)
         try:
             return contaminate(
                 log,
@@ -170,7 +170,7 @@ def _truth(
         "mechanism": built.name,
         "type": built.type,
         "units": per.name,
-        "gains": gains_per(built.gains, factor=per.si),
+        "gains": convert_gains(built.gains, factor=per.si),
         "built": {name: getattr(built, name) for name in built.spread},
         "hidden": [
             {

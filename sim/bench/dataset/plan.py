@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from sim.bench.dataset.logs import FaultChoice, HiddenEffectChoice, LogSettings, LogTable
-from sim.bench.dataset.secret import Secret, log_seed
+from sim.bench.dataset.secret import Secret, derive_log_seed
 from sim.bench.dataset.spec import Spec
 from sim.bench.dataset.student import make_folder_name
 from sim.bench.dataset.table import NumberRange
@@ -24,7 +24,7 @@ EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart 
 
 @dataclass(frozen=True)
 class HiddenEffect:
-    """An effect that is hidden in a log's mechanism, and how much of it."""
+    """An effect that is hidden in a log's mechanism, and its size."""
 
     effect: str
     size: float
@@ -77,7 +77,7 @@ class LogJob:
 
     @property
     def files(self) -> tuple[str, ...]:
-        """Its files, as paths in the dataset's folder."""
+        """The files of the log, as paths in the dataset's folder."""
         return tuple(f"{self.name}.{ending}" for ending in self.formats)
 
     @property
@@ -87,12 +87,12 @@ class LogJob:
         del content["where"]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
-    def random_stream(self, *which: int) -> np.random.Generator:
+    def make_random_stream(self, *which: int) -> np.random.Generator:
         """An independent random generator for each purpose: a new fault changes nothing else."""
-        return random_stream(self.seed, *which)
+        return make_random_stream(self.seed, *which)
 
 
-def random_stream(seed: int, *which: int) -> np.random.Generator:
+def make_random_stream(seed: int, *which: int) -> np.random.Generator:
     """One of the independent random generators of a seed."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
 
@@ -101,7 +101,7 @@ def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
     """The jobs of a spec, in the order of their names.
 
     Args:
-        spec: what is asked for.
+        spec: the specification.
         secret: what it is drawn from.
     """
     return tuple(
@@ -116,7 +116,7 @@ def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, LogT
     for block, logs in enumerate(spec.logs, start=1):
         for mechanism in logs.mechanisms:
             for number in range(1, logs.count + 1):
-                seed = log_seed(
+                seed = derive_log_seed(
                     secret,
                     dataset=spec.name,
                     student=student,
@@ -149,14 +149,14 @@ def _numbered(found: list[tuple[int, LogTable, str]], spec: Spec, student: str) 
 
 def _effects(asked: tuple[HiddenEffectChoice, ...], seed: int) -> Iterator[HiddenEffect]:
     for number, one in enumerate(asked):
-        rng = random_stream(seed, EFFECT, number)
+        rng = make_random_stream(seed, EFFECT, number)
         if rng.random() < one.chance:
             yield HiddenEffect(_one_of(one.names, rng), one.size.draw(rng))
 
 
 def _strikes(asked: tuple[FaultChoice, ...], seed: int) -> Iterator[PlannedFault]:
     for number, one in enumerate(asked):
-        rng = random_stream(seed, FAULT, number)
+        rng = make_random_stream(seed, FAULT, number)
         if rng.random() < one.chance:
             yield PlannedFault(
                 fault=_one_of(one.names, rng),

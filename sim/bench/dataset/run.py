@@ -6,13 +6,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from sim.bench.dataset.folder import DatasetFolder, FolderSurvey, name_files, survey_folder
+from sim.bench.dataset.folder import DatasetFolder, FolderSurvey, survey_folder
 from sim.bench.dataset.key import Entry, Journal, read_key, write_key
 from sim.bench.dataset.making import FailedLog, MadeLog, make_log
 from sim.bench.dataset.plan import LogJob
 from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
+from sim.support.printable import list_first
 
+LISTED = 3  # [files] that a refusal names
 Maker = Callable[[Sequence[LogJob]], Iterator[MadeLog | FailedLog]]
 
 
@@ -29,7 +31,7 @@ class DatasetPlace:
     key: Path
 
     def check_separation(self, *, spec: Path, secret: Path | None) -> None:
-        """Refuse a folder that would give the truth away with the data.
+        """Refuse a folder of data that would also contain its key, spec or secret.
 
         Args:
             spec: the file that says what is done to the logs.
@@ -78,7 +80,7 @@ def check_folder(
     if found.foreign and not overwrite:
         raise BadRequest(
             f"these files are in the folder, but do not belong to this spec and secret: "
-            f"{name_files(found.foreign)}",
+            f"{list_first(found.foreign, most=LISTED)}",
             where=str(place.folder),
             advice="Name another folder with -o, or replace these files with --overwrite.",
         )
@@ -86,7 +88,7 @@ def check_folder(
         files = [file for entry in found.stale for file in entry["files"]]
         raise BadRequest(
             f"these files belonged to this dataset, but the spec no longer contains them: "
-            f"{name_files(files)}",
+            f"{list_first(files, most=LISTED)}",
             where=str(place.folder),
             advice="Move these files away, name another folder with -o, or add --overwrite. "
             "Then the key no longer contains these files.",

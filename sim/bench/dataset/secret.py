@@ -84,7 +84,7 @@ class Secret:
             ) from None
 
 
-def log_seed(
+def derive_log_seed(
     secret: Secret, *, dataset: str, student: str, block: int, mechanism: str, number: int
 ) -> int:
     """The seed of one log; it does not change when students or further logs are added.

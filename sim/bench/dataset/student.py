@@ -13,7 +13,7 @@ PLAIN = re.compile(r"[\w@+-][\w@+. -]*(?<![. ])")
 
 
 def check_student_name(text: str) -> str:
-    """A student's name as it is shown, or a refusal.
+    """A student's name as it is shown; raises if it cannot be a name.
 
     Raises:
         BadRequest: it is empty, too long, not printable, or holds a path separator.
@@ -34,7 +34,7 @@ def check_student_name(text: str) -> str:
 
 
 def normalize_name(student: str) -> str:
-    """The one form of a name: Ann and ann are one person, as they are one folder on most disks."""
+    """A name in the form by which people are told apart: Ann and ann are one person."""
     return check_student_name(student).casefold()
 
 

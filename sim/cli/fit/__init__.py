@@ -2,23 +2,29 @@
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from sim.cli.fit.inertia import add_inertia, turning_options
-from sim.cli.fit.parts import describe_kind, fit_parts, join_parts
-from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, paste_code
+from sim.cli.fit.parts import fit_parts, join_parts
+from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, make_paste_text
 from sim.cli.fit.plausibility import (
     check_against_physics,
     compare_directions_alone,
     read_motor_parts,
 )
-from sim.cli.options import FILE, PartReader, as_json, reading_options, velocity_options
+from sim.cli.options import (
+    FILE,
+    PartReader,
+    as_json,
+    combine_options,
+    reading_options,
+    velocity_options,
+)
 from sim.core.vocabulary import METHODS
 from sim.feedback import PRESETS, Feedback
 from sim.support.command_line import DONE, NOT_RIGHT
@@ -34,28 +40,20 @@ if TYPE_CHECKING:
 LOOPS = ("velocity", "position")
 
 
-def feedback_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options for the user's own feedback gains, to be simulated, too."""
-    options = (
-        click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
-        click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
-        click.option(
-            "--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"
-        ),
-        click.option("--html", type=FILE, help="Write a page with every figure and number."),
-        click.option(
-            "--plot", type=FILE, help="Write all figures into one file: .png, .svg or .pdf."
-        ),
-        click.option(
-            "--wpilog",
-            type=FILE,
-            help="Write a log with the measured and simulated signals, residual and innovation, "
-            "and a layout file for AdvantageScope.",
-        ),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# The user's own feedback gains, to be simulated, too, and the files to write.
+feedback_options = combine_options(
+    click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
+    click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
+    click.option("--loop", type=click.Choice(LOOPS), help="Loop of --own-kp.  [default: velocity]"),
+    click.option("--html", type=FILE, help="Write a page with every figure and number."),
+    click.option("--plot", type=FILE, help="Write all figures into one file: .png, .svg or .pdf."),
+    click.option(
+        "--wpilog",
+        type=FILE,
+        help="Write a log with the measured and simulated signals, residual and innovation, "
+        "and a layout file for AdvantageScope.",
+    ),
+)
 
 
 @click.command()
@@ -144,15 +142,14 @@ def fit(  # noqa: PLR0917 - click passes options by name
 ) -> int:
     """Find kS, kV, kA (and kG) in the logs of one mechanism.
 
-    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. If there are
-    several sides of a drivetrain, several modules or several recordings, the command fits each of
-    them, compares them, and averages their gains. It also compares forward and reverse, but not
-    with --json or --paste.
+    FILES are .wpilog, .csv, or SysId's old .json. Files with one test each are joined. Several sides
+    of a drivetrain, modules or recordings are fitted one by one and compared, and their gains are
+    averaged. Forward and reverse are compared, too, but not with --json or --paste.
 
     For example: sysid fit drive.wpilog --html drive.html
     """
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as all here: --help must not wait
-    from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415
+    from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415
 
     own = _read_own_gains(ctx, loop, kp=own_kp, kd=own_kd)
     built = read_motor_parts(driven_by, count=count, ratio=ratio, radius=radius, load=load)
@@ -162,14 +159,14 @@ def fit(  # noqa: PLR0917 - click passes options by name
     parts = reader.read(files)
     log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
-    pooled = fit_parts(parts, find, kind=describe_kind(parts, len(files)))
+    pooled = fit_parts(parts, find, files=len(files))
     found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
-    found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
+    found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
     _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
     return told.echo(as_json=as_json, paste=paste, season=int(season))
@@ -191,7 +188,7 @@ class _FitOutput:
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
         """Print what was asked for, robot code, JSON, or text for people; the exit code."""
         if paste:
-            click.echo(paste_code(self.found, paste, season=season), nl=False)
+            click.echo(make_paste_text(self.found, paste, season=season), nl=False)
         elif as_json:
             click.echo(json.dumps(self.to_json(), allow_nan=False))
         else:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from sim.cli.fit.parts import describe_kind, fit_parts
-from sim.cli.options import FILE, PartReader
+from sim.cli.fit.parts import fit_parts
+from sim.cli.options import FILE, PartReader, combine_options
 from sim.core.errors import BadRequest
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class Turning:
 
 def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options for a robot that turns on the spot; the command gets them as ``turning``."""
-    options = (
+    options = combine_options(
         click.option(
             "--straight",
             type=FILE,
@@ -65,9 +65,7 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
         turning = _read_turning(straight, mass=mass, lever=lever)
         return command(*args, turning=turning, **others)
 
-    for option in reversed(options):
-        asked = option(asked)
-    return asked
+    return options(asked)
 
 
 def _read_turning(
@@ -89,7 +87,7 @@ def _read_turning(
 def find_inertia(
     found: "Fit", log: "Log", turning: Turning | None, *, method: str
 ) -> "MomentOfInertia | None":
-    """The moment of inertia, from a fit of turning and the log of going straight; None without.
+    """The moment of inertia, from a turning fit and a straight log; None without such a log.
 
     Raises:
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
@@ -98,7 +96,7 @@ def find_inertia(
     if turning is None:
         return None
     from sim.fit import fit as find_gains  # noqa: PLC0415 - as below: --help must not wait for it
-    from sim.fit.physics.inertia import moment_of_inertia  # noqa: PLC0415
+    from sim.fit.physics.inertia import compute_moment_of_inertia  # noqa: PLC0415
 
     if any(doubt.code == "rate-as-voltage" for doubt in log.doubts):
         raise BadRequest(
@@ -108,15 +106,17 @@ def find_inertia(
         )
     parts = PartReader(type="simple").read((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
-    gone = fit_parts(parts, find, kind=describe_kind(parts, 1)).found
+    gone = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
-    return moment_of_inertia(found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels)
+    return compute_moment_of_inertia(
+        found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels
+    )
 
 
 def add_inertia(
     found: "Fit", notes: tuple[str, ...], log: "Log", turning: Turning | None, *, method: str
 ) -> "tuple[Fit, tuple[str, ...], MomentOfInertia | None]":
-    """A fit, its notes and the moment of inertia, with what speaks against that; None without.
+    """A fit with the doubts about its moment of inertia, its notes, and that moment or None.
 
     Raises:
         Refusal: as ``find_inertia``.

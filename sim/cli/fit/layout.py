@@ -23,7 +23,7 @@ NO_CONVERSION = {"type": None, "factor": 1}
 
 
 def write_layout(log: Path, tops: Sequence[str]) -> None:
-    """Write a layout beside a log: velocities and voltage on one tab, what is left on another.
+    """Write an AdvantageScope layout beside a log, with tabs for velocities and residuals.
 
     Args:
         log: what ``write_replay`` wrote.

@@ -48,15 +48,8 @@ def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     return joined
 
 
-def describe_kind(parts: Parts, files: int) -> str:
-    """What the parts are: two sides, several motors, or several files."""
-    if set(map(str.lower, parts)) == set(SIDES):
-        return SIDE
-    return FILE if files > 1 and len(parts) >= files else MOTOR
-
-
 def join_parts(parts: Parts) -> "Log":
-    """All runs of all parts as one log, to show; what several parts say is said once."""
+    """All runs of all parts as one log for display; what several parts say is said once."""
     first, *others = parts.values()
     for log in others:
         first = _joined(first, log)
@@ -98,13 +91,13 @@ class PooledParts:
         }
 
 
-def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, kind: str) -> PooledParts:
-    """The fit of every part, compared and pooled.
+def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -> PooledParts:
+    """Fit every mechanism or side of a robot, compare the fits and pool them.
 
     Args:
         parts: at least one.
         find: fits one.
-        kind: what they are.
+        files: how many files they come from.
 
     Raises:
         Refusal: none of them can be fitted; the reason of the first.
@@ -125,6 +118,7 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, kind: str) -> Poo
     found = pool_fits(fits)
     if len(parts) == 1:
         return PooledParts(found, fits)
+    kind = _kind(parts, files)
     left_out = tuple(
         Doubt("part-left-out", f"{kind} {name!r} cannot be fitted and was left out: {said.what}.")
         for name, said in refused.items()
@@ -134,6 +128,13 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, kind: str) -> Poo
     differ = compare_parts(fits, kind)
     found = replace(found, doubts=(*found.doubts, *differ, *left_out))
     return PooledParts(found, fits, () if differ else (_agree(fits, kind),))
+
+
+def _kind(parts: Parts, files: int) -> str:
+    """What the parts are: two sides, several motors, or several files."""
+    if set(map(str.lower, parts)) == set(SIDES):
+        return SIDE
+    return FILE if files > 1 and len(parts) >= files else MOTOR
 
 
 def _explained(refusal: Refusal, log: "Log") -> Refusal:

@@ -11,7 +11,7 @@ LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
 CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains that somebody else's code holds, in Java
 
 
-def paste_code(found: "Fit", target: str, *, season: int) -> str:
+def make_paste_text(found: "Fit", target: str, *, season: int) -> str:
     """The text to print for ``--paste``; a radius counts only where the command was given one.
 
     Args:

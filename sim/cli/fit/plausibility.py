@@ -35,10 +35,10 @@ def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") ->
     """The fit with the doubts of the plausibility checks before its own."""
     import numpy as np  # noqa: PLC0415 - --help must not wait for it
 
-    from sim.fit.physics import physical_doubts  # noqa: PLC0415
+    from sim.fit.physics import check_plausibility  # noqa: PLC0415
 
     period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
-    return _doubted(found, *physical_doubts(found, parts=parts, period=period), first=True)
+    return _doubted(found, *check_plausibility(found, parts=parts, period=period), first=True)
 
 
 def compare_directions_alone(

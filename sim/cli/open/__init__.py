@@ -5,33 +5,29 @@ import sys
 import tempfile
 import threading
 import webbrowser
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE
+from sim.cli.options import FILE, combine_options
 from sim.support.command_line import DONE
 
 if TYPE_CHECKING:
     from sim.cli.open.view import PageView
 
 
-def page_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The options of a command that serves the page."""
-    options = (
-        click.option(
-            "--port",
-            type=click.IntRange(0, 65535),
-            default=0,
-            help="Port of the page on this machine.  [default: a free one]",
-        ),
-        click.option("--no-browser", is_flag=True, help="Only print the address of the page."),
-    )
-    for option in reversed(options):
-        command = option(command)
-    return command
+# Of a command that serves the page.
+page_options = combine_options(
+    click.option(
+        "--port",
+        type=click.IntRange(0, 65535),
+        default=0,
+        help="Port of the page on this machine.  [default: a free one]",
+    ),
+    click.option("--no-browser", is_flag=True, help="Only print the address of the page."),
+)
 
 
 @click.command(name="open")

@@ -38,7 +38,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
     """
     from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - once needed
 
-    log = one.log(reading)
+    log = one.combine_runs(reading)
     unit = find_unit(log.units)
     runs = [
         {
@@ -48,7 +48,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
             "start": float(run.time[0]) if len(run) else 0.0,
             "end": float(run.time[-1]) if len(run) else 0.0,
         }
-        for name, part in one.parts(reading).items()
+        for name, part in one.read_parts(reading).items()
         for run in part.runs
     ]
     return {
@@ -66,7 +66,7 @@ def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> 
 
 
 def describe_live(session: "Session") -> dict[str, Any]:
-    """What is followed while it is recorded, and the logs that grow, each with its revision."""
+    """The status of the source that is followed, and its growing logs with their revisions."""
     live = session.live
     if live is None:
         return {"follows": False}
@@ -94,7 +94,7 @@ def pack_samples(log: "Log") -> bytes:
 
 
 def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
-    """Faults with their places, and what else is odd."""
+    """The faults of a log with their times, and its other warnings."""
     data = found.to_json()
     for fault in data["faults"]:
         fault["evidence"] = _without_path(fault["evidence"], one)
@@ -102,33 +102,32 @@ def describe_faults(found: "Inspection", one: "OpenLog") -> dict[str, Any]:
 
 
 def describe_fit(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
-    """Gains, what they rest on, and where each run begins in simulation.
+    """The gains with verdict and doubts, and the simulated initial state of each run.
 
     Raises:
         Refusal: the log cannot be read or fitted.
     """
-    from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - only for people
+    from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - only for people
     from sim.report.rows import make_gain_rows  # noqa: PLC0415 - the same
 
-    pooled, log = one.fit(reading), one.log(reading)
+    pooled, log = one.fit(reading), one.combine_runs(reading)
     found = pooled.found.in_log_units()
-    rows = {row.name: row for row in make_gain_rows(found)}
     gains = [
         {
             "name": name,
             "value": value,
             "error": _finite(found.errors.get(name, math.nan)),
-            "error_text": rows["angle" if name == "offset_rad" else name].error,
-            "unit": rows["angle" if name == "offset_rad" else name].unit,
-            "means": rows["angle" if name == "offset_rad" else name].means,
+            "error_text": row.error,
+            "unit": row.unit,
+            "means": row.means,
         }
-        for name, value in found.gains.items()
+        for (name, value), row in zip(found.gains.items(), make_gain_rows(found), strict=True)
     ]
     return {
         "type": found.type,
         "gains": gains,
-        "verdict": gain_verdict(found, log),
-        "doubts": _doubts(found.all_doubts(), one),
+        "verdict": write_gain_verdict(found, log),
+        "doubts": _doubts(found.list_doubts(), one),
         "notes": list(pooled.notes),
         "parts": sorted(part.effect for part in found.parts),
         "lag": found.position_delay if found.position_delay > LAGS else 0.0,
@@ -150,7 +149,7 @@ def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
 
     found = one.fit(reading).found
-    doubted, notes = compare_directions_alone(found, one.log(reading), patient=False)
+    doubted, notes = compare_directions_alone(found, one.combine_runs(reading), patient=False)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
     return {"doubts": _doubts(more, one), "notes": list(notes)}
 
@@ -224,7 +223,9 @@ def write_report(one: "OpenLog", reading: "Reading") -> str:
     pooled, preset = one.fit(reading), PRESETS["default"]
     found = pooled.found.in_log_units()
     tried = try_feedback_gains(found, preset)
-    return render_page(Report(one.name, found, one.log(reading), preset, tried, pooled.notes))
+    return render_page(
+        Report(one.name, found, one.combine_runs(reading), preset, tried, pooled.notes)
+    )
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
@@ -250,7 +251,7 @@ def _thin(values: "Array") -> list[float]:
 
 
 def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
-    """What went wrong, where, and what to do; the folder of dropped files is left out."""
+    """An error as plain data: what went wrong, where, and what to do; without our folder."""
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
     kind = type(refusal).__name__

@@ -32,7 +32,7 @@ class ReconcileJob:
         threading.Thread(target=self._run, daemon=True).start()
 
     def to_json(self) -> dict[str, Any]:
-        """How far it is, and what was found once it is done.
+        """Progress of the search, and its result once it has ended, as plain data.
 
         Raises:
             Refusal: the log cannot be reconciled.
@@ -42,9 +42,9 @@ class ReconcileJob:
         return {"words": self._words, "share": self._share, "story": self._story}
 
     def _run(self) -> None:
-        """Search; whatever goes wrong is told with the next question."""
+        """Run the search; an error is reported when the page asks for its progress."""
         from sim.cli.reconcile import (  # noqa: PLC0415 - once it is needed
-            default_time_limit,
+            choose_time_limit,
             inspect_damage,
         )
         from sim.reconcile import reconcile  # noqa: PLC0415 - the same
@@ -55,7 +55,7 @@ class ReconcileJob:
                 log,
                 type=self._type or log.type or "simple",
                 damages={"log": inspect_damage(log)},
-                time_limit=default_time_limit(),
+                time_limit=choose_time_limit(),
                 progress=self._note,
             )
             self._story = describe_story(story)

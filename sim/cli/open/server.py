@@ -45,7 +45,7 @@ PATIENCE = 30.0  # [s] for the rest of a request that has begun
 
 
 class PageServer(ThreadingHTTPServer):
-    """Serves the page and what it asks about the logs of a session.
+    """HTTP server of the page and of the data about a session's logs.
 
     Args:
         session: the logs that are open.
@@ -80,11 +80,11 @@ class PageServer(ThreadingHTTPServer):
         return f"http://{self.hosts[0]}/{self.word}/"
 
     def handle_error(self, request: object, client_address: object) -> None:
-        """Say nothing about a browser that hung up."""
+        """Print nothing when a browser closes its connection."""
 
 
 class PageRequest(BaseHTTPRequestHandler):
-    """One request."""
+    """The handler of one HTTP request."""
 
     server: PageServer
     protocol_version = "HTTP/1.1"
@@ -93,11 +93,11 @@ class PageRequest(BaseHTTPRequestHandler):
     timeout = PATIENCE
 
     def do_GET(self) -> None:
-        """A file of the page, or what is known of a log."""
+        """Send a file of the page, or data about a log."""
         self._answer(self._get)
 
     def do_POST(self) -> None:
-        """A dropped file, or the example."""
+        """Open a dropped file, or the example log."""
         self._answer(self._post)
 
     def do_DELETE(self) -> None:
@@ -158,7 +158,7 @@ class PageRequest(BaseHTTPRequestHandler):
     def _post(self, steps: list[str], query: Mapping[str, str]) -> None:
         match steps:
             case ["logs"]:
-                name, path = self.server.session.place_for(query.get("name", "log"))
+                name, path = self.server.session.choose_place(query.get("name", "log"))
                 self._receive(path)
                 self._send_json(_name(self.server.session.add(name, path)))
             case ["example"]:
@@ -202,9 +202,9 @@ class PageRequest(BaseHTTPRequestHandler):
             doubts = not self.server.session.view.raw
             self._send_json(page_data.describe_log(one, reading, doubts=doubts))
         elif what == "entries":
-            self._send_json(page_data.describe_entries(one.entries()))
+            self._send_json(page_data.describe_entries(one.list_entries()))
         else:
-            content = page_data.pack_samples(one.log(reading))
+            content = page_data.pack_samples(one.combine_runs(reading))
             self._send(content, "application/octet-stream")
 
     def _send_findings(
@@ -213,7 +213,7 @@ class PageRequest(BaseHTTPRequestHandler):
         """What is found out of a log."""
         match what:
             case "faults":
-                found = page_data.describe_faults(one.inspection(reading), one)
+                found = page_data.describe_faults(one.inspect(reading), one)
                 self._send_json(found)
             case "fit":
                 self._send_json(page_data.describe_fit(one, reading))

@@ -5,6 +5,7 @@ import shutil
 import threading
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -27,7 +28,7 @@ LONGEST_NAME = 120  # [characters] of a file's name
 
 @dataclass(frozen=True)
 class Reading:
-    """How a log is to be read.
+    """Options with which a log is read.
 
     Args:
         units: of its positions; None believes the file.
@@ -48,7 +49,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class LiveView:
-    """What `sysid watch` shows on the page.
+    """Status and logs of a source that ``sysid watch`` follows on the page.
 
     Args:
         status: what it follows, or waits for.
@@ -83,8 +84,8 @@ class OpenLog:
     _kept: dict[Hashable, Any] = field(default_factory=dict)
     _locks: dict[Hashable, threading.Lock] = field(default_factory=dict)
 
-    def parts(self, reading: Reading) -> "dict[str, Log]":
-        """The log of each motor or side by its name.
+    def read_parts(self, reading: Reading) -> "dict[str, Log]":
+        """The log of each mechanism, side or motor by its name.
 
         Raises:
             Refusal: the file cannot be read in this way.
@@ -105,17 +106,17 @@ class OpenLog:
 
         return self._once(("parts", reading), read)
 
-    def log(self, reading: Reading) -> "Log":
-        """All runs of all parts as one log.
+    def combine_runs(self, reading: Reading) -> "Log":
+        """All runs of all mechanisms in the file as one log.
 
         Raises:
-            Refusal: as ``parts``.
+            Refusal: as ``read_parts``.
         """
         from sim.cli.fit.parts import join_parts  # noqa: PLC0415 - with the formats
 
-        return self._once(("log", reading), lambda: join_parts(self.parts(reading)))
+        return self._once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
-    def entries(self) -> "list[Entry]":
+    def list_entries(self) -> "list[Entry]":
         """The entries of the file, for a person who chooses signals.
 
         Raises:
@@ -125,36 +126,33 @@ class OpenLog:
 
         return self._once("entries", lambda: list_entries(self.path))
 
-    def inspection(self, reading: Reading) -> "Inspection":
-        """What is wrong with the record.
+    def inspect(self, reading: Reading) -> "Inspection":
+        """The faults and warnings found in the log.
 
         Raises:
-            Refusal: as ``parts``.
+            Refusal: as ``read_parts``.
         """
         from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - once it is needed
 
-        return self._once(("faults", reading), lambda: inspect(self.log(reading)))
+        return self._once(("faults", reading), lambda: inspect(self.combine_runs(reading)))
 
     def fit(self, reading: Reading) -> "PooledParts":
         """The gains, in the unit of the log.
 
         Raises:
-            Refusal: as ``parts``, or the log cannot be fitted.
+            Refusal: as ``read_parts``, or the log cannot be fitted.
         """
 
         def find() -> "PooledParts":
-            from sim.cli.fit.parts import describe_kind, fit_parts  # noqa: PLC0415 - once needed
+            from sim.cli.fit.parts import fit_parts  # noqa: PLC0415 - once it is needed
             from sim.fit import fit  # noqa: PLC0415 - the same
 
-            parts = self.parts(reading)
-            return fit_parts(
-                parts, lambda log: fit(log, type=reading.type or ""), kind=describe_kind(parts, 1)
-            )
+            return fit_parts(self.read_parts(reading), partial(fit, type=reading.type or ""))
 
         return self._once(("fit", reading), find)
 
     def reconcile(self, reading: Reading) -> "ReconcileJob":
-        """The search for missing effects, begun when it is first asked for."""
+        """The search for missing effects; the first call starts it."""
         from sim.cli.open.reconcile_job import ReconcileJob  # noqa: PLC0415 - once it is needed
 
         def read_file() -> "Log":
@@ -214,12 +212,12 @@ class Session:
 
     @property
     def logs(self) -> tuple[OpenLog, ...]:
-        """Those that are open, in the order in which they came."""
+        """The open logs, in the order in which they were opened."""
         with self._lock:
             return tuple(self._logs.values())
 
     def add(self, name: str, path: Path) -> OpenLog:
-        """Open a file.
+        """Open a file in this session.
 
         Args:
             name: to show.
@@ -253,7 +251,7 @@ class Session:
             if one is not None:
                 one.renew(finished, path)
 
-    def place_for(self, name: str) -> tuple[str, Path]:
+    def choose_place(self, name: str) -> tuple[str, Path]:
         """A name that any system can write, and a new path for a dropped file of that name."""
         plain = re.sub(r"[^\w. ()+-]", "_", Path(name.replace("\\", "/")).name).strip(". ")
         plain = plain[-LONGEST_NAME:] or "log"
@@ -295,12 +293,12 @@ class Session:
         spoiled = contaminate(
             log, "encoder-slip", severity=1.0, test="quasistatic-forward", at=5.5, rng=rng
         )
-        name, path = self.place_for("example drivetrain.wpilog")
+        name, path = self.choose_place("example drivetrain.wpilog")
         write(spoiled.log, path)
         return self.add(name, path)
 
     def import_reading(self) -> None:
-        """Import what it takes to show the data of a log, once and in one thread.
+        """Import the modules that read logs, once and in one thread.
 
         Requests run in threads, and two threads that import modules which import one another can
         find one of them half made.
@@ -315,7 +313,7 @@ class Session:
             import sim.physics.engine  # noqa: F401, PLC0415 - the same
 
     def import_everything(self) -> None:
-        """Import all that requests need, once and in one thread."""
+        """Import the modules that requests need, once and in one thread."""
         self.import_reading()
         with self._imports:
             import sim.bench.mechanisms  # noqa: PLC0415 - as above
@@ -331,7 +329,7 @@ class Session:
             import sim.report  # noqa: F401, PLC0415 - the same
 
     def warm_up(self) -> None:
-        """Load what the first log needs, so that it need not wait for it."""
+        """Import modules and load the engine in advance, so that the first log opens fast."""
         self.import_reading()
         if self.view.raw:
             return

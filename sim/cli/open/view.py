@@ -27,10 +27,10 @@ class SpanText:
 
 @dataclass(frozen=True)
 class PageView:
-    """What the page shows of every log.
+    """Options of what the page shows of every log.
 
     Args:
-        raw: the data alone: nothing is detected, fitted or told.
+        raw: the data alone: nothing is detected or fitted.
         span_text: how marked spans are written.
     """
 

@@ -174,14 +174,14 @@ def _renew_page(session: "Session", live: "LiveFit") -> None:
         session.renew(one, one.path, one.logs)
     update = live.last
     log = None if update is None else update.log
-    counts = {test: len(log.runs_of_test(test)) if log else 0 for test in FOUR_TESTS}
+    counts = {test: len(log.list_runs_of_test(test)) if log else 0 for test in FOUR_TESTS}
     session.live = LiveView(live.source.status, counts, "" if update is None else update.advice)
 
 
 def _show_update(update: "WatchUpdate") -> None:
     """Print a block: which tests have ended, the gains so far, and what to do next."""
     from sim.report.fit_terminal import format_gains  # noqa: PLC0415 - --help must not wait for it
-    from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - the same
+    from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - the same
 
     log, pooled = update.log, update.pooled
     runs = 0 if log is None else len(log.runs)
@@ -191,7 +191,7 @@ def _show_update(update: "WatchUpdate") -> None:
     else:
         for name, value, error, unit in format_gains(pooled.found):
             click.echo(f"  {name} {value} {unit}, one standard error {error}")
-        click.echo(f"  {gain_verdict(pooled.found, log)}")
+        click.echo(f"  {write_gain_verdict(pooled.found, log)}")
     click.echo(f"  Next: {update.advice}")
 
 
@@ -206,14 +206,14 @@ def _show_end(live: "LiveFit") -> None:
     if update is None or update.log is None or update.pooled is None:
         click.echo(f"There are no gains: {update.refusal if update else 'no test has ended.'}")
         return
-    from sim.fit.feedback_trial import trial_doubts, try_feedback_gains  # noqa: PLC0415 - only now
+    from sim.fit.feedback_trial import try_feedback_gains, warn_of_bad_suggestions  # noqa: PLC0415 - only now
     from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - the same
 
     preset = PRESETS["default"]
     found = check_against_physics(update.pooled.found, update.log, parts=None)
     found, notes = compare_directions_alone(found, update.log, patient=False)
     tried = try_feedback_gains(found := found.in_log_units(), preset, own=None)
-    found = replace(found, doubts=(*found.doubts, *trial_doubts(found, tried)))
+    found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     show_fit(
         found, preset=preset, title=", ".join(map(str, update.paths)), log=update.log,
         tried=tried, notes=(*notes, *update.pooled.notes),

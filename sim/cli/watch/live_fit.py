@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sim.cli.fit.parts import describe_kind, fit_parts, join_parts, list_parts
+from sim.cli.fit.parts import fit_parts, join_parts, list_parts
 from sim.cli.watch.recordings import Recording, Source, split_finished_tests
 from sim.core.errors import Refusal
 from sim.core.log import Log
@@ -46,7 +46,7 @@ class WatchUpdate:
 
     def to_json(self) -> dict[str, Any]:
         """As ``sysid watch --json`` prints it."""
-        from sim.report.gain_verdicts import gain_verdict  # noqa: PLC0415 - once it is needed
+        from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - once it is needed
 
         log = self.log
         said: dict[str, Any] = {
@@ -60,12 +60,12 @@ class WatchUpdate:
         }
         if self.pooled is not None:
             said["fit"] = self.pooled.found.to_json()
-            said["verdict"] = gain_verdict(self.pooled.found, log)
+            said["verdict"] = write_gain_verdict(self.pooled.found, log)
         return said
 
 
 class LiveFit:
-    """Follows a source, and fits what it has whenever a test ends.
+    """Follows a source of recordings, and fits them whenever a test ends.
 
     Args:
         source: where the recordings come from.
@@ -80,7 +80,7 @@ class LiveFit:
         self._renewed: dict[Recording, None] = {}
 
     def take_changed(self) -> tuple[Recording, ...]:
-        """The recordings whose logs were read anew since this was last asked."""
+        """The recordings whose logs were read again since the last call."""
         renewed = tuple(self._renewed)
         self._renewed.clear()
         return renewed
@@ -132,9 +132,7 @@ class LiveFit:
         pooled, refusal, found = None, None, None
         try:
             log = join_parts(parts)
-            pooled = fit_parts(
-                parts, partial(fit, type=self._type), kind=describe_kind(parts, len(files))
-            )
+            pooled = fit_parts(parts, partial(fit, type=self._type), files=len(files))
             found = pooled.found
             pooled = replace(pooled, found=found.in_log_units())
         except Refusal as why:

@@ -33,12 +33,12 @@ class Recording:
 
     @property
     def path(self) -> Path:
-        """Where the file is."""
+        """The path of the file."""
         return self.growing.path
 
 
 class Source(Protocol):
-    """Where recordings come from."""
+    """A source of recordings that are still growing."""
 
     def poll(self) -> Sequence[Recording]:
         """All recordings so far, the last of which may still grow."""
@@ -84,7 +84,7 @@ class FileSource:
 
     @property
     def status(self) -> str:
-        """What it waits for or follows."""
+        """The status: what it waits for or follows."""
         if self._recordings:
             return f"following {self._recordings[-1].path}"
         return f"waiting for a log that grows in the folder {self.place}"
@@ -103,7 +103,7 @@ class FileSource:
         return self._recordings
 
     def close(self) -> None:
-        """Nothing is held open."""
+        """Do nothing: no file is kept open."""
 
     def _counts(self, path: Path) -> bool:
         """Whether a file that is new to us goes on where the one before it ended."""

@@ -12,17 +12,17 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.fit.physics.compare import compare_directions, compare_parts, compare_sides
 from sim.fit.physics.parts import Parts, fit_in_si
-from sim.fit.physics.self_consistency import friction_doubts, gravity_doubts, timescale_doubts
-from sim.fit.physics.theory import theory_doubts
+from sim.fit.physics.self_consistency import check_friction, check_gravity, check_timescale
+from sim.fit.physics.theory import check_theory
 from sim.fit.result import Fit
 
-__all__ = ["Parts", "compare_directions", "compare_parts", "compare_sides", "physical_doubts"]
+__all__ = ["Parts", "check_plausibility", "compare_directions", "compare_parts", "compare_sides"]
 
 
-def physical_doubts(
+def check_plausibility(
     found: Fit, *, parts: Parts | None = None, period: float = 0.02
 ) -> tuple[Doubt, ...]:
-    """What physics has against a fit; nothing about gains whose sign is wrong already.
+    """Doubts about gains that contradict physics; none if a gain has the wrong sign.
 
     Args:
         found: the fit, in any unit.
@@ -39,10 +39,10 @@ def physical_doubts(
         )
     si = fit_in_si(found)
     doubts = (
-        *friction_doubts(si),
-        *(theory_doubts(si, parts) if parts is not None else ()),
-        *gravity_doubts(si),
-        *timescale_doubts(si, period),
+        *check_friction(si),
+        *(check_theory(si, parts) if parts is not None else ()),
+        *check_gravity(si),
+        *check_timescale(si, period),
     )
     strays = any(doubt.code in {"model-strays", "small-misfit"} for doubt in found.doubts)
     return tuple(map(_advise_model_first, doubts)) if strays else doubts

@@ -10,7 +10,7 @@ from sim.core.log import DIRECTIONS, Log
 from sim.core.units import find_unit
 from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
-from sim.fit.result import Fit, gain_unit
+from sim.fit.result import Fit, format_gain_unit
 
 APART = 0.05  # [share of a gain] two sides or directions may differ by
 NOTICED = 0.03  # [V] a difference of kS or kG smaller than this is no matter
@@ -24,7 +24,7 @@ SUSPECTS = {
 
 
 def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
-    """Where two sides of a drivetrain, or two of the same mechanism, differ.
+    """Doubts if two sides of a drivetrain, or two of the same mechanism, differ.
 
     Raises:
         BadRequest: one measures a length, the other an angle.
@@ -34,7 +34,7 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
 
 
 def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
-    """Where alike parts of a robot differ: for each gain the lowest and the highest of them.
+    """Doubts if alike parts of a robot differ: for each gain the lowest and the highest.
 
     Args:
         fits: the name of each part -> its fit.
@@ -57,7 +57,7 @@ def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
 
 
 def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 - SysId's word
-    """Where forward and reverse runs, each fitted alone, differ; nothing if they cannot be.
+    """Doubts if forward and reverse runs, each fitted alone, differ.
 
     An elevator's cannot: in one direction friction and weight are the same.
 
@@ -103,9 +103,9 @@ def _differing_gains(
         doubts.append(
             Doubt(
                 f"{what}s-differ",
-                f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} {gain_unit(gain, per)} "
-                f"{names[1]}, {share:.0%} apart; one gain for both is wrong for each: check "
-                f"{why}.",
+                f"{gain} is {a * size:.3g} {names[0]} and {b * size:.3g} "
+                f"{format_gain_unit(gain, per)} {names[1]}, {share:.0%} apart; one gain for both "
+                f"is wrong for each: check {why}.",
             )
         )
     return tuple(doubts)

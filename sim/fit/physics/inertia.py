@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
-from sim.core.units import find_unit, gains_per
+from sim.core.units import convert_gains, find_unit
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.physics.theory import FACTORS
 from sim.fit.result import Fit
@@ -68,7 +68,7 @@ class MomentOfInertia:
         }
 
 
-def moment_of_inertia(
+def compute_moment_of_inertia(
     turning: Fit,
     straight: Fit,
     *,
@@ -129,8 +129,8 @@ def _scaled(found: Fit, factor: float) -> Fit:
     """The fit with kV and kA for a unit of position that is ``factor`` times as large."""
     return replace(
         found,
-        gains=gains_per(found.gains, factor=factor),
-        errors=gains_per(found.errors, factor=factor),
+        gains=convert_gains(found.gains, factor=factor),
+        errors=convert_gains(found.errors, factor=factor),
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.fit.result import Fit
-from sim.physics.motors import Motor, theoretical_kv
+from sim.physics.motors import Motor, compute_theoretical_kv
 
 SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
 BELOW = 0.97  # [of theory] 12 V over the free speed is at most 2.1 % above the exact back-EMF
@@ -15,7 +15,7 @@ HEAVY = 1.15  # [of theory] kA: rotors and wheels add 3 to 10 %
 
 @dataclass(frozen=True)
 class Parts:
-    """What a mechanism is built from, as its team knows it.
+    """Motor, gearing and load of a mechanism, as its team knows them.
 
     Args:
         motor: which one drives it.
@@ -45,7 +45,7 @@ class Parts:
     @property
     def kv(self) -> float:
         """[V·s/m or V·s/rad] the theoretical kV, 12 V over the free speed."""
-        return theoretical_kv(self.motor, ratio=self.ratio, radius=self.radius)
+        return compute_theoretical_kv(self.motor, ratio=self.ratio, radius=self.radius)
 
     @property
     def ka(self) -> float | None:
@@ -57,7 +57,7 @@ class Parts:
 
 
 def fit_in_si(found: Fit) -> Fit:
-    """The same fit per meter or per radian."""
+    """The fit converted to meters or radians."""
     return found.in_units("radians" if find_unit(found.units).angular else "meters")
 
 

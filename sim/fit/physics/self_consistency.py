@@ -17,8 +17,8 @@ FEW_LOOPS = 1.0  # [sample periods] the same, for a fit that simulates between s
 SURE = 0.03  # [share of kA] an error below it is sure
 
 
-def friction_doubts(found: Fit) -> list[Doubt]:
-    """The red flag of kS, and the band to watch."""
+def check_friction(found: Fit) -> list[Doubt]:
+    """Doubts about a kS that is too large, or that should be watched."""
     ks, kv = found.gains["kS"], found.gains["kV"]
     surely = ks - SURELY * found.errors["kS"]
     share = f"kS = {ks:.2f} V, {ks / NOMINAL:.0%} of 12 V,"
@@ -52,8 +52,8 @@ def _format_speed(found: Fit, speed: float) -> str:
     return f"{speed / per.si:.3g} {per.symbol}/s"
 
 
-def gravity_doubts(found: Fit) -> list[Doubt]:
-    """An elevator's weight against its inertia: both are the same mass.
+def check_gravity(found: Fit) -> list[Doubt]:
+    """Doubts if an elevator's kG and kA do not belong to the same mass.
 
     A stage of mass m that moves at half the carriage's speed adds m/2 to the weight that the motor
     feels and m/4 to the inertia, so the quotient is between g and 2 g.
@@ -94,8 +94,8 @@ def gravity_doubts(found: Fit) -> list[Doubt]:
     return []
 
 
-def timescale_doubts(found: Fit, period: float) -> list[Doubt]:
-    """A mechanism that is up to speed before the next sample."""
+def check_timescale(found: Fit, period: float) -> list[Doubt]:
+    """Doubts about a mechanism that is up to speed before the next sample."""
     kv, ka = found.gains["kV"], found.gains["kA"]
     if kv <= 0.0 or ka <= 0.0:
         return []

@@ -9,7 +9,7 @@ import math
 from sim.core.doubt import Doubt
 from sim.core.units import find_unit
 from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
-from sim.fit.result import Fit, gain_unit
+from sim.fit.result import Fit, format_gain_unit
 from sim.physics.motors import MOTORS
 
 DRAG = 1.08  # [of theory] kV with more than the ordinary drag
@@ -40,7 +40,7 @@ FACTORS = (
 """kV found over kV of theory, and the mistake that makes it."""
 
 
-def theory_doubts(found: Fit, parts: Parts) -> list[Doubt]:
+def check_theory(found: Fit, parts: Parts) -> list[Doubt]:
     """Doubts where kV and kA contradict motor, gearing and load.
 
     Raises:
@@ -97,7 +97,7 @@ def _describe_difference(found: Fit, gain: str, theory: float) -> str:
     far = f"{abs(share - 1.0):.0%} {'above' if share > 1.0 else 'below'}"
     if not 1.0 / TIGHT / TIGHT < share < TIGHT * TIGHT:
         far = f"{share:.3g} times"
-    symbol = gain_unit(gain, per)
+    symbol = format_gain_unit(gain, per)
     return f"{gain} = {value * per.si:.3g} {symbol} is {far} the {theory * per.si:.3g} {symbol}"
 
 

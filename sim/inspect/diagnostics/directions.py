@@ -77,11 +77,11 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
         return None
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):
-        load = baseline.gravity(run.position)
+        load = baseline.compute_gravity(run.position)
     elif find_unit(
         features.log.units
     ).angular:  # it may be an arm; what differs is sought, not its mean
-        load = baseline.gravity(run.position)
+        load = baseline.compute_gravity(run.position)
         load = load - load.mean()
     volts = (sign * (run.voltage - load - baseline.ka * _acceleration(run, features.period)))[fast]
     speed = np.abs(run.velocity[fast])

@@ -19,7 +19,7 @@ INTERCEPT = 0.35  # [V] by which a fast ramp may shift the line one would draw b
 
 
 def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
-    """A simulated velocity R² above 0.9 over a simulation that leaves the log for a while."""
+    """Doubts about a simulated velocity R² above 0.9 that hides a misfit."""
     try:
         found = fit(features.log, method="sysid")
     except Refusal:
@@ -72,7 +72,7 @@ def _replay_errors(run: Run, model: BaselineModel, period: float) -> Array:
 
 
 def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
-    """A test that was recorded more than once and did not go the same way."""
+    """Doubts about repeated tests that differ."""
     doubts = []
     for test in dict.fromkeys(run.test for run in features.log.runs):
         runs = [i for i, run in enumerate(features.log.runs) if run.test == test]
@@ -104,7 +104,7 @@ def _speed_excess(features: LogFeatures, index: int) -> float:
 
 
 def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
-    """Tests that hardly move, and steps that are over before they are seen."""
+    """Doubts about tests that hardly move, and steps that end too early."""
     doubts = []
     runs = [run for run in features.log.runs if len(run)]
     if runs and all(not np.ptp(run.position) and not run.velocity.any() for run in runs):
@@ -163,7 +163,7 @@ def _rise_samples(run: Run) -> int:
 
 
 def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
-    """Ramps so fast that the line through their voltages misses kS."""
+    """Doubts about ramps so fast that a line through their voltages misses kS."""
     ramps = [run for run in features.log.runs if run.kind == "quasistatic" and len(run) > FEWEST]
     if features.baseline is None or not ramps:
         return []

@@ -24,9 +24,9 @@ FAR = 2.5  # [times] what is this far off is a fault, not a look
 
 
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
-    """Velocities that come later than the positions beside them, by matching integrals."""
+    """Doubts about a velocity that is later than its position."""
     found = features.velocity_lag
-    if not 1.0 / FAR < _velocity_over_slope(features) < FAR:  # another unit, not another time
+    if not 1.0 / FAR < features.usual_distance_ratio < FAR:  # another unit, not another time
         return []
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
@@ -48,8 +48,8 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
 
 
 def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
-    """Velocity and position that count the same motion a little differently."""
-    usual = _velocity_over_slope(features)
+    """Doubts about a velocity that is a little too large or small for its position."""
+    usual = features.usual_distance_ratio
     if abs(usual - 1.0) < SCALE or not 1.0 / FAR < usual < FAR:
         return []
     return [
@@ -62,13 +62,8 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
     ]
 
 
-def _velocity_over_slope(features: LogFeatures) -> float:
-    """How many times the slope of the position the velocity is, by the median of all runs."""
-    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
-
-
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
-    """A length that nothing on a robot covers in a second."""
+    """Doubts about speeds that no robot reaches."""
     per = find_unit(features.log.units)
     if features.baseline is None or per.angular or FULL / features.baseline.kv <= FASTEST:
         return []
@@ -83,7 +78,7 @@ def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
 
 
 def check_rest_noise(features: LogFeatures) -> list[Doubt]:
-    """Standstill whose noise is small, and yet enough to pass SysId's own threshold."""
+    """Doubts about small noise at rest that still exceeds SysId's threshold."""
     both = zip(features.log.runs, features.rest_lengths, strict=True)
     ramps = {run: n for run, n in both if run.kind == "quasistatic" and len(run) > FEWEST}
     if not ramps:

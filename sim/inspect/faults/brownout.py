@@ -55,7 +55,7 @@ FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before th
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the mechanism go on without its motor for a moment."""
+    """Switch the motor off for a moment."""
     features = LogFeatures(log)
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
@@ -85,7 +85,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find cuts: by the bus voltage, by the applied voltage, else by the motion."""
+    """Find brownouts: by the bus voltage, by the applied voltage, else by the motion."""
     seen = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
     yield from seen
     for anomaly in features.anomalies:
@@ -245,7 +245,7 @@ def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> fl
         last=anomaly.end,
         velocity=float(anomaly.expected[0]),
     )
-    return anomaly.share_explained_by(without - anomaly.expected)
+    return anomaly.compute_explained_share(without - anomaly.expected)
 
 
 FAULT = Fault(

@@ -1,4 +1,4 @@
-"""Command logged: the log holds the voltage that was asked for, not the one that arrived.
+"""Command logged: the log holds the commanded voltage, not the applied one.
 
 On a robot: the program logs its own request. A current limit clips what the motor gets while the
 mechanism starts, or the battery sags under it, and the log knows nothing of either.
@@ -55,19 +55,19 @@ TRUE = 1.25  # [times] the baseline model's own speed is still the one it was fo
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
-    """Clip the current while each dynamic test starts, and log the step as it was asked for."""
+    """Limit the current at the start of each dynamic test, but log the commanded voltage."""
     features, where = LogFeatures(log), []
     for index, run in enumerate(features.log.runs):
         if run.kind == log.runs[strike.run].kind:
             spoilt = _clipped(features, index, keeps=float(KEEPS ** np.cbrt(strike.severity)))
             if spoilt is not None:
                 log = replace_run(log, index, spoilt)
-                where.append(_whole(index, run))
+                where.append(LogInterval.of_samples(index, run))
     return DamagedLog(log, tuple(where))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find perfect steps that the mechanism starts as if it did not get all of them.
+    """Find exact voltage steps under which the mechanism starts too slowly.
 
     A limit knows no direction: where only one of several steps starts like that, it had an accident
     of its own.
@@ -178,7 +178,7 @@ def _rise(
     step, speed, speeds, most = fine[1], 0.0, [], np.inf
     for volts in (way * np.interp(fine, since, voltage)).tolist():
         speeds.append(speed)
-        steady = baseline.ks + way * float(baseline.gravity(np.array(place)))
+        steady = baseline.ks + way * float(baseline.compute_gravity(np.array(place)))
         if most == np.inf and keeps < 1.0:
             most = steady + keeps * (volts - steady)
         most = max(most, steady)
@@ -220,7 +220,7 @@ def _start(features: LogFeatures, index: int, first: int) -> _Start | None:
         time,
         way * (run.position[picked] - run.position[picked].mean()),
         abs(float(run.voltage[first])),
-        baseline.ks + way * baseline.gravity(place),
+        baseline.ks + way * baseline.compute_gravity(place),
         step,
         baseline,
     )
@@ -281,7 +281,7 @@ def _ways(start: _Start, ka: Array, lack: Array) -> Array:
 def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
     return Damage(
         fault="command-logged",
-        where=_whole(index, run),
+        where=LogInterval.of_samples(index, run),
         confidence=1.0 - left,
         evidence=f"The log shows exactly {np.median(run.voltage):.3g} V, but at first the "
         f"mechanism has only {1.0 - shape.lacks:.0%} of the acceleration that this voltage "
@@ -290,10 +290,6 @@ def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
         advice="Log the applied voltage, which the motor controller measures, or use a step "
         f"smaller than {abs(float(np.median(run.voltage))):.1f} V. Until then, do not trust kA.",
     )
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

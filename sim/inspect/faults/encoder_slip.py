@@ -65,7 +65,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find anomalies that a share of the speed explains, which goes and comes back at once."""
+    """Find intervals in which the velocity is abruptly off by a fixed share, then right again."""
     for anomaly in features.anomalies:
         if anomaly.recurs:
             continue
@@ -118,7 +118,7 @@ def _best(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
 def _over_spans(anomaly: Anomaly, *, swells: bool, margin: int) -> tuple[float, float, int, int]:
     """The same over all spans, for one of the two shapes."""
     best = (0.0, 0.0, 0, 1)
-    for span in anomaly.candidate_spans(margin=margin):
+    for span in anomaly.list_candidate_spans(margin=margin):
         best = max(best, _loss(anomaly, span, swells=swells))
     for span in anomaly.refine_spans(best[2:], margin=margin):
         best = max(best, _loss(anomaly, span, swells=swells))
@@ -136,7 +136,7 @@ def _loss(
         shape[first:last] *= np.hanning(last - first + 2)[1:-1]
     size = float(shape @ shape)
     loss = -float(shape @ anomaly.residual) / size if size > 0.0 else 0.0
-    return (anomaly.share_explained_by(-loss * shape), loss, first, last)
+    return (anomaly.compute_explained_share(-loss * shape), loss, first, last)
 
 
 FAULT = Fault(

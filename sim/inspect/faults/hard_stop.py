@@ -49,7 +49,7 @@ GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is 
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Put a stop in the way, and let the voltage push on for a while."""
+    """Add a stop to the travel, with the voltage still on for a while after it."""
     pressed = PRESSED * strike.severity * rng.uniform(0.9, 1.1)
     run = log.runs[strike.run]
     longer = _pushed_on(run, until=float(run.time[0]) + strike.start + pressed)
@@ -67,7 +67,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         for index in range(strike.run + 1, len(log.runs)):
             follows = log.runs[index]
             damaged = replace_run(damaged, index, replace(follows, time=follows.time + late))
-    where = LogInterval(strike.run, run.test, float(spoilt.time[impact]), float(spoilt.time[-1]))
+    where = LogInterval.of_samples(strike.run, spoilt, impact)
     return DamagedLog(damaged, (where,))
 
 
@@ -108,7 +108,7 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         return None
     return Damage(
         fault="hard-stop",
-        where=LogInterval(index, run.test, float(run.time[impact]), float(run.time[-1])),
+        where=LogInterval.of_samples(index, run, impact),
         confidence=share,
         evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
@@ -141,7 +141,7 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
             continue
         off = find_first_motion(run, still=features.still_speed)
         way, volts = np.sign(run.voltage[off]), abs(float(run.voltage[off]))
-        pressed = float(way * baseline.gravity(run.position[:1])[0])
+        pressed = float(way * baseline.compute_gravity(run.position[:1])[0])
         given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)
         end = lowest if way > 0.0 else highest
         gone = np.abs(run.position[: off + 1] - run.position[0])
@@ -155,7 +155,7 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
         ):
             yield Damage(
                 fault="hard-stop",
-                where=LogInterval(index, run.test, float(run.time[0]), float(run.time[off])),
+                where=LogInterval.of_samples(index, run, last=off),
                 confidence=LEANS,
                 evidence=f"For the first {run.time[off] - run.time[0]:.1f} s gravity presses the"
                 " mechanism against the end of its travel. It moves by only "

@@ -38,7 +38,7 @@ HARMLESS = 0.01  # [share of the run's time] 5 % of such gaps make kA 9 % too la
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Lose the samples of a few stalls."""
+    """Remove the samples of a few stalls of the robot program."""
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
     end = min(start + SPREAD * strike.severity, float(run.time[-1]))
@@ -57,13 +57,13 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         moment = until + rng.uniform(0.5, 1.5) * BETWEEN
     if not stalls:
         return DamagedLog(log, ())
-    first, last = run.time[stalls[0][0] - 1], run.time[stalls[-1][-1] + 1]
+    where = LogInterval.of_samples(strike.run, run, stalls[0][0] - 1, stalls[-1][-1] + 1)
     spoilt = replace_run(log, strike.run, select_samples(run, keep))
-    return DamagedLog(spoilt, (LogInterval(strike.run, run.test, float(first), float(last)),))
+    return DamagedLog(spoilt, (where,))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find steps in time that no jitter explains."""
+    """Find gaps between samples that jitter does not explain."""
     for index, run in enumerate(features.log.runs):
         step = np.diff(run.time)
         if step.size < 2:  # noqa: PLR2004 - of one step nobody can say that it is unusual
@@ -76,9 +76,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             lost = float(np.sum(step[gaps] / usual - 1.0))
             yield Damage(
                 fault="loop-overrun",
-                where=LogInterval(
-                    index, run.test, float(run.time[gaps[0]]), float(run.time[gaps[-1] + 1])
-                ),
+                where=LogInterval.of_samples(index, run, gaps[0], gaps[-1] + 1),
                 confidence=1.0 - 0.5 ** (1.0 + lost / PROOF),
                 evidence=f"{_times(gaps.size)} in the samples, the longest "
                 f"{step[gaps].max() * 1000.0:.0f} ms (normal: {usual * 1000.0:.3g} ms):"

@@ -24,7 +24,7 @@ CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the struck run change names with another one; from severity 2 on, all of them move on."""
+    """Exchange the names of two runs; from severity 2 on, shift the names of all runs."""
     runs = list(log.runs)
     names = [run.test for run in runs]
     others = [i for i, run in enumerate(runs) if run.test in FOUR_TESTS and i != strike.run]
@@ -35,12 +35,12 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         moved = [strike.run, *(int(i) for i in rng.permutation(others))]
     for place, source in zip(moved, np.roll(moved, 1), strict=True):
         runs[place] = replace(runs[place], test=names[int(source)])
-    where = [_whole(i, runs[i]) for i in sorted(moved) if runs[i].test != names[i]]
+    where = [LogInterval.of_samples(i, runs[i]) for i in sorted(moved) if runs[i].test != names[i]]
     return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Compare every run's name with what its voltage does."""
+    """Find runs whose name does not match their voltage."""
     if _turned_round(features):
         return
     for index, (run, seems) in enumerate(
@@ -49,7 +49,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if seems != run.test:
             yield Damage(
                 fault="mislabelled-test",
-                where=_whole(index, run),
+                where=LogInterval.of_samples(index, run),
                 confidence=CONFIDENCE,
                 evidence=f"The run has the name {run.test}, but it looks like {seems}: "
                 f"{_voltage(run)}.",
@@ -81,10 +81,6 @@ def _voltage(run: Run) -> str:
         f"its voltage {does} (about {first:.2f} V in the first half, {last:.2f} V in the second), "
         f"and the position changes by {run.position[-1] - run.position[0]:.3g}"
     )
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -28,7 +28,7 @@ _COST = {
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Lose the struck test, and beyond severity 1 others with it; one test always stays."""
+    """Remove a test, and further ones beyond severity 1; one test always stays."""
     struck = log.runs[strike.run].test
     others = sorted({run.test for run in log.runs} - {struck})
     further = rng.permutation(len(others))[: max(0, min(round(strike.severity), len(others)) - 1)]
@@ -38,7 +38,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Name those of the four tests that are neither filed nor recognized."""
+    """Find tests of which no run has the name or the voltage."""
     there = {run.test for run in features.log.runs} | set(features.recognized_tests)
     if not there & set(FOUR_TESTS):
         return

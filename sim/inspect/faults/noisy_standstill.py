@@ -30,7 +30,7 @@ SURE = 3.0  # [times LOUD] at which the confidence is 0.95
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the velocity tremble while the mechanism stands, in every quasistatic test."""
+    """Add noise to the velocity at rest, in every quasistatic test."""
     ramps = [i for i, run in enumerate(log.runs) if run.kind == "quasistatic"]
     still = LogFeatures(log).rest_lengths
     if all(still[i] < FEWEST for i in ramps):
@@ -38,7 +38,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         log = replace(log, runs=tuple(rested))
         still = LogFeatures(log).rest_lengths
     runs = list(log.runs)
-    size = ORDINARY * strike.severity * max(run.top_speed for run in runs)
+    size = ORDINARY * strike.severity * log.top_speed
     where = []
     for index in ramps:
         run = runs[index]
@@ -46,13 +46,13 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
             velocity = run.velocity.copy()
             velocity[: still[index]] += size * rng.standard_normal(still[index])
             runs[index] = replace(run, velocity=velocity)
-            where.append(_stretch(index, run, still[index]))
+            where.append(LogInterval.of_samples(index, run, last=still[index] - 1))
     return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Measure the velocity at the beginning of every ramp, while the position stands."""
-    top = max((run.top_speed for run in features.log.runs), default=0.0)
+    """Find velocity noise at the start of ramps, while the position does not change."""
+    top = features.log.top_speed
     rests = {}
     for index, run in enumerate(features.log.runs):
         still = features.rest_lengths[index] if run.kind == "quasistatic" else 0
@@ -99,7 +99,7 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
     passed = int(np.sum(np.abs(rest) >= threshold))
     return Damage(
         fault="noisy-standstill",
-        where=_stretch(index, run, rest.size),
+        where=LogInterval.of_samples(index, run, last=rest.size - 1),
         confidence=confidence,
         evidence=f"The position does not change for {rest.size} samples, but the velocity reads "
         f"about ±{noise:.3g} per second. In {passed} of these samples the velocity is above "
@@ -108,10 +108,6 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
         advice=f"Set the velocity threshold by hand, to about {3.0 * noise:.2g}, or cut what "
         "comes before the motion.",
     )
-
-
-def _stretch(index: int, run: Run, still: int) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[still - 1]))
 
 
 FAULT = Fault(

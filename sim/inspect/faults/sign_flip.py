@@ -20,7 +20,7 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.log_features import Flags, LogFeatures, majority_sign
+from sim.inspect.log_features import Flags, LogFeatures, find_majority_sign
 
 ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which all tests of a direction, or all, are struck
 HARD = 0.5  # [share of the largest voltage] less may lose against gravity and friction
@@ -29,7 +29,7 @@ FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decide
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Turn a signal round: in one run, in one direction's runs, or in all."""
+    """Reverse the sign of a signal: in one run, in the runs of one direction, or in all."""
     signals = (("voltage",), ("position", "velocity"), ("velocity",))[int(rng.integers(3))]
     struck = log.runs[strike.run]
     runs, where = list(log.runs), []
@@ -38,7 +38,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         if index == strike.run or alike or strike.severity >= BOTH_WAYS:
             flipped = {name: -getattr(run, name) for name in signals}
             runs[index] = replace(run, **flipped)
-            where.append(_whole(index, run))
+            where.append(LogInterval.of_samples(index, run))
     return DamagedLog(replace(log, runs=tuple(runs)), tuple(where))
 
 
@@ -69,7 +69,7 @@ def _hard(values: Array) -> Flags:
 
 
 def _against(one: Array, other: Array, judged: Flags) -> bool:
-    return bool(judged.sum() >= FEWEST) and majority_sign(one[judged] * other[judged]) < 0
+    return bool(judged.sum() >= FEWEST) and find_majority_sign(one[judged] * other[judged]) < 0
 
 
 def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
@@ -86,8 +86,8 @@ def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
 def _falls(run: Run, log: Log) -> bool:
     """Whether the other direction of the same test goes the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
-    for other in log.runs_of_test(mate):
-        goes = majority_sign(other.velocity) * majority_sign(run.velocity) > 0
+    for other in log.list_runs_of_test(mate):
+        goes = find_majority_sign(other.velocity) * find_majority_sign(run.velocity) > 0
         if goes and other.top_speed > FALLS * run.top_speed:
             return True
     return False
@@ -104,7 +104,7 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
     )
     return Damage(
         fault="sign-flip",
-        where=_whole(index, run),
+        where=LogInterval.of_samples(index, run),
         confidence=0.95,
         evidence=f"{' and '.join(said).capitalize()}: at {volts:.3g} V the velocity is "
         f"{speed:.3g} per second, while the position changes by "
@@ -118,10 +118,6 @@ def _typical(values: Array) -> float:
     """The median of the larger half of the values; 0 if there are none."""
     hard = values[_hard(values)]
     return float(np.median(hard)) if hard.size else 0.0
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

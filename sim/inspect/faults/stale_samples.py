@@ -32,18 +32,18 @@ STALE = 2  # [samples] that the usual reading is held; a clean log repeats one o
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let every reading of the sensor stand until the next frame arrives."""
+    """Hold every reading of the sensor until its next frame."""
     held = max(STALE, 1 + round(ORDINARY * strike.severity))
     phases = rng.integers(held, size=len(log.runs))
     runs = [_hold(run, held, int(phase)) for run, phase in zip(log.runs, phases, strict=True)]
     return DamagedLog(
         replace(log, runs=tuple(runs)),
-        tuple(_whole(index, run) for index, run in enumerate(runs) if len(run)),
+        tuple(LogInterval.of_samples(index, run) for index, run in enumerate(runs) if len(run)),
     )
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find runs whose usual reading is held for several samples while they move."""
+    """Find runs in which most readings are repeated for several samples during motion."""
     steps = {"velocity": features.velocity_step, "position": features.position_step}
     held = {
         name: [
@@ -95,7 +95,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     )
     return Damage(
         fault="stale-samples",
-        where=_whole(index, run),
+        where=LogInterval.of_samples(index, run),
         confidence=1.0 - 0.5 ** (1.0 + readings / FEWEST),
         evidence=f"The log repeats {repeated}. It has a sample every {period * 1000.0:.3g} ms, but "
         f"the sensor updates only every {usual * 1000.0:.0f} ms.",
@@ -109,10 +109,6 @@ def _hold(run: Run, held: int, phase: int) -> Run:
     count = np.arange(len(run))
     latest = np.maximum((count + phase) // held * held - phase, 0)
     return replace(run, position=run.position[latest], velocity=run.velocity[latest])
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

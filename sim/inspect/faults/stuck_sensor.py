@@ -45,11 +45,13 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         return DamagedLog(log, ())
     stuck = replace(run, position=run.position[frozen], velocity=run.velocity[frozen])
     runs = tuple(stuck if other is run else other for other in log.runs)
-    return DamagedLog(replace(log, runs=runs), (_stretch(strike.run, run, first, last),))
+    return DamagedLog(
+        replace(log, runs=runs), (LogInterval.of_samples(strike.run, run, first, last),)
+    )
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find long stretches in which neither reading changes although it moves."""
+    """Find long intervals of motion in which neither reading changes."""
     for index, run in enumerate(features.log.runs):
         together = np.stack((run.position, run.velocity))
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
@@ -97,7 +99,7 @@ def _hidden(run: Run, first: int, last: int, *, step: float) -> float:
 
 
 def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damage:
-    where = _stretch(index, run, first, last)
+    where = LogInterval.of_samples(index, run, first, last)
     return Damage(
         fault="stuck-sensor",
         where=where,
@@ -109,10 +111,6 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
         advice="Check the sensor's plug and the CAN error counters, and run this test again. "
         "Until then, cut the run where the sensor starts to repeat.",
     )
-
-
-def _stretch(index: int, run: Run, first: int, last: int) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[first]), float(run.time[last]))
 
 
 FAULT = Fault(

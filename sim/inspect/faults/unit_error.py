@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sim.core.log import FOUR_TESTS, Log, Run
+from sim.core.log import FOUR_TESTS, Log
 from sim.core.units import find_unit
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
@@ -49,18 +49,19 @@ MILD, ORDINARY, GROSS = (TURN,), (60.0, 360.0 / TURN), (360.0, TURN * 60.0)  # b
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Count velocity in another unit, in every run; a harder strike takes a larger factor."""
+    """Scale the velocity to another unit in every run; a higher severity takes a larger factor."""
     factors = MILD if strike.severity < 0.7 else ORDINARY if strike.severity < 2.0 else GROSS  # noqa: PLR2004 - thirds of the scale
     factor = float(rng.choice(factors)) ** int(rng.choice((-1, 1)))
     runs = tuple(replace(run, velocity=run.velocity * factor) for run in log.runs)
     return DamagedLog(
-        replace(log, runs=runs), tuple(_whole(i, run) for i, run in enumerate(runs) if len(run))
+        replace(log, runs=runs),
+        tuple(LogInterval.of_samples(i, run) for i, run in enumerate(runs) if len(run)),
     )
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Compare the velocity with the position, and a drivetrain's speed with what there can be."""
-    usual = _usual(features)
+    """Compare velocity with the slope of position, and a drivetrain with plausible speeds."""
+    usual = features.usual_distance_ratio
     for index, (run, ratio) in enumerate(
         zip(features.log.runs, features.distance_ratios, strict=True)
     ):
@@ -69,7 +70,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         if times:
             yield Damage(
                 fault="unit-error",
-                where=_whole(index, run),
+                where=LogInterval.of_samples(index, run),
                 confidence=0.97,
                 evidence=f"The recorded velocity is the position, multiplied by {times:.3g}. Where "
                 "the position does not change, the velocity should be 0, and it is not.",
@@ -79,18 +80,13 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         elif said:
             yield Damage(
                 fault="unit-error",
-                where=_whole(index, run),
+                where=LogInterval.of_samples(index, run),
                 confidence=0.95,
                 evidence=f"The velocity is {ratio:.4g} times the slope of the position. {said}.",
                 advice="Make the conversion factors of position and velocity agree, and "
                 f"divide the recorded velocity by {ratio:.4g}.",
             )
     yield from _no_such_drive(features)
-
-
-def _usual(features: LogFeatures) -> float:
-    """The scale of most runs: a conversion factor is the same in all of them."""
-    return float(np.median(features.distance_ratios)) if features.distance_ratios else 1.0
 
 
 def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
@@ -104,7 +100,7 @@ def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
         if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
     ]
     speed = float(np.median(speeds)) if speeds else 0.0
-    if not speed or SLOWEST <= speed <= FASTEST or _named(_usual(features)):
+    if not speed or SLOWEST <= speed <= FASTEST or _named(features.usual_distance_ratio):
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield Damage(
@@ -132,10 +128,6 @@ def _named(ratio: float) -> str:
         "This factor belongs to no unit: probably only one of the two signals contains a gear "
         "ratio or a circumference"
     )
-
-
-def _whole(index: int, run: Run) -> LogInterval:
-    return LogInterval(index, run.test, float(run.time[0]), float(run.time[-1]))
 
 
 FAULT = Fault(

@@ -19,7 +19,7 @@ import numpy as np
 
 from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.launch import step_start
+from sim.inspect.launch import find_step_start
 from sim.inspect.log_features import LogFeatures
 
 EVERY = 0.22  # [s] between two drop-outs
@@ -51,7 +51,7 @@ class _Drop:
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the voltage drop out at a rhythm, from the strike to the end of the run."""
+    """Drop the voltage periodically, from the given time to the end of the run."""
     run = log.runs[strike.run]
     voltage = run.voltage.copy()
     period = float(np.median(np.diff(run.time)))
@@ -71,7 +71,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find short falls of the voltage that the velocity does not answer."""
+    """Find short drops of the voltage that the velocity does not follow."""
     for index, run in enumerate(features.log.runs):
         if run.kind not in FAULT.kinds or len(run) < NARROWEST:
             continue
@@ -119,7 +119,7 @@ def _sags(run: Run, first: int, last: int) -> bool:
 
 def _launches(run: Run, drop: _Drop) -> bool:
     """Whether it is in the first moment of a step, when a controller's limits may act."""
-    return bool(0.0 <= run.time[drop.first] - run.time[step_start(run)] < LAUNCH)
+    return bool(0.0 <= run.time[drop.first] - run.time[find_step_start(run)] < LAUNCH)
 
 
 def _returns(voltage: Array, first: int, last: int, ought: Array) -> bool:
@@ -153,11 +153,8 @@ def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval
     stories = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
     return [
         (
-            LogInterval(
-                index,
-                run.test,
-                float(run.time[story[0].first]),
-                float(run.time[min(story[-1].last + 1, len(run) - 1)]),
+            LogInterval.of_samples(
+                index, run, story[0].first, min(story[-1].last + 1, len(run) - 1)
             ),
             story,
         )

@@ -35,7 +35,7 @@ from sim.inspect.fault import (
     replace_run,
     rescale_motion,
 )
-from sim.inspect.launch import CLIMBS, FALLS, find_launch_event, step_start
+from sim.inspect.launch import CLIMBS, FALLS, find_launch_event, find_step_start
 from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
 from sim.inspect.wheel_model import SAMPLES, StepRise, spin_wheels
 
@@ -58,13 +58,13 @@ CAUTION = 0.8  # [share of the voltage that still held] for the next step
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Let the wheels of a dynamic test break loose when its step begins."""
+    """Let the wheels slip at the start of a dynamic test."""
     features = LogFeatures(log)
     run, baseline = log.runs[strike.run], features.baseline
     held = HELD ** (strike.severity * rng.uniform(0.9, 1.1))
     if baseline is None:
         return DamagedLog(log, ())
-    first = step_start(run)
+    first = find_step_start(run)
     since = run.time - run.time[first]
     speed = _smooth(np.abs(run.velocity))
     moves = (speed > features.still_speed) & (since > 0.0)
@@ -128,7 +128,7 @@ def _launched(index: int, run: Run) -> Damage | None:
     if event is None:
         return None
     least = FALLS if event.kind == "fall" else CLIMBS
-    volts = float(np.median(np.abs(run.voltage[step_start(run) :])))
+    volts = float(np.median(np.abs(run.voltage[find_step_start(run) :])))
     lasts = event.end - event.start
     happened = (
         f"falls by {event.size:.0%} within the first {lasts:.2f} s, and then recovers"
@@ -152,7 +152,7 @@ def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
     """A surge and a lull that slipping wheels explain better than any plain rise."""
     if features.baseline is None:
         return None
-    first = step_start(run)
+    first = find_step_start(run)
     lasts = max(LASTS * features.baseline.timescale, LEAST * features.period)
     end = int(np.searchsorted(run.time, run.time[first] + lasts))
     part = _fresh(run, first, end) if end - first >= FEWEST else np.zeros(0, dtype=np.intp)
@@ -195,7 +195,9 @@ def _fresh(run: Run, first: int, last: int) -> Counts:
 
 def _push(run: Run, baseline: BaselineModel) -> Array:
     """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
-    return np.asarray(baseline.steady_speed(run) * np.sign(run.voltage[step_start(run)]))
+    return np.asarray(
+        baseline.compute_steady_speed(run) * np.sign(run.voltage[find_step_start(run)])
+    )
 
 
 def _smooth(values: Array) -> Array:

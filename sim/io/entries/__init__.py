@@ -17,7 +17,7 @@ from sim.core.units import UNITS
 from sim.io.entries.discovery import find_devices, find_driven_interval
 from sim.io.entries.entry import Entry
 from sim.io.entries.mirrored import turn_mirrored_motors
-from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, no_motor
+from sim.io.entries.motors import EXPORT, MotorEntries, find_motors, make_no_motor_error
 from sim.io.entries.names import (
     find_test_name,
     find_type_in_name,
@@ -37,26 +37,26 @@ from sim.io.format import ReadOptions
 
 
 def assemble_log(
-    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    entries: Sequence[Entry], *, options: ReadOptions, where: str
 ) -> tuple[Log, tuple[RunInterval, ...]]:
     """The log of one mechanism, several motors as their mean, and the times of its runs.
 
     Args:
         entries: of the whole log.
-        asked: what its reader knows: units, type, motor, and the names of entries.
+        options: the user's choices: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
         MissingSignal: an entry is missing; the message names it and what there is instead.
-        BadRequest: what was asked for is not in it, or it holds several mechanisms.
+        BadRequest: it lacks the chosen motor or mechanism, or holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
-    found = _found(entries, asked=asked, where=where)
+    found = _found(entries, options=options, where=where)
     return _log(found, found.motors, where=where), found.intervals
 
 
 def assemble_motor_logs(
-    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    entries: Sequence[Entry], *, options: ReadOptions, where: str
 ) -> tuple[dict[str, Log], tuple[RunInterval, ...]]:
     """The log of each motor of one mechanism by its name, and the times of the runs.
 
@@ -64,13 +64,13 @@ def assemble_motor_logs(
 
     Args:
         entries: of the whole log.
-        asked: what its reader knows: units, type, motor, and the names of entries.
+        options: the user's choices: units, type, motor, and the names of entries.
         where: the file, for messages.
 
     Raises:
         MissingSignal, BadRequest, BadSample: as ``assemble_log``.
     """
-    found = _found(entries, asked=asked, where=where)
+    found = _found(entries, options=options, where=where)
     logs = {motor.name: _log(found, (motor,), where=where) for motor in found.motors}
     return turn_mirrored_motors(logs), found.intervals
 
@@ -83,7 +83,7 @@ class _Mechanism:
         state: where its tests are named.
         intervals: when they ran.
         motors: its motors.
-        asked: what its reader knows, the type its name says included.
+        options: the user's choices, the type its name says included.
         type_by_name: whether only the name says the type.
         doubts: what was odd.
     """
@@ -91,25 +91,25 @@ class _Mechanism:
     state: StateEntry
     intervals: tuple[RunInterval, ...]
     motors: tuple[MotorEntries, ...]
-    asked: ReadOptions
+    options: ReadOptions
     type_by_name: bool
     doubts: tuple[Doubt, ...]
 
 
-def _found(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> _Mechanism:
+def _found(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> _Mechanism:
     """The mechanism that is to be read: its tests and its motors."""
-    state = _state(entries, asked=asked, where=where)
-    by_name = asked.type is None
+    state = _state(entries, options=options, where=where)
+    by_name = options.type is None
     if by_name:
-        asked = replace(asked, type=find_type_in_name(state.mechanism) or None)
+        options = replace(options, type=find_type_in_name(state.mechanism) or None)
     intervals, strange = find_run_intervals(state, where=where)
-    motors, doubts, intervals = find_motors(state, entries, intervals, asked=asked, where=where)
-    return _Mechanism(state, intervals, motors, asked, by_name, (*doubts, *strange))
+    motors, doubts, intervals = find_motors(state, entries, intervals, options=options, where=where)
+    return _Mechanism(state, intervals, motors, options, by_name, (*doubts, *strange))
 
 
 def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> Log:
     """The log of some motors of a mechanism, as the tests that are named for it tell it."""
-    result = cut_runs(motors, found.intervals, asked=found.asked, where=where)
+    result = cut_runs(motors, found.intervals, options=found.options, where=where)
     if not result.runs:
         names = quote_names([entry.name for entry in motors[0].signals.values()])
         raise MissingSignal(
@@ -117,7 +117,7 @@ def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> 
             where=where,
             advice="Log the signals in the routine's own log callback, and run the tests again.",
         )
-    said = found.asked.type or ""
+    said = found.options.type or ""
     if found.type_by_name and said == "arm" and not UNITS[result.units].angular:
         said = ""  # what moves in meters is no arm
     return Log(
@@ -130,33 +130,33 @@ def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> 
     )
 
 
-def _state(entries: Sequence[Entry], *, asked: ReadOptions, where: str) -> StateEntry:
+def _state(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> StateEntry:
     """Where the tests are named of the one mechanism that is to be read.
 
     Raises:
-        BadRequest: there are several, and what was asked for does not tell which.
+        BadRequest: there are several, and the options do not choose one.
     """
     try:
-        found = find_state_entries(entries, asked=asked, where=where)
+        found = find_state_entries(entries, options=options, where=where)
     except MissingSignal as missing:
-        named = None if asked.entries else _state_of_file_name(Path(where), entries)
+        named = None if options.entries else _state_of_file_name(Path(where), entries)
         if named is not None:
             return named
-        if asked.entries or any(split_name(entry.name, WORD) for entry in entries):
+        if options.entries or any(split_name(entry.name, WORD) for entry in entries):
             raise
         if any(device.is_complete for device in find_devices(entries)):
             raise
-        lacking = no_motor(entries, where=where)
+        lacking = make_no_motor_error(entries, where=where)
         raise MissingSignal(
             f"{missing.what}; {lacking.what}", where=where, advice=f"{missing.advice} {EXPORT}"
         ) from None
-    if len(found) > 1 and asked.motor is not None:
-        having = tuple(state for state in found if _has_motor(state, entries, asked))
+    if len(found) > 1 and options.motor is not None:
+        having = tuple(state for state in found if _has_motor(state, entries, options))
         found = having if len(having) == 1 else found
     if len(found) == 1:
         return found[0]
-    if asked.pick is not None and 1 <= asked.pick <= len(found):
-        return found[asked.pick - 1]
+    if options.pick is not None and 1 <= options.pick <= len(found):
+        return found[options.pick - 1]
     names = [state.mechanism or state.entry.name for state in found]
     raise BadRequest(
         f"it contains the tests of several mechanisms: {number_names(names)}",
@@ -177,9 +177,9 @@ def _state_of_file_name(path: Path, entries: Sequence[Entry]) -> StateEntry | No
     return StateEntry("", "", entry, (interval,))
 
 
-def _has_motor(state: StateEntry, entries: Sequence[Entry], asked: ReadOptions) -> bool:
-    """Whether a mechanism has the motor that is asked for."""
+def _has_motor(state: StateEntry, entries: Sequence[Entry], options: ReadOptions) -> bool:
+    """Whether a mechanism has the chosen motor."""
     with suppress(Refusal):
         tests, _ = find_run_intervals(state, where="")
-        return bool(find_motors(state, entries, tests, asked=asked, where=""))
+        return bool(find_motors(state, entries, tests, options=options, where=""))
     return False

@@ -41,7 +41,7 @@ class Series:
 
     @property
     def time_count(self) -> int:
-        """How many different times there are."""
+        """Number of different times."""
         return int(np.count_nonzero(np.diff(self.time)) + min(len(self), 1))
 
 
@@ -93,7 +93,7 @@ def _has_silence(
 
 
 def find_loop_times(signals: Sequence[Series], begin: int, end: int) -> Numbers:
-    """When any of the signals changed in a run, once a loop, from when on all of them are known.
+    """Times in a run at which any signal changed, one per loop, once all are known.
 
     Returns:
         (n,) [µs]; the last change of each loop, so that all of that loop have been made.
@@ -112,7 +112,7 @@ def hold_last_value(signal: Series, time: Numbers) -> Array:
 
 
 def select_covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
-    """Those times of a run at which every signal is known, or all but.
+    """The times of a run that every signal covers, or nearly covers.
 
     A line may be drawn a little beyond a signal's ends, as its times differ from the voltage's; a
     whole loop beyond, there is nothing it rests on.
@@ -124,7 +124,7 @@ def select_covered_times(parts: Sequence[Series], time: Numbers) -> Numbers:
 
 
 def interpolate_linear(part: Series, time: Numbers) -> Array:
-    """(n,) a signal at other times: on the line through its two nearest samples, even outside.
+    """(n,) a signal at other times: linear between its samples, extrapolated outside.
 
     Args:
         part: its samples in a run, at two different times or more, or exactly at ``time``.

@@ -78,8 +78,8 @@ class Device:
         """Whether it has all that a fit needs."""
         return all(signal in self.signals for signal in NEEDED)
 
-    def without_velocity(self) -> "Device":
-        """The device with its position entry in the place of its velocity."""
+    def use_position_as_velocity(self) -> "Device":
+        """A copy of the device whose velocity entry is replaced by its position entry."""
         position = self.signals.get("position")
         if position is None:
             return self

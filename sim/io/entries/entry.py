@@ -46,7 +46,7 @@ class Entry:
 
 @dataclass(frozen=True, eq=False)
 class ValuesEntry(Entry):
-    """An entry whose values are at hand.
+    """An entry whose values are in memory.
 
     Args:
         values: (n,) numbers or texts.

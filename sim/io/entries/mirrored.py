@@ -10,7 +10,7 @@ from sim.core.log import Log, Run
 
 
 def turn_mirrored_motors(logs: Mapping[str, Log]) -> dict[str, Log]:
-    """The same logs, all signals of a motor reversed that runs against its tests and the others.
+    """The logs, all signals reversed of motors that run against their tests and the others.
 
     Args:
         logs: the name of each motor -> its log.

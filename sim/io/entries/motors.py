@@ -8,6 +8,7 @@ the mechanism's state entry tells where to split.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
@@ -66,9 +67,28 @@ class _Search:
 
     entries: Sequence[Entry]
     state: StateEntry
-    rivals: tuple[str, ...]  # mechanisms whose name is longer and ends the same
-    asked: ReadOptions
+    options: ReadOptions
     where: str
+
+    @cached_property
+    def rivals(self) -> tuple[str, ...]:
+        """The mechanisms whose name is longer and ends the same."""
+        named = {name.rest for one in self.entries if (name := split_name(one.name, WORD))}
+        return tuple(name for name in named if name.endswith(f"-{self.state.mechanism}"))
+
+    @cached_property
+    def given(self) -> dict[str, Entry]:
+        """The signals whose entries a person has named."""
+        given = {
+            signal: find_requested_entry(
+                name, role=signal, kinds=NUMBERS, entries=self.entries, where=self.where
+            )
+            for signal, name in self.options.entries.items()
+            if signal in NEEDED + OPTIONAL
+        }
+        if self.options.ignore_velocity and "position" in given:
+            given["velocity"] = given["position"]  # its slope is taken later
+        return given
 
 
 def find_motors(
@@ -76,16 +96,16 @@ def find_motors(
     entries: Sequence[Entry],
     tests: Sequence[RunInterval],
     *,
-    asked: ReadOptions,
+    options: ReadOptions,
     where: str,
 ) -> tuple[tuple[MotorEntries, ...], tuple[Doubt, ...], tuple[RunInterval, ...]]:
-    """The motors of a mechanism whose signals are to be used, all of them whole.
+    """The motors of a mechanism whose signals are used, each of them complete.
 
     Args:
         state: where its tests are named.
         entries: all entries of the file.
         tests: when its tests ran.
-        asked: which motor, and which entries, where a person has said so.
+        options: which motor, and which entries, where a person has said so.
         where: the file, for messages.
 
     Returns:
@@ -93,35 +113,22 @@ def find_motors(
 
     Raises:
         MissingSignal: no motor has all signals; the message names what is missing.
-        BadRequest: the motor asked for is not there, or a name is ambiguous.
+        BadRequest: the chosen motor is not there, or a name is ambiguous.
     """
-    named = {name.rest for entry in entries if (name := split_name(entry.name, WORD))}
-    rivals = tuple(name for name in named if name.endswith(f"-{state.mechanism}"))
-    search = _Search(entries, state, rivals, asked, where)
-    given = {
-        signal: find_requested_entry(name, role=signal, kinds=NUMBERS, entries=entries, where=where)
-        for signal, name in asked.entries.items()
-        if signal in NEEDED + OPTIONAL
-    }
-    if asked.ignore_velocity and "position" in given:
-        given["velocity"] = given["position"]  # its slope is taken later
-    if all(signal in given for signal in NEEDED):
-        return (MotorEntries(asked.motor or "", given),), (), tuple(tests)
-    found = [MotorEntries(name, signals | given) for name, signals in _by_motor(search).items()]
-    if asked.ignore_velocity:
-        found = [_without_velocity(motor) for motor in found]
+    search = _Search(entries, state, options, where)
+    by_hand = MotorEntries(options.motor or "", search.given)
+    if by_hand.is_complete:
+        return (by_hand,), (), tuple(tests)
+    found = _by_motor(search)
     noted: tuple[Doubt, ...] = ()
-    if not given and not any(motor.is_complete for motor in found):
+    if not search.given and not any(motor.is_complete for motor in found):
         other, tests = _of_other_loggers(search, tests)
         found, noted = other or found, (_taken(other, where),) if other else ()
-    if asked.motor is not None:
+    if options.motor is not None:
         found = [_chosen(found, search)]
     whole = tuple(motor for motor in found if motor.is_complete)
-    if not (whole or given or found or split_name(state.entry.name, WORD)):
-        raise no_motor(entries, where=where, mechanism=state.mechanism)
     if not whole:
-        best = max(found, key=lambda motor: len(motor.signals), default=MotorEntries("", given))
-        raise _missing(best, search)
+        raise _missing(found, search)
     return whole, (*noted, *_left_out(found, where)), tuple(tests)
 
 
@@ -134,12 +141,12 @@ def _of_other_loggers(
         BadRequest: the tests drove one mechanism after another, and none was chosen.
     """
     devices = find_devices(search.entries)
-    if search.asked.ignore_velocity:
-        devices = [one.without_velocity() for one in devices]
+    if search.options.ignore_velocity:
+        devices = [one.use_position_as_velocity() for one in devices]
     driven = select_driven_devices(devices, tests)
     words = set(split_words(search.state.mechanism))
     some = [one for one in driven if words & set(split_words(one.name))] or driven
-    if search.asked.motor is None and some:
+    if search.options.motor is None and some:
         groups = group_by_tests(some, tests)
         some, tests = groups[0] if len(groups) == 1 else _picked(groups, search)
     return [MotorEntries(one.name, one.signals) for one in some], tests
@@ -147,7 +154,7 @@ def _of_other_loggers(
 
 def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
     """The mechanism that a person chose."""
-    pick = search.asked.pick
+    pick = search.options.pick
     if pick is not None and 1 <= pick <= len(groups):
         return groups[pick - 1]
     names = [" and ".join(one.name for one in devices) for devices, _ in groups]
@@ -159,7 +166,7 @@ def _picked(groups: Sequence[DeviceGroup], search: _Search) -> DeviceGroup:
 
 
 def _without_velocity(motor: MotorEntries) -> MotorEntries:
-    """A motor whose position stands where its velocity would, so that none is asked for."""
+    """A motor whose velocity entry is replaced by its position entry."""
     if "position" not in motor.signals:
         return motor
     return MotorEntries(motor.name, {**motor.signals, "velocity": motor.signals["position"]})
@@ -177,8 +184,8 @@ def _taken(motors: Sequence[MotorEntries], where: str) -> Doubt:
     )
 
 
-def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
-    """For each motor of the mechanism the usable entry of each signal it has."""
+def _by_motor(search: _Search) -> list[MotorEntries]:
+    """The motors of the mechanism, with the usable entry of each signal they have."""
     same: dict[tuple[str, str], dict[str, list[Entry]]] = {}
     for signal in NEEDED + OPTIONAL:
         for entry in search.entries:
@@ -201,7 +208,8 @@ def _by_motor(search: _Search) -> dict[str, dict[str, Entry]]:
             )
         usable = sorted(paths[path], key=lambda entry: NUMBERS.index(entry.type))
         motors.setdefault(motor, {})[signal] = usable[0]
-    return motors
+    found = [MotorEntries(name, signals | search.given) for name, signals in motors.items()]
+    return [_without_velocity(one) if search.options.ignore_velocity else one for one in found]
 
 
 def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
@@ -216,13 +224,13 @@ def _placed(name: str, signal: str, search: _Search) -> tuple[str, str] | None:
 
 
 def _chosen(found: Sequence[MotorEntries], search: _Search) -> MotorEntries:
-    """The motor that was asked for, by its name or by an ending that only it has."""
-    wanted = (search.asked.motor or "").lower()
+    """The chosen motor, by its name or by an ending that only it has."""
+    wanted = (search.options.motor or "").lower()
     same = [motor for motor in found if motor.name.lower() == wanted]
     same = same or [motor for motor in found if motor.name.lower().endswith(wanted)]
     if len(same) == 1:
         return same[0]
-    name, mechanism = search.asked.motor, search.state.mechanism or search.state.entry.name
+    name, mechanism = search.options.motor, search.state.mechanism or search.state.entry.name
     names = [motor.name for motor in same or found]
     raise BadRequest(
         f"{name!r} matches several motors of {mechanism!r}"
@@ -244,8 +252,14 @@ def _left_out(found: Sequence[MotorEntries], where: str) -> Iterator[Doubt]:
             )
 
 
-def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
+def _missing(found: Sequence[MotorEntries], search: _Search) -> MissingSignal:
     """The refusal when no motor is whole: what is missing, and what there is instead."""
+    none = MotorEntries("", search.given)
+    if not (search.given or found or split_name(search.state.entry.name, WORD)):
+        return make_no_motor_error(
+            search.entries, where=search.where, mechanism=search.state.mechanism
+        )
+    motor = max(found, key=lambda one: len(one.signals), default=none)
     lacking = [signal for signal in NEEDED if signal not in motor.signals]
     signal = lacking[0]
     mechanism = search.state.mechanism or "<mechanism>"
@@ -268,8 +282,10 @@ def _missing(motor: MotorEntries, search: _Search) -> MissingSignal:
     )
 
 
-def no_motor(entries: Sequence[Entry], *, where: str, mechanism: str = "") -> MissingSignal:
-    """The refusal of a log in which no device was recorded whole.
+def make_no_motor_error(
+    entries: Sequence[Entry], *, where: str, mechanism: str = ""
+) -> MissingSignal:
+    """The error for a log in which no device was recorded completely.
 
     Args:
         entries: all of the log.

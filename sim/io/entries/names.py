@@ -1,4 +1,4 @@
-"""Entries by name: split as SysId's loggers write them, or named by whoever asks.
+"""Find entries by name: split as SysId's loggers write them, or named by the user.
 
 Loggers put a path before a name (``NT:/``, ``/Robot/``). Some files hold the same entry twice, with
 a path and without.
@@ -79,7 +79,7 @@ def find_type_in_name(mechanism: str) -> str:
 def find_requested_entry(
     name: str, *, role: str, kinds: Collection[str], entries: Sequence[Entry], where: str
 ) -> Entry:
-    """The entry that a person named to play a role.
+    """The entry that the user chose for a signal.
 
     Raises:
         MissingSignal: there is none of this name, or it is empty, or of a type that does not do.
@@ -105,18 +105,18 @@ def find_requested_entry(
 
 
 def explain_unfit_entry(entry: Entry, *, kinds: Collection[str]) -> str:
-    """Why an entry cannot play its role."""
+    """Why an entry cannot be used for a signal."""
     if entry.type in kinds:
         return "holds no values"
     return f"is of type {entry.type}, which cannot be used here"
 
 
 def quote_names(names: Sequence[str]) -> str:
-    """A few names for a message."""
+    """The first few names, in quotes, for a message."""
     more = ", …" if len(names) > SHOWN else ""
     return ", ".join(repr(name) for name in names[:SHOWN]) + more
 
 
 def number_names(names: Sequence[str]) -> str:
-    """Names to choose from, each with its number: ``1 'Arm', 2 'Elevator'``."""
+    """Numbered names to choose from, for a message: ``1 'Arm', 2 'Elevator'``."""
     return ", ".join(f"{number} {name!r}" for number, name in enumerate(names, start=1))

@@ -70,7 +70,7 @@ def cut_runs(
     motors: Sequence[MotorEntries],
     stretches: Sequence[RunInterval],
     *,
-    asked: ReadOptions,
+    options: ReadOptions,
     where: str,
 ) -> CutRuns:
     """Cut the signals of a mechanism's motors into its runs; several motors count as their mean.
@@ -79,7 +79,7 @@ def cut_runs(
         BadRequest: units that cannot be reconciled, or motors that work against each other.
         BadSample: a value that cannot be a measurement.
     """
-    scales = _scales(motors, asked=asked, where=where)
+    scales = _scales(motors, options=options, where=where)
     signals = _signals(motors, scales)
     needed = [series for signal in NEEDED for series in signals[signal]]
     spans = [(stretch.begin, stretch.end) for stretch in stretches]
@@ -102,12 +102,14 @@ def cut_runs(
     return CutRuns(tuple(runs), scales[0].units, tuple(doubts))
 
 
-def _scales(motors: Sequence[MotorEntries], *, asked: ReadOptions, where: str) -> list[EntryScale]:
+def _scales(
+    motors: Sequence[MotorEntries], *, options: ReadOptions, where: str
+) -> list[EntryScale]:
     """The scale of each motor, all into the unit of the first."""
-    first = choose_scale(motors[0].signals, asked=asked, where=where)
+    first = choose_scale(motors[0].signals, options=options, where=where)
     scales = [first]
     for motor in motors[1:]:
-        scale = choose_scale(motor.signals, asked=asked, where=where)
+        scale = choose_scale(motor.signals, options=options, where=where)
         if UNITS[scale.units].angular != UNITS[first.units].angular:
             raise BadRequest(
                 f"motor {motors[0].name!r} is logged in {first.units}, {motor.name!r} in "

@@ -22,7 +22,7 @@ FOREVER = 2**62  # [µs] the end of a run that the file does not see end
 
 @dataclass(frozen=True, eq=False)
 class StateEntry:
-    """Where the tests of one mechanism are named.
+    """The entry that names the tests of one mechanism.
 
     Args:
         mechanism: its name; empty if the entry is not named as SysId's are.
@@ -52,7 +52,7 @@ class RunInterval:
 
 
 def find_state_entries(
-    entries: Sequence[Entry], *, asked: ReadOptions, where: str
+    entries: Sequence[Entry], *, options: ReadOptions, where: str
 ) -> tuple[StateEntry, ...]:
     """The entries that name tests, one for each mechanism.
 
@@ -60,34 +60,31 @@ def find_state_entries(
         MissingSignal: there is none; the advice names an entry that might be meant.
         BadRequest: one mechanism has several.
     """
-    if "state" in asked.entries:
+    if "state" in options.entries:
         entry = find_requested_entry(
-            asked.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
+            options.entries["state"], role="state", kinds=(STRING,), entries=entries, where=where
         )
         if not names_tests(entry):
             raise _no_test([entry], where=where)
-        name = split_name(entry.name, WORD)
-        return (StateEntry(name.rest if name else "", name.path if name else "", entry),)
-    named = [
-        StateEntry(name.rest, name.path, entry)
-        for entry in entries
-        if entry.type == STRING and (name := split_name(entry.name, WORD))
-    ]
+        return (_of_sysid(entry) or StateEntry("", "", entry),)
+    texts = [entry for entry in entries if entry.type == STRING]
+    named = [state for state in map(_of_sysid, texts) if state is not None]
     telling = [state for state in named if names_tests(state.entry)]
-    if not telling and not named:
-        telling = [
-            StateEntry(_mechanism_in(entry.name), "", entry)
-            for entry in entries
-            if entry.type == STRING and names_tests(entry)
-        ]
+    if named and not telling:
+        raise _no_test([state.entry for state in named], where=where)
+    if not named:
+        others = filter(names_tests, texts)
+        telling = [StateEntry(_mechanism_in(entry.name), "", entry) for entry in others]
     if not telling:
-        raise (
-            _no_test([state.entry for state in named], where=where)
-            if named
-            else _no_state(where=where)
-        )
+        raise _no_state(where=where)
     mechanisms = dict.fromkeys(state.mechanism for state in telling)
     return tuple(_only(telling, mechanism, where=where) for mechanism in mechanisms)
+
+
+def _of_sysid(entry: Entry) -> StateEntry | None:
+    """An entry that is named as SysId names its own; None if it is not."""
+    name = split_name(entry.name, WORD)
+    return None if name is None else StateEntry(name.rest, name.path, entry)
 
 
 def find_run_intervals(

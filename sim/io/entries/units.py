@@ -70,7 +70,7 @@ class StatedUnit:
 
 @dataclass(frozen=True)
 class EntryScale:
-    """How the numbers of a motor's entries become the unit of its log.
+    """Factors from the numbers of a motor's entries to the unit of its log.
 
     Args:
         units: that unit, a name in ``sim.core.units.UNITS``.
@@ -159,7 +159,7 @@ def parse_velocity_unit(text: str) -> StatedUnit | None:
     return StatedUnit(found[0], found[1] * rate) if found and rate else None
 
 
-def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str) -> EntryScale:
+def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: str) -> EntryScale:
     """In which unit a motor was logged: what a person says, else its metadata, else the default.
 
     Raises:
@@ -170,19 +170,19 @@ def choose_scale(signals: Mapping[str, Entry], *, asked: ReadOptions, where: str
     texts = {signal: find_unit_text(signals[signal], signal) for signal in needed}
     said = {signal: parse_signal_unit(text, signal) for signal, text in texts.items()}
     stated = [found.units for name in ("position", "velocity") if (found := said.get(name))]
-    if asked.units is None and len({UNITS[units].angular for units in stated}) > 1:
+    if options.units is None and len({UNITS[units].angular for units in stated}) > 1:
         raise BadRequest(
             f"the position is in {texts['position']!r} and the velocity in {texts['velocity']!r}, "
             "an angle and a length",
             where=where,
             advice="Give the right one with --units, and let the robot log both in one.",
         )
-    units = asked.units or (stated[0] if stated else asked.units_or_default)
+    units = options.units or (stated[0] if stated else options.units_or_default)
     factors, doubts = {}, []
     for signal, text in texts.items():
         wanted = VOLTS if signal == "voltage" else units
-        factors[signal] = _factor(said[signal], wanted, ordered=asked.units is not None)
-        problem = _problem(text, said[signal], wanted, ordered=asked.units is not None)
+        factors[signal] = _factor(said[signal], wanted, ordered=options.units is not None)
+        problem = _problem(text, said[signal], wanted, ordered=options.units is not None)
         if problem:
             code, what = problem
             name = signals[signal].name

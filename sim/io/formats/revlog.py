@@ -63,36 +63,36 @@ def entries(path: Path) -> list[ValuesEntry]:
     return _make_entries(_load(path).frames, default_units=True)
 
 
-def read(path: Path, asked: ReadOptions) -> Log:
+def read(path: Path, options: ReadOptions) -> Log:
     """Read the one test that a file holds; its name says which.
 
     Args:
         path: the file.
-        asked: what its reader knows: units, motor, and the names of entries.
+        options: the user's choices: units, motor, and the names of entries.
 
     Raises:
         Refusal: it holds no periodic frame, or its name no test; as ``assemble_log`` otherwise.
     """
     found = _load(path)
-    made = _make_entries(found.frames, default_units=asked.units is None)
-    log, _ = assemble_log(made, asked=asked, where=str(path))
-    return log.add_doubts(*_doubts(found, asked, path))
+    made = _make_entries(found.frames, default_units=options.units is None)
+    log, _ = assemble_log(made, options=options, where=str(path))
+    return log.add_doubts(*_doubts(found, options, path))
 
 
-def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
     """Read the one test that a file holds, a log for each motor.
 
     Args:
         path: the file.
-        asked: what its reader knows: units, motor, and the names of entries.
+        options: the user's choices: units, motor, and the names of entries.
 
     Raises:
         Refusal: as ``read``.
     """
     found = _load(path)
-    made = _make_entries(found.frames, default_units=asked.units is None)
-    logs, _ = assemble_motor_logs(made, asked=asked, where=str(path))
-    return {name: log.add_doubts(*_doubts(found, asked, path)) for name, log in logs.items()}
+    made = _make_entries(found.frames, default_units=options.units is None)
+    logs, _ = assemble_motor_logs(made, options=options, where=str(path))
+    return {name: log.add_doubts(*_doubts(found, options, path)) for name, log in logs.items()}
 
 
 def _follow_records(content: bytes, *, whole: bool = True) -> Iterator[tuple[int, bytes, int]]:
@@ -176,9 +176,9 @@ def _decode(
     yield entry("PRIMARY_ENCODER_POSITION", units[1], motion, floats[:, 1])
 
 
-def _doubts(found: _Frames, asked: ReadOptions, path: Path) -> Iterator[Doubt]:
+def _doubts(found: _Frames, options: ReadOptions, path: Path) -> Iterator[Doubt]:
     """What the format leaves open, and what was not read."""
-    if asked.units is None:
+    if options.units is None:
         yield Doubt(
             "conversion-factor",
             f"{path}: REV's log does not contain its units, so rotations and RPM were assumed. If "

@@ -13,6 +13,20 @@ EFFECTS: dict[str, Effect] = {
 }
 
 
+def find_motion_class(name: str) -> str:
+    """The common name of effects that look alike while the mechanism moves.
+
+    Args:
+        name: of an effect; any other name, as that of a fault, stands for itself.
+
+    Examples:
+        >>> find_motion_class("asymmetric-friction")
+        'constant-load'
+    """
+    known = EFFECTS.get(name)
+    return known.same_in_motion or name if known else name
+
+
 def find_effect(name: str) -> Effect:
     """Look up an effect.
 

@@ -12,17 +12,17 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def force(v: float, lean: float) -> float:
-    """[V] force against forward motion, along with reverse motion."""
+    """[V] additional force: against forward motion, along with reverse motion."""
     return lean * abs(v)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: an eighth of kV."""
+    """Parameters of a given size; size 1 is an eighth of kV."""
     return {"lean": 0.125 * scale.kv * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the share of |v| in what is missing."""
+    """Start values: the share of |v| in the voltage residual."""
     (lean,) = seen.fit_columns(np.abs(seen.velocity))
     yield {"lean": float(lean)}
 

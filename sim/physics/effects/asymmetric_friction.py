@@ -21,18 +21,18 @@ def coulomb_friction(way: float, lean: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: two thirds of kS."""
+    """Parameters of a given size; size 1 is two thirds of kS."""
     return {"lean": 0.67 * scale.ks * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the mean of what is missing: more forward, less in reverse."""
+    """Start values: the mean of the voltage residual."""
     (lean,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"lean": float(lean)}
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: no gear and no bearing runs alike both ways."""
+    """Whether any robot has as much: no gear and no bearing is alike both ways."""
     return abs(values["lean"]) <= EVERYDAY
 
 
@@ -63,5 +63,6 @@ EFFECT = Effect(
     start_values=find_start_values,
     is_ordinary=is_ordinary,
     hooks={"coulomb_friction": coulomb_friction},
+    same_in_motion="constant-load",
     symmetric=False,
 )

@@ -16,17 +16,17 @@ LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom fin
 
 
 def backlash_gap(slack: float) -> float:
-    """[unit] free play, from tooth to tooth."""
+    """[unit] free play between the flanks of the teeth."""
     return slack
 
 
 def motor_inertia_share(share: float) -> float:
-    """[1] share of the inertia on the motor's side."""
+    """[1] share of the inertia on the motor's side: the parameter ``share`` itself."""
     return share
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: 10 ms at the speed of a step, a quarter of the inertia before it."""
+    """Parameters of a given size; size 1 is 10 ms of play at the speed of a step."""
     return {"slack": 0.01 * scale.speed * size, "share": 0.25}
 
 

@@ -1,4 +1,4 @@
-"""Battery sag: the voltage asked for is a share of a battery that gives way under current.
+"""Battery sag: a duty cycle gives less voltage while current lowers the battery's voltage.
 
     u - kV·v becomes (u - kV·v)/(1 + share·d²)        d = |u|/12 V, share = n·Rb/R
 
@@ -18,19 +18,19 @@ NOMINAL = 12.0  # [V] that a duty cycle of one stands for
 
 
 def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
-    """[V] voltage at the motor, when ``u`` is asked for."""
+    """[V] voltage at the motor for a command ``u``."""
     duty = min(abs(u) / NOMINAL, 1.0)
     emf = kv * v
     return emf + (u - emf) / (1.0 + share * duty * duty)
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: Four Kraken X60 on 20 milliohms."""
+    """Parameters of a given size; size 1 is four Kraken X60 on a battery of 20 milliohms."""
     return {"share": 2.4 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: what is missing where much current flows, and two sizes to try besides."""
+    """Start values: the voltage residual at large currents, and two more sizes."""
     duty = np.minimum(np.abs(seen.voltage) / NOMINAL, 1.0)
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     (share,) = seen.fit_columns(torque * duty**2)
@@ -40,7 +40,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: what a good battery and good plugs make of it."""
+    """Whether any robot has as much: a good battery with good plugs."""
     return values["share"] <= EVERYDAY
 
 

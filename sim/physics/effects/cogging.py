@@ -26,28 +26,28 @@ def force(x: float, cosine: float, sine: float, turns: float) -> float:
 
 
 def stored_energy(x: float, cosine: float, sine: float, turns: float) -> float:
-    """[V·unit] energy held at a place."""
+    """[V·unit] energy of the cogging force at a position."""
     return (cosine * math.sin(turns * x) - sine * math.cos(turns * x)) / turns
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: a fifth of a volt, twelve times along the travel."""
+    """Parameters of a given size; size 1 is a fifth of a volt, twelve times along the travel."""
     turns = 2.0 * math.pi * 12.0 / scale.reach
     return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
 
 
-def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
-    """[s] in which one period passes at the speed of 6 V, over 2π."""
+def shortest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] one period over 2π at the speed of 6 V; time steps must resolve it."""
     return gains["kV"] / (6.0 * max(values["turns"], 1e-9))
 
 
 def shortest_length(values: Mapping[str, float]) -> float:
-    """[unit] one period over 2π, which steps must resolve."""
+    """[unit] length scale, one period over 2π; steps must resolve it."""
     return 1.0 / max(values["turns"], 1e-9)
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the strongest lines in the spectrum of what is missing over position.
+    """Start values: the strongest lines in the voltage residual's spectrum over position.
 
     What comes back less than four times is not seen to come back: a bump, or a brake along a part
     of the way, has one wave or two.
@@ -62,7 +62,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     waves = np.repeat(turned[:, None], tried.size, axis=1)
     waves[:, 0] = np.exp(1j * tried[0] * few.position)
     waves = np.multiply.accumulate(waves, axis=1)
-    cosine, sine = few.fit_column_sums(waves.real, waves.imag)
+    cosine, sine = few.fit_column_sets(waves.real, waves.imag)
     left = np.hypot(cosine, sine)
     for _ in range(SHOWN):
         best = int(np.argmax(left))
@@ -112,7 +112,7 @@ EFFECT = Effect(
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,
-    fastest_time=fastest_time,
+    shortest_time=shortest_time,
     shortest_length=shortest_length,
     is_ordinary=is_ordinary,
 )

@@ -24,12 +24,12 @@ def joint_compliance(softness: float) -> float:
 
 
 def motor_inertia_share(share: float) -> float:
-    """[1] share of the inertia on the motor's side."""
+    """[1] share of the inertia on the motor's side: the parameter ``share`` itself."""
     return share
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: the load swings at 5 Hz on a motor that is held; slower for more."""
+    """Parameters of a given size; size 1 is a swing at 5 Hz, the motor held; larger is slower."""
     stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
     return {"softness": size / stiff, "share": 0.3}
 

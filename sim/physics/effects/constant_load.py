@@ -21,17 +21,17 @@ def force(load: float) -> float:
 
 
 def stored_energy(x: float, load: float) -> float:
-    """[V·unit] energy of lifting it."""
+    """[V·unit] potential energy of the load."""
     return load * x
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: an eighth of the step."""
+    """Parameters of a given size; size 1 is an eighth of the step voltage."""
     return {"load": 0.125 * scale.step * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the mean of what is missing."""
+    """Start values: the mean of the voltage residual."""
     (load,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"load": float(load)}
 

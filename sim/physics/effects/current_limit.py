@@ -14,13 +14,13 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def transform_voltage(u: float, v: float, kv: float, limit: float) -> float:
-    """[V] voltage at the motor, when ``u`` is asked for."""
+    """[V] voltage at the motor for a command ``u``."""
     emf = kv * v
     return emf + min(max(u - emf, -limit), limit)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: just over half of the step."""
+    """Parameters of a given size; size 1 is just over half of the step voltage."""
     return {"limit": max(0.55 * scale.step / size, 1.2 * scale.ks)}
 
 

@@ -16,12 +16,12 @@ STARTED = 0.02  # [share of the top speed] at which a run has begun to move
 
 
 def transform_voltage(u: float, band: float) -> float:
-    """[V] voltage at the motor, when ``u`` is asked for."""
+    """[V] voltage at the motor for a command ``u``."""
     return u if abs(u) >= band else 0.0
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: a third of a volt beyond what friction holds anyway."""
+    """Parameters of a given size; size 1 is a third of a volt more than kS already holds."""
     return {"band": scale.ks + 0.33 * size}
 
 

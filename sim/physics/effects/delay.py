@@ -21,12 +21,12 @@ def command_delay(lag: float) -> float:
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: a loop and a half of the robot program."""
+    """Parameters of a given size; size 1 is one and a half loops of the robot program."""
     return {"lag": 0.03 * size}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: how late steps begin to move, and a few more."""
+    """Start values: the delay with which steps begin to move, and a few more."""
     steps = []
     for run in seen.log.runs:
         moving = np.abs(run.velocity) > 0.05 * seen.top_speed
@@ -40,7 +40,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: what a CAN bus and a loop of 200 Hz make of it anyway."""
+    """Whether any robot has as much: a CAN bus and a loop of 200 Hz."""
     return values["lag"] <= EVERYDAY
 
 

@@ -20,12 +20,12 @@ def force(v: float, drag: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: half a volt at the speed of an ordinary step."""
+    """Parameters of a given size; size 1 is half a volt at the speed of a step."""
     return {"drag": 0.5 * size / scale.speed**2}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the share of v·|v| in what is missing."""
+    """Start values: the share of v·|v| in the voltage residual."""
     (drag,) = seen.fit_columns(seen.velocity * abs(seen.velocity))
     yield {"drag": max(float(drag), 0.05 / max(seen.top_speed, 1e-9) ** 2)}
 

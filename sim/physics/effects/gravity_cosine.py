@@ -20,22 +20,22 @@ def force(x: float, level: float, upright: float) -> float:
 
 
 def stored_energy(x: float, level: float, upright: float) -> float:
-    """[V·rad] energy of lifting it."""
+    """[V·rad] potential energy of the load."""
     return level * math.sin(x) - upright * math.cos(x)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: a seventh of the step when level, with the zero a little off."""
+    """Parameters of a given size; size 1 is a seventh of the step voltage when level."""
     return {"level": 0.14 * scale.step * size, "upright": 0.04 * scale.step * size}
 
 
-def require_angle(scale: Scale) -> str:
-    """Why the effect cannot be added: positions in meters have no cosine; else empty."""
+def explain_missing_angle(scale: Scale) -> str:
+    """Why the effect cannot be added where positions are in meters; empty if it can."""
     return "" if scale.angular else "its positions are lengths, not angles"
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the shares of cos x and sin x in what is missing."""
+    """Start values: the shares of cos x and sin x in the voltage residual."""
     if not seen.position.size:
         return
     level, upright = seen.fit_columns(np.cos(seen.position), np.sin(seen.position))
@@ -77,7 +77,7 @@ EFFECT = Effect(
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,
-    reason_against=require_angle,
+    reason_against=explain_missing_angle,
     simpler="spring",
     simplify=simplify,
 )

@@ -18,25 +18,25 @@ COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
 
 
 def transform_voltage(u: float, v: float, kv: float, memory: float) -> float:
-    """[V] at a cold motor that would drive the same current."""
+    """[V] voltage that would drive the same current in a cold motor."""
     emf = kv * v
     return emf + (u - emf) / (1.0 + memory)
 
 
 def update_memory(memory: float, dt: float, u: float, v: float, kv: float, rate: float) -> float:
-    """[1] the winding's resistance beyond a cold one's, as a share."""
+    """[1] relative increase of the winding's resistance over a cold one's."""
     drop = (u - kv * v) * (1.0 + memory)
     fade = math.exp(-dt / COOLING)
     return memory * fade + rate * drop * drop * COOLING * (1.0 - fade)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: 10 % more resistance after 10 s under a quarter of the step."""
+    """Parameters of a given size; size 1 is 10 % more resistance after 10 s of a quarter step."""
     return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the regression of the missing volts on the heat made so far."""
+    """Start values: regression of the voltage residual on the heat made so far."""
     torque = seen.voltage - seen.gains["kV"] * seen.velocity
     steps = np.diff(seen.clock, prepend=seen.clock[:1])
     heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from sim.physics.effect import Effect, Parameter, Scale
-from sim.physics.voltage_residual import VoltageResidual, run_start_times
+from sim.physics.voltage_residual import VoltageResidual, list_run_start_times
 
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # moments of a run that are tried
@@ -45,7 +45,7 @@ def next_change(clock: float, onset: float, until: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: half of kA more, from about the first dynamic test on."""
+    """Parameters of a given size; size 1 is half of kA more, from about the first step test on."""
     ramps = 2.0 * min(10.0, math.sqrt(2.0 * scale.reach * scale.kv / RAMP)) + 2.0
     onset = ramps + 0.3 * scale.reach / scale.speed
     return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}
@@ -111,7 +111,7 @@ def _runs(seen: VoltageResidual) -> Iterator[tuple[float, float]]:
 
 def _every_run(seen: VoltageResidual) -> Iterator[tuple[float, float]]:
     """The same of all runs."""
-    for began, run in zip(run_start_times(seen.log).tolist(), seen.log.runs, strict=True):
+    for began, run in zip(list_run_start_times(seen.log).tolist(), seen.log.runs, strict=True):
         yield began, began + float(run.time[-1] - run.time[0])
 
 

@@ -24,17 +24,17 @@ def stored_energy(x: float, rate: float, preload: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: half a volt from one end to the other, nothing in the middle."""
+    """Parameters of a given size; size 1 is half a volt between the ends of the travel."""
     return {"rate": 0.5 * size / scale.reach, "preload": -0.25 * size}
 
 
-def require_travel_limits(scale: Scale) -> str:
-    """Why the effect cannot be added: without ends of the travel no spring lasts; else empty."""
+def explain_missing_limits(scale: Scale) -> str:
+    """Why a spring cannot be added to a mechanism without travel limits; empty if it can."""
     return "" if scale.bounded else "it turns without end, and a spring does not"
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: a straight line through what is missing, over position."""
+    """Start values: a straight line through the voltage residual over position."""
     if not seen.position.size or seen.is_unbounded:
         return
     rate, preload = seen.fit_columns(seen.position, np.ones_like(seen.position))
@@ -75,7 +75,7 @@ EFFECT = Effect(
     hooks={"force": force},
     symmetric=False,
     stored_energy=stored_energy,
-    reason_against=require_travel_limits,
+    reason_against=explain_missing_limits,
     simpler="constant-load",
     simplify=simplify,
 )

@@ -22,22 +22,22 @@ def coulomb_friction(v: float, extra: float, slow: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: 0.25 V to break away, gone at a tenth of the step's speed."""
+    """Parameters of a given size; size 1 is 0.25 V at break-away, gone at a tenth of the speed."""
     return {"extra": 0.25 * size, "slow": 0.08 * scale.speed}
 
 
-def fastest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
-    """[s] in which it lets go: falling friction pushes the motion on."""
+def shortest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
+    """[s] shortest time constant of break-away, where friction falls as speed rises."""
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
 
 def narrowest_speed(values: Mapping[str, float]) -> float:
-    """[unit/s] over which it fades."""
+    """[unit/s] speed over which the additional friction fades."""
     return values["slow"]
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the best of a few speeds over which it may fade."""
+    """Start values: the best of a few speeds over which the friction may fade."""
     for part in (0.06, 0.02, 0.2):
         slow = max(part * seen.top_speed, 1e-6)
         (extra,) = seen.fit_columns(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
@@ -77,7 +77,7 @@ EFFECT = Effect(
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"coulomb_friction": coulomb_friction},
-    fastest_time=fastest_time,
+    shortest_time=shortest_time,
     narrowest_speed=narrowest_speed,
     is_ordinary=is_ordinary,
 )

@@ -39,7 +39,7 @@ def transform_velocity(
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: a lag of 40 ms."""
+    """Parameters of a given size; size 1 is a lag of 40 ms."""
     return {"window": 0.08 * size}
 
 

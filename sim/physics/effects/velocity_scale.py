@@ -19,7 +19,7 @@ def transform_velocity(seen: float, scale: float) -> float:
 
 
 def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: a tenth too fast."""
+    """Parameters of a given size; size 1 is a velocity that is 10 % too high."""
     return {"scale": 1.0 + 0.1 * size}
 
 

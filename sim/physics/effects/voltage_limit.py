@@ -15,12 +15,12 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def transform_voltage(u: float, limit: float) -> float:
-    """[V] voltage at the motor, when ``u`` is asked for."""
+    """[V] voltage at the motor for a command ``u``."""
     return min(max(u, -limit), limit)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of size 1: four fifths of the step."""
+    """Parameters of a given size; size 1 is four fifths of the step voltage."""
     return {"limit": max(scale.step * (1.0 - 0.2 * size), 2.0 * scale.ks)}
 
 

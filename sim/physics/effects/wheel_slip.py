@@ -21,23 +21,23 @@ HELD = (0.96, 0.92, 0.88, 0.84, 0.8, 0.75, 0.7, 0.64, 0.57, 0.5, 0.42, 0.35, 0.2
 
 
 def grip_limit(grip: float) -> float:
-    """[V] that the floor passes on."""
+    """[V] largest traction that the floor transmits."""
     return grip
 
 
 def motor_inertia_share(share: float) -> float:
-    """[1] of the inertia that spins with the wheels."""
+    """[1] share of the inertia that spins with the wheels: the parameter ``share``."""
     return share
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """The floor holds two thirds of the push of a step, for size 1."""
+    """Parameters of a given size; size 1 is grip for two thirds of the traction of a step."""
     push = max(scale.step - scale.ks, 0.1 * scale.step)
     return {"grip": (1.0 - LIGHT) * push / (1.0 + 0.5 * size), "share": LIGHT}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Shares of the largest push that the log holds; none where positions are angles."""
+    """Start values: shares of the largest traction in the log; none for positions in radians."""
     if find_unit(seen.log.units).angular:
         return
     push = np.abs(seen.voltage - seen.gains["kV"] * seen.velocity) - seen.gains["kS"]

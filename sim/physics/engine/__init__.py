@@ -22,13 +22,13 @@ from sim.physics.engine.model_arrays import (
     COARSEST,
     EXACT,
     ORDER,
-    effect_arrays,
+    compute_search_step_limits,
+    compute_step_limits,
     find_finest_step,
     is_pure_delay,
-    model_constants,
-    search_step_limits,
-    step_limits,
-    total_backlash,
+    make_effect_arrays,
+    make_model_constants,
+    sum_backlash,
 )
 from sim.physics.engine.run_batch import RunBatch
 from sim.physics.engine.stepping import (
@@ -60,13 +60,13 @@ __all__ = [
     "RunBatch",
     "State",
     "Track",
-    "effect_arrays",
     "engine_can_compile",
     "engine_is_cached",
     "filter_runs",
     "find_finest_step",
     "load_engine",
-    "model_constants",
+    "make_effect_arrays",
+    "make_model_constants",
     "simulate_run",
 ]  # fmt: skip
 
@@ -139,11 +139,11 @@ class Track:
         return np.column_stack((self.position, self.seen))
 
     def take_every(self, step: int) -> "Track":
-        """Every ``step``-th sample, from the first."""
+        """A copy with every ``step``-th sample, from the first."""
         return Track(*(getattr(self, one.name)[::step] for one in fields(self)))
 
     def truncate(self, end: int) -> "Track":
-        """The first ``end`` samples."""
+        """A copy with the first ``end`` samples."""
         return Track(*(getattr(self, one.name)[:end] for one in fields(self)))
 
 
@@ -156,8 +156,6 @@ def simulate_run(
     wires: Array = NO_WIRES,
     step: float | None = None,
     plain: bool = False,
-    measured: Array = UNSEEN,
-    trust: Array = NO_CORRECTION,
     slide: Array | None = None,
 ) -> Track:
     """Simulate a model under a voltage.
@@ -170,9 +168,6 @@ def simulate_run(
         wires: (9,) battery and limits, see ``power_path.py``; none is an ideal source.
         step: [s] the longest; None chooses.
         plain: in uncompiled Python, for comparison.
-        measured: (n, 2) position and velocity that correct the motion as it goes, nan where there
-            is none; none goes its way.
-        trust: (2, 2) by how much: from both deviations to the corrections of both.
         slide: (n,) [V] by which the voltage slides evenly to the next; None holds it.
 
     Examples:
@@ -182,10 +177,10 @@ def simulate_run(
         >>> float(track.velocity[-1].round(3))  # (6.2 V - kS)/kV [m/s]
         3.0
     """
-    on, parameters = effect_arrays(model)
+    on, parameters = make_effect_arrays(model)
     out = allocate_output(time.size)
     simple = not wires.any() and model.type != "arm" and all(map(is_pure_delay, model.parts))
-    longest = EXACT if simple else step_limits(model)
+    longest = EXACT if simple else compute_step_limits(model)
     if step:
         longest = np.array([step, math.inf, step, math.inf])
     kernel = _plain_engine() if plain else _compiled_engine()
@@ -193,9 +188,8 @@ def simulate_run(
         np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage),
         np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
-        model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
-        np.array([state.clock]), longest, simple, _as_contiguous(measured),
-        np.tile(np.ravel(_as_contiguous(trust)), (len(measured), 1)), out,
+        make_model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
+        np.array([state.clock]), longest, simple, UNSEEN, np.zeros((0, 4)), np.empty((0, 2)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
@@ -215,6 +209,7 @@ def filter_runs(
     backlash_phase: Array,
     friction_offset: Array,
     lag_offset: Array,
+    errors: Array | None = None,
 ) -> Array:
     """Predict all runs of a batch with a model and its Kalman gain, in one call of the engine.
 
@@ -232,28 +227,30 @@ def filter_runs(
             weight decides.
         friction_offset: (runs,) [V] dry friction of each beyond kS.
         lag_offset: (runs,) [s] by which each is late beyond the model's delay.
+        errors: (n, 2) where innovations are written, measured minus expected, if wanted.
 
     Returns:
         (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
         ``EXPECTED`` on, are what was expected before a measurement corrected it.
     """
-    on, parameters = effect_arrays(model)
+    on, parameters = make_effect_arrays(model)
     simple = model.type != "arm" and all(map(is_pure_delay, model.parts))
-    longest = EXACT if simple else search_step_limits(model)
+    longest = EXACT if simple else compute_search_step_limits(model)
     begin = batch.position + position_offset
-    load = begin - 0.5 * total_backlash(model) * _backlash_position(model, begin, backlash_phase)
+    load = begin - 0.5 * sum_backlash(model) * _backlash_position(model, begin, backlash_phase)
     bodies = np.column_stack([begin, batch.velocity, load, batch.velocity, np.zeros(begin.size)])
     aside = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
-    corrects = bool(kalman_gain.any())
-    rows = len(batch.measured) if corrects else 0
-    gains = np.broadcast_to(kalman_gain.reshape(-1, 4)[:rows], (rows, 4))
+    measured = batch.measured if errors is not None or kalman_gain.any() else UNSEEN
+    gains = _as_contiguous(kalman_gain.reshape(-1, 4)[: len(measured)])
+    errors = np.empty(measured.shape) if errors is None else errors
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
         batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
-        batch.sessions, model_constants(model), NO_WIRES, on, parameters,
+        batch.sessions, make_model_constants(model), NO_WIRES, on, parameters,
         np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
-    batch.measured if corrects else UNSEEN, _as_contiguous(gains), out )  # fmt: skip
+        measured, gains, errors, out,
+    )  # fmt: skip
     return out
 
 
@@ -271,7 +268,7 @@ def engine_can_compile() -> bool:
 
 
 def engine_is_cached() -> bool:
-    """Whether the engine waits in the cache; if not, its first use takes about 20 seconds.
+    """Whether a compiled engine is in the cache; if not, its first use takes 20 seconds.
 
     Where it cannot be compiled there is nothing to wait for, and the answer is True.
     """

@@ -6,11 +6,11 @@ folder of the user's cache under a name made of that text, so that a changed or 
 new engine.
 """
 
-import ast
 import hashlib
 import inspect
+import re
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ from sim.physics.engine import (
     two_body_modes,
 )
 from sim.physics.engine.two_body_modes import WAYS
-from sim.support.work.cache import cache_folder
+from sim.support.work.cache import find_cache_folder
 
 if TYPE_CHECKING:
     from sim.physics.engine.kernel import Kernel
@@ -51,6 +51,10 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "grip_limit": ("on, p", "math.inf", "min({0}, {1})"),
     "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
+DELAY_HOOKS = frozenset({"command_delay", "transform_velocity"})
+"""The hooks that a model with an exact solution may have."""
+HEAD = re.compile(r'"""[\s\S]*?"""\n(\n|import .*\n|from .* import (\([^)]*\)|.*)\n)*')
+"""A module's first lines: its docstring and its imports."""
 SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects remember
     "edges": "(count + 1,)",
     "time": "(n,)",
@@ -66,7 +70,8 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "ways": f"({WAYS},)",
     "steps": "(4,)",
     "measured": "(rows, 2)",
-    "trust": "(rows, 4)",
+    "trust": "(gains, 4)",
+    "errors": "(rows, 2)",
     "out": "(n, 8)",
 }
 RUNNING = {
@@ -75,8 +80,8 @@ RUNNING = {
 }  # a chain: each effect changes what the last one left
 
 
-def parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
-    """Where the parameters of each effect stand in the engine's one array of parameters."""
+def make_parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
+    """Slice of each effect's parameters in the engine's parameter array."""
     found, at = {}, 0
     for name, effect in effects.items():
         found[name] = slice(at, at + len(effect.parameters))
@@ -98,7 +103,7 @@ def compose_engine(
         ImportError: it has to be compiled, and Numba or llvmlite (extra ``fast``) is missing.
     """
     for name, effect in effects.items():
-        if wrong := effect.contract_breaches():
+        if wrong := effect.find_contract_breaches():
             raise BadRequest(
                 wrong[0],
                 where=f"effect {name}",
@@ -107,9 +112,9 @@ def compose_engine(
             )
     text = "\n".join(_engine_lines(effects, compiled=compiled))
     if compiled:
-        from sim.physics.engine.kernel import kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
+        from sim.physics.engine.kernel import find_kernel_file, load_kernel  # noqa: PLC0415 - needs llvmlite
 
-        return load_kernel(text, kernel_file(cache_folder(), _engine_hash(effects, text)))
+        return load_kernel(text, find_kernel_file(find_cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
     module.__dict__["move"] = np.errstate(all="ignore")(module.move)  # as compiled code is: quiet
@@ -128,10 +133,10 @@ def is_compiled(effects: Mapping[str, Effect]) -> bool:
     Raises:
         ImportError: llvmlite (extra ``fast``) is missing.
     """
-    from sim.physics.engine.kernel import kernel_file  # noqa: PLC0415 - needs llvmlite
+    from sim.physics.engine.kernel import find_kernel_file  # noqa: PLC0415 - needs llvmlite
 
     text = "\n".join(_engine_lines(effects, compiled=True))
-    return kernel_file(cache_folder(), _engine_hash(effects, text)).is_file()
+    return find_kernel_file(find_cache_folder(), _engine_hash(effects, text)).is_file()
 
 
 def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
@@ -162,7 +167,7 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
             yield f"import {act.__module__}"
             makes = "step" if compiled else "use_ieee_math"
             yield f"{_alias(effect, hook)} = {makes}({act.__module__}.{act.__name__})"
-    at = parameter_slices(effects)
+    at = make_parameter_slices(effects)
     for hook in HOOKS:
         yield from _hook_lines(hook, effects, at)
     yield from _memory_lines(effects, at)
@@ -211,22 +216,38 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
         "p": sum(len(effect.parameters) for effect in effects.values()),
     }
     given = {
-        name: f"({', '.join(f'{name}[{place}]' for place in range(size))},)"
-        for name, size in sizes.items()
+        name: _tuple(f"{name}[{place}]" for place in range(size)) for name, size in sizes.items()
     }
-    if compiled:  # as CALLED in kernel.py: three lengths, then what `step_runs` asks for
+    if compiled:  # as CALLED in kernel.py: four lengths, then what `step_runs` asks for
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
-        given["plain"] = "plain != 0"
         places = ("types.int64" if name == "plain" else "place" for name in asked)
         yield "place = types.CPointer(types.float64)"
-        yield f"called = types.void(types.int64, types.int64, types.int64, {', '.join(places)})"
+        lengths = ", ".join(["types.int64"] * 4)
+        yield f"called = types.void({lengths}, {', '.join(places)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
-        yield f"def move(count, n, rows, {', '.join(asked)}):"
+        yield f"def move(count, n, rows, gains, {', '.join(asked)}):"
+        exact = {**given, "w": _tuple(["0.0"] * WIRES), "on": _tuple(_delay_flags(effects))}
+        exact["plain"], given["plain"] = "True", "False"
+        yield "    if plain != 0:  # LLVM leaves out what these constants never ask for"
+        yield f"        step_runs({', '.join(exact.get(name, name) for name in asked)})"
+        yield "        return"
     else:
         given["on"] = "on.tolist()"  # Python is quicker with numbers of its own
         yield f"def move({', '.join(asked)}):"
     yield f"    step_runs({', '.join(given.get(name, name) for name in asked)})"
+
+
+def _tuple(items: Iterable[str]) -> str:
+    return f"({', '.join(items)},)"
+
+
+def _delay_flags(effects: Mapping[str, Effect]) -> Iterator[str]:
+    """``on`` of a model in which only delays act."""
+    names = (*HOOKS, "update_memory")
+    late = [set(effect.hooks) <= DELAY_HOOKS for effect in effects.values()]
+    late += [name in DELAY_HOOKS for name in names]
+    return (f"on[{place}]" if is_late else "0.0" for place, is_late in enumerate(late))
 
 
 def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
@@ -244,8 +265,8 @@ def _alias(effect: Effect, hook: str) -> str:
 def _module_lines(module: ModuleType) -> Iterator[str]:
     """A module's text without its imports, each function made a compiled one."""
     text = inspect.getsource(module)
-    imports = [one for one in ast.parse(text).body if isinstance(one, ast.Import | ast.ImportFrom)]
-    for line in text.splitlines()[imports[-1].end_lineno :]:
+    head = HEAD.match(text)
+    for line in text[head.end() if head else 0 :].splitlines():
         if line.startswith("def "):
             yield "@step"
             yield "def " + line[4:]

@@ -18,14 +18,14 @@ they hold the numbers.
 
 
 def command_delay(on: Numbers, p: Numbers) -> float:
-    """[s] by which a command comes late."""
+    """[s] delay of a command."""
     return 0.0
 
 
 def transform_voltage(
     on: Numbers, p: Numbers, memory: Array, u: float, v: float, kv: float
 ) -> float:
-    """[V] voltage at the motor, after all path effects."""
+    """[V] voltage at the motor, after the effects on the voltage."""
     return u
 
 
@@ -35,49 +35,49 @@ def force(on: Numbers, p: Numbers, x: float, v: float) -> float:
 
 
 def coulomb_friction(on: Numbers, p: Numbers, v: float, way: float) -> float:
-    """[V] of dry friction beyond kS when moving toward ``way``."""
+    """[V] dry friction beyond kS for motion toward ``way``."""
     return 0.0
 
 
 def added_inertia(on: Numbers, p: Numbers, clock: float) -> float:
-    """[V·s²/unit] of inertia beyond kA."""
+    """[V·s²/unit] inertia beyond kA."""
     return 0.0
 
 
 def impact(on: Numbers, p: Numbers) -> float:
-    """[1] of the momentum it needs that joining inertia takes from what moves."""
+    """[1] share of its momentum that added inertia takes from the moving mechanism."""
     return 0.0
 
 
 def next_change(on: Numbers, p: Numbers, clock: float) -> float:
-    """[s] of the clock at which something happens next."""
+    """[s] time on the clock at which an effect changes next."""
     return math.inf
 
 
 def backlash_gap(on: Numbers, p: Numbers) -> float:
-    """[unit] of free play between motor and load."""
+    """[unit] free play between motor and load."""
     return 0.0
 
 
 def joint_compliance(on: Numbers, p: Numbers) -> float:
-    """[unit/V] of what joins motor and load."""
+    """[unit/V] compliance of the joint between motor and load."""
     return 0.0
 
 
 def motor_inertia_share(on: Numbers, p: Numbers) -> float:
-    """[1] of the inertia that is on the motor's side; 0 where there is one body."""
+    """[1] share of the inertia on the motor's side; 0 with one body."""
     return 0.0
 
 
 def grip_limit(on: Numbers, p: Numbers) -> float:
-    """[V] of push that the floor passes on from the wheels to the robot."""
+    """[V] largest traction that the floor transmits."""
     return math.inf
 
 
 def update_memory(
     on: Numbers, p: Numbers, memory: Array, dt: float, u: float, v: float, kv: float
 ) -> None:
-    """Bring every effect's memory up to date, after ``dt`` [s] under ``u`` [V]."""
+    """Update the memory of every effect after ``dt`` [s] under ``u`` [V]."""
 
 
 def transform_velocity(

@@ -24,14 +24,14 @@ from sim.core.log import Array
 from sim.physics.engine.machine_code import ObjectCode, extract_code, identify_machine, link_code
 from sim.support.work import cache
 
-__all__ = ["Kernel", "kernel_file", "load_kernel", "try_kernel_file"]
+__all__ = ["Kernel", "find_kernel_file", "load_kernel", "try_kernel_file"]
 
 KEPT = 4  # engines of other versions that stay in the cache
 NUMBER = np.dtype(np.float64)
 INTEGER, PLACE = ctypes.c_int64, ctypes.c_void_p
 BYTES = ctypes.c_char * 0
 CALLED = ctypes.CFUNCTYPE(  # as `_entry` in compose.py says it
-    None, *[INTEGER] * 3, *[PLACE] * 18, INTEGER, *[PLACE] * 3
+    None, *[INTEGER] * 4, *[PLACE] * 18, INTEGER, *[PLACE] * 4
 )
 NO_USE = b""  # what is kept where object files were tried, and do not work
 PATIENCE = 60  # [s] for one that takes a tenth
@@ -58,7 +58,7 @@ class Kernel:
         self, edges: Array, time: Array, asked: Array, slides: Array, bodies: Array,
         low: Array, high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Array, w: Array,
         on: Array, p: Array, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
-        measured: Array, trust: Array, out: Array,
+        measured: Array, trust: Array, errors: Array, out: Array,
     ) -> None:  # fmt: skip
         """Simulate runs; the arguments are those of ``stepping.step_runs``.
 
@@ -67,21 +67,24 @@ class Kernel:
                 reads: it would be read wrongly, without a word.
         """
         n, count = time.size, began.size
-        if {asked.size, slides.size} != {n} or len(out) != n or len(measured) not in {0, n}:
+        rows = len(measured)
+        if {asked.size, slides.size, len(out)} != {n} or rows not in {0, n}:
             raise TypeError("arrays of the same runs are of one length")
-        if trust.shape != (len(measured), 4):
-            raise TypeError("each measurement has four gains")
+        if errors.shape != measured.shape:
+            raise TypeError("each measurement has its innovation")
+        if trust.shape[1:] != (4,) or len(trust) not in {min(rows, 1), rows}:
+            raise TypeError("each measurement has four gains, or all have the same")
         each = low.size, high.size, rubs.size, run_lags.size, sessions.size
         if {len(bodies), *each, edges.size - 1} != {count}:
             raise TypeError("there is one of everything for each run")
         if count and not (edges[0] == 0 and edges[-1] == n and np.all(np.diff(edges) >= 0)):
             raise TypeError("runs lie one behind the other")
         self._call(
-            count, n, len(measured), _place(edges), _place(time), _place(asked), _place(slides),
+            count, n, rows, len(trust), _place(edges), _place(time), _place(asked), _place(slides),
             _place(bodies), _place(low), _place(high), _place(rubs), _place(run_lags),
             _place(sessions), _place(c), _place(w), _place(on), _place(p), _place(memory),
             _place(ways), _place(began), _place(steps), plain, _place(measured),
-            _place(trust), _place(out),
+            _place(trust), _place(errors), _place(out),
         )  # fmt: skip
 
 
@@ -96,7 +99,7 @@ def _place(array: Array) -> int:
     return place
 
 
-def kernel_file(folder: Path, seal: str) -> Path:
+def find_kernel_file(folder: Path, seal: str) -> Path:
     """The file in which the machine code of an engine is kept for this processor.
 
     Args:
@@ -203,5 +206,5 @@ def try_kernel_file(kept: Path) -> None:
     model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "steps"), some)
     Kernel(*found).move(
         edges=np.zeros(1), bodies=np.zeros((0, 5)), **runs, **model, plain=True,
-        measured=none, trust=np.zeros((0, 4)), out=none,
+        measured=none, trust=np.zeros((0, 4)), errors=none, out=none,
     )  # fmt: skip

@@ -7,20 +7,20 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.physics.effects import EFFECTS
-from sim.physics.engine.compose import HOOKS, parameter_slices
+from sim.physics.engine.compose import DELAY_HOOKS, HOOKS, make_parameter_slices
 from sim.physics.model import Model, Part
 
 __all__ = [
     "COARSEST",
     "EXACT",
     "ORDER",
-    "effect_arrays",
+    "compute_search_step_limits",
+    "compute_step_limits",
     "find_finest_step",
     "is_pure_delay",
-    "model_constants",
-    "search_step_limits",
-    "step_limits",
-    "total_backlash",
+    "make_effect_arrays",
+    "make_model_constants",
+    "sum_backlash",
 ]  # fmt: skip
 
 COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
@@ -29,7 +29,7 @@ SEARCHED = 0.005  # [s] the same while a search looks for an effect
 LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
 SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
 EXACT: Array = np.array([math.inf, math.inf, 0.0, math.inf])  # of a model with an exact solution
-PLACES = parameter_slices(EFFECTS)
+PLACES = make_parameter_slices(EFFECTS)
 NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
 SLACKS = {
@@ -37,11 +37,7 @@ SLACKS = {
     for name, act in ((one.name, one.hooks.get("backlash_gap")) for one in EFFECTS.values())
     if act is not None
 }
-DELAYS = frozenset(
-    one.name
-    for one in EFFECTS.values()
-    if set(one.hooks) <= {"command_delay", "transform_velocity"}
-)
+DELAYS = frozenset(name for name, one in EFFECTS.items() if set(one.hooks) <= DELAY_HOOKS)
 
 
 def is_pure_delay(part: Part) -> bool:
@@ -49,7 +45,7 @@ def is_pure_delay(part: Part) -> bool:
     return part.effect in DELAYS
 
 
-def model_constants(model: Model) -> Array:
+def make_model_constants(model: Model) -> Array:
     """(8,) constants of the base model, in the order of ``one_body.py``."""
     gains = model.gains
     level = gains.get("kG", 0.0)
@@ -68,7 +64,7 @@ def model_constants(model: Model) -> Array:
     )
 
 
-def effect_arrays(model: Model) -> tuple[Array, Array]:
+def make_effect_arrays(model: Model) -> tuple[Array, Array]:
     """Which effects are on, then which hooks are needed; and the parameters of all effects."""
     on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
     parameters = NEUTRAL.copy()
@@ -80,8 +76,8 @@ def effect_arrays(model: Model) -> tuple[Array, Array]:
     return on, parameters
 
 
-def total_backlash(model: Model) -> float:
-    """[unit] of free play between motor and load."""
+def sum_backlash(model: Model) -> float:
+    """[unit] sum of the free play between motor and load."""
     total = 0.0
     for part in model.parts:
         if part.effect in SLACKS:
@@ -91,19 +87,19 @@ def total_backlash(model: Model) -> float:
 
 
 def find_finest_step(model: Model) -> float:
-    """[s] the step that the fastest of a model's effects asks for."""
+    """[s] longest step that resolves the fastest of a model's effects."""
     return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
 
 
-def step_limits(model: Model) -> Array:
-    """(4,) the longest step: [s], [unit] of way, [s] that even a fast one lasts, and [unit/s]."""
+def compute_step_limits(model: Model) -> Array:
+    """(4,) step limits: longest [s], longest way [unit], shortest [s], largest change [unit/s]."""
     longest = min(COARSEST, SHARE_OF_PACE * _fastest(model, places=False))
     way = SHARE_OF_PACE * _shortest(model)
     return np.array([max(longest, LEAST_STEP), way, LEAST_STEP, math.inf])
 
 
-def search_step_limits(model: Model) -> Array:
-    """(4,) the same while a search looks for an effect.
+def compute_search_step_limits(model: Model) -> Array:
+    """(4,) step limits, as in ``compute_step_limits``, while a search looks for an effect.
 
     Its steps are longer, but for where the speed changes fast beside what depends on speed: there
     even a small error is more than the noise of a good encoder, and an effect with a faster pace
@@ -120,8 +116,8 @@ def _fastest(model: Model, *, places: bool = True) -> float:
     paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
     for part in model.parts:
         effect = EFFECTS[part.effect]
-        if effect.fastest_time is not None and (places or effect.shortest_length is None):
-            paces.append(effect.fastest_time(part.parameters, model.gains))
+        if effect.shortest_time is not None and (places or effect.shortest_length is None):
+            paces.append(effect.shortest_time(part.parameters, model.gains))
     return min(paces)
 
 

@@ -30,18 +30,15 @@ until which a brownout keeps the motors off. With one body, motor and load are t
 
 
 def bound_travel(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
-    """The base model of one run, kept between two stops as well as between the ends of its travel.
-
-    ``rubs`` [V] is its dry friction beyond kS.
-    """
+    """Constants of one run: friction is kS + ``rubs``, travel is between ``low`` and ``high``."""
     return (
         max(c[KS] + rubs, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
         max(c[LOW], low), min(c[HIGH], high),
     )  # fmt: skip
 
 
-def sliding_friction(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
-    """[V] of dry friction toward ``way``, never below none."""
+def compute_sliding_friction(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
+    """[V] dry friction against motion toward ``way``, never negative."""
     return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
 
 
@@ -58,13 +55,13 @@ def move_exactly(
     while dt > 0.0:
         if v == 0.0:
             way = math.copysign(1.0, drive)
-            hold = part * sliding_friction(c, on, p, 0.0, way)
-            slide = part * sliding_friction(c, on, p, v_mid, way)
+            hold = part * compute_sliding_friction(c, on, p, 0.0, way)
+            slide = part * compute_sliding_friction(c, on, p, v_mid, way)
             if abs(drive) <= max(hold, slide):
                 return x, v
         else:
             way = math.copysign(1.0, v)
-            slide = part * sliding_friction(c, on, p, v_mid, way)
+            slide = part * compute_sliding_friction(c, on, p, v_mid, way)
         push = (drive - way * slide) / ka
         until = math.inf
         if v != 0.0 and push * way < 0.0:  # it slows down, and may turn
@@ -87,9 +84,9 @@ def predict_midpoint(
     c: Numbers, on: Numbers, p: Numbers, x: float, v: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Position and velocity a moment ahead, along a straight line: where a step has its middle."""
+    """Position at the middle of a step and velocity at its end, by linear prediction."""
     way = math.copysign(1.0, v if v != 0.0 else drive)
-    slide = part * sliding_friction(c, on, p, v, way)
+    slide = part * compute_sliding_friction(c, on, p, v, way)
     if v == 0.0 and abs(drive) <= slide:
         return x, v
     after = v + dt * (drive - way * slide - kv * v) / ka
@@ -98,14 +95,14 @@ def predict_midpoint(
     return x + 0.5 * dt * (v + after), after
 
 
-def gravity_voltage(c: Numbers, x: float) -> float:
+def compute_gravity_voltage(c: Numbers, x: float) -> float:
     """[V] gravity voltage at position ``x``."""
     if c[LEVEL] == 0.0:
         return float(c[LOAD])
     return float(c[LOAD] + c[LEVEL] * math.cos(x + c[ANGLE]))
 
 
-def motor_voltage(
+def compute_motor_voltage(
     c: Numbers,
     w: Numbers,
     on: Numbers,
@@ -115,7 +112,7 @@ def motor_voltage(
     v: float,
     off: bool,
 ) -> float:
-    """[V] voltage at the motor, after wiring and path effects."""
+    """[V] voltage at the motor, after limits, wiring and the effects on the voltage."""
     u = limit_voltage(w, 0.0 if off else asked, v)
     return transform_voltage(on, p, memory, u, v, c[KV])
 
@@ -135,12 +132,12 @@ def step_one_body(
 ) -> float:  # fmt: skip
     """One step of one body; returns the voltage [V] at the motor in its middle."""
     x, v = state[X], state[V]
-    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     if not plain:
-        drive = u - gravity_voltage(c, x) - force(on, p, x, v)
+        drive = u - compute_gravity_voltage(c, x) - force(on, p, x, v)
         half, v_half = predict_midpoint(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
-        u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
-        drive = u - gravity_voltage(c, half) - force(on, p, half, v_half)
+        u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
+        drive = u - compute_gravity_voltage(c, half) - force(on, p, half, v_half)
         x, v = move_exactly(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
     else:
         x, v = move_exactly(c, on, p, x, v, v, u - c[LOAD], c[KV], ka, dt, 1.0)

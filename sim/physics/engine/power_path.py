@@ -26,14 +26,14 @@ CUT = 0.02  # [s] the motors stay off: with none of them running the battery rec
 # the enable signal comes every 20 ms
 
 
-def bus_voltage(w: Numbers, u: float, current: float) -> float:
-    """[V] of the battery while every motor takes ``current`` [A] at ``u`` [V]."""
+def compute_bus_voltage(w: Numbers, u: float, current: float) -> float:
+    """[V] battery voltage while every motor draws ``current`` [A] at ``u`` [V]."""
     square = 0.25 * w[REST] * w[REST] - w[RB] * w[MOTORS] * u * current
     return float(0.5 * w[REST] + math.sqrt(max(square, 0.0)))
 
 
 def limit_voltage(w: Numbers, asked: float, v: float) -> float:
-    """[V] that reach the motors of the voltage asked for, at a speed."""
+    """[V] voltage at the motors for a command at a speed, after all limits."""
     if w[REST] == 0.0:
         return asked
     emf = w[EMF] * v
@@ -47,7 +47,7 @@ def limit_voltage(w: Numbers, asked: float, v: float) -> float:
     if u * current <= 0.0:  # the motors brake, and give: the battery can always take it
         return float(min(max(u, -w[REST]), w[REST]))
     way = math.copysign(1.0, u)
-    bus = bus_voltage(w, u, current)
+    bus = compute_bus_voltage(w, u, current)
     if abs(u) > bus:  # all there is: bus = rest - Rb·n·(bus - emf)/R
         load = w[RB] * w[MOTORS] / w[OHM]
         bus = (w[REST] + load * way * emf) / (1.0 + load)

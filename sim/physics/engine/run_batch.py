@@ -7,7 +7,7 @@ from sim.core.log import Array
 
 @dataclass(frozen=True, eq=False)
 class RunBatch:
-    """Runs, one behind another.
+    """Several runs in contiguous arrays, one after another.
 
     Args:
         edges: (runs + 1,) where each begins among all samples, as the engine reads it: in doubles.

@@ -20,10 +20,10 @@ from sim.physics.engine.one_body import (
     W,
     X,
     Y,
-    gravity_voltage,
-    motor_voltage,
+    compute_gravity_voltage,
+    compute_motor_voltage,
+    compute_sliding_friction,
     move_exactly,
-    sliding_friction,
     step_one_body,
 )
 
@@ -38,7 +38,7 @@ def step_slipping_wheels(
     """One step of wheels and robot; returns the voltage [V] at the motor in its middle."""
     ahead = state[V] - state[W]
     if abs(ahead) <= SAME * max(abs(state[V]), abs(state[W])):
-        ahead = excess_push(state, c, w, on, p, memory, asked, off)
+        ahead = compute_excess_traction(state, c, w, on, p, memory, asked, off)
     if ahead == 0.0:
         return step_gripping(state, c, w, on, p, memory, asked, off, ka, dt)
     side = math.copysign(1.0, ahead)
@@ -48,16 +48,16 @@ def step_slipping_wheels(
     return u
 
 
-def excess_push(
+def compute_excess_traction(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool,
 ) -> float:  # fmt: skip
-    """[V] that moving as one body asks of the floor beyond its grip, with its sign; 0 if none."""
+    """[V] traction beyond the grip that motion without slip would need, signed; or 0."""
     x, v = state[Y], state[V]
-    pull = gravity_voltage(c, x) + force(on, p, x, v)
-    drive = motor_voltage(c, w, on, p, memory, asked, v, off) - pull
+    pull = compute_gravity_voltage(c, x) + force(on, p, x, v)
+    drive = compute_motor_voltage(c, w, on, p, memory, asked, v, off) - pull
     way = math.copysign(1.0, v if v != 0.0 else drive)
-    slide = sliding_friction(c, on, p, v, way)
+    slide = compute_sliding_friction(c, on, p, v, way)
     if v == 0.0 and abs(drive) <= slide:
         return 0.0
     rest = 1.0 - motor_inertia_share(on, p)
@@ -92,10 +92,10 @@ def step_spinning(
     part = motor_inertia_share(on, p)
     x, v, y, z = state[X], state[V], state[Y], state[W]
     held = side * grip_limit(on, p)
-    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     _, middle = move_exactly(c, on, p, x, v, v, u - held, c[KV], part * ka, 0.5 * dt, 1.0)
-    u = motor_voltage(c, w, on, p, memory, asked, middle, off)
-    rate = (held - gravity_voltage(c, y) - force(on, p, y, z)) / ((1.0 - part) * ka)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, middle, off)
+    rate = (held - compute_gravity_voltage(c, y) - force(on, p, y, z)) / ((1.0 - part) * ka)
     least, most = 0.0, dt
     after, faster = move_exactly(c, on, p, x, v, middle, u - held, c[KV], part * ka, dt, 1.0)
     if side * (faster - z - rate * dt) < 0.0:

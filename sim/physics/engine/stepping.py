@@ -24,7 +24,15 @@ from sim.physics.engine.hooks import (
     update_memory,
 )
 from sim.physics.engine.one_body import KA, KV, OFF_UNTIL, V, W, X, Y, bound_travel, step_one_body
-from sim.physics.engine.power_path import CUT, EMF, OHM, REST, STOP, bus_voltage, limit_voltage
+from sim.physics.engine.power_path import (
+    CUT,
+    EMF,
+    OHM,
+    REST,
+    STOP,
+    compute_bus_voltage,
+    limit_voltage,
+)
 from sim.physics.engine.slipping_wheels import step_slipping_wheels
 from sim.physics.engine.two_bodies import step_two_bodies
 
@@ -55,7 +63,7 @@ def advance_step(
     off = clock < state[OFF_UNTIL]
     if w[REST] != 0.0 and not off:
         u = limit_voltage(w, asked, state[V])
-        bus = bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
+        bus = compute_bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
         if bus < w[STOP]:  # noticed now, acted on from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
     if grip_limit(on, p) < math.inf:
@@ -74,11 +82,11 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
     u = limit_voltage(w, 0.0 if off else asked, state[V])
-    out[k, APPLIED] = u
+    current, bus = 0.0, 0.0
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
-        out[k, BUS] = bus_voltage(w, u, current)
-        out[k, CURRENT] = current
+        bus = compute_bus_voltage(w, u, current)
+    out[k, APPLIED], out[k, BUS], out[k, CURRENT] = u, bus, current
 
 
 def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
@@ -99,7 +107,7 @@ def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> No
 
 
 def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
-    """[s] at which steps must end: ``after``, or before it where something happens."""
+    """[s] time at which steps must end: ``after``, or the next change of an effect."""
     when = now + next_change(on, p, clock) - clock
     return when if now + NONE < when < after else after
 
@@ -122,8 +130,8 @@ def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -
     return float(max(math.ceil(span / longest - 1e-9), 1))
 
 
-def voltage_slope(time: Array, slides: Array, command: int) -> float:
-    """[V/s] of a command; 0 where it is held."""
+def compute_voltage_slope(time: Array, slides: Array, command: int) -> float:
+    """[V/s] slope of a command's voltage; 0 where it is held."""
     if command < 0 or command + 1 >= time.size or slides[command] == 0.0:
         return 0.0
     return float(slides[command] / (time[command + 1] - time[command]))
@@ -132,17 +140,18 @@ def voltage_slope(time: Array, slides: Array, command: int) -> float:
 def step_run(
     time: Array, asked: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
-    measured: Array, trust: Array, out: Array,
+    measured: Array, trust: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
-    """Move through one run and write every sample into ``out``; ``state`` and ``memory`` go on.
+    """Simulate one run into ``out``; ``state`` and ``memory`` hold its end.
 
-    A command holds from its sample until the next, or slides evenly by one of ``slides`` [V], later
-    by ``late`` [s] beyond what the effects delay it; before the first has come, what rests is held
-    where it rests, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that
-    correct the motion as it goes, nan where there is none, by the gains ``trust`` (n, 4); without
-    rows it goes its way. A step lasts as long as ``steps`` lets it: [s], [unit] of way, [s] that
-    even that does not shorten, and [unit/s] by which the speed changes. ``ways`` is room for the
-    tables of ``two_body_modes.py``: of one model only, and empty at first.
+    A command holds from its sample until the next, or changes linearly by ``slides`` [V]. It comes
+    ``late`` [s] later than the effects delay it; until the first has come, a mechanism at rest is
+    held there, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that correct
+    the motion by the Kalman gains ``trust`` (n, 4), or (1, 4) for all, nan where there is none;
+    the innovations go into ``errors`` (n, 2). Without rows the simulation is open loop. ``steps``
+    limits a step: longest [s], longest way [unit], shortest [s], and largest change of speed
+    [unit/s]. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
+    at first.
     """
     lag = command_delay(on, p) + late
     n = time.size
@@ -158,7 +167,8 @@ def step_run(
         out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
             ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
-            correct_state(state, ahead, faster, trust[k])
+            errors[k, 0], errors[k, 1] = ahead, faster
+            correct_state(state, ahead, faster, trust[min(k, trust.shape[0] - 1)])
             out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
             out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
@@ -170,7 +180,7 @@ def step_run(
                 state[V] = state[W] = 0.0  # whatever a measurement made of it
             else:
                 volts = asked[command] if command >= 0 else 0.0
-                slope = voltage_slope(time, slides, command)
+                slope = compute_voltage_slope(time, slides, command)
                 if slope != 0.0:
                     volts += slope * (now - time[command] - lag)
                 count = count_steps(after - now, steps, state[V], volts, c)
@@ -189,28 +199,32 @@ def step_runs(
     edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
     high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers,
     p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
-measured: Array, trust: Array, out: Array ) -> None:  # fmt: skip
-    """Move through runs that lie one behind the other, ``run`` by ``run``.
+    measured: Array, trust: Array, errors: Array, out: Array,
+) -> None:  # fmt: skip
+    """Simulate runs that are stored one after another.
 
-    A run has the samples from one of ``edges`` to the next, begins as its row of ``bodies`` says
-    when the clock says ``began``, and is kept between ``low`` and ``high``; its dry friction is
-    ``rubs`` [V] beyond kS, and it is late by ``run_lags`` [s] beyond the effects' delay. What
-    effects remember goes on through runs of the same number in ``sessions``.
+    Run k has the samples from ``edges[k]`` to ``edges[k + 1]``. It begins in the state
+    ``bodies[k]``, at ``began[k]`` [s] of the clock, and its travel ends at ``low[k]`` and
+    ``high[k]``. Its dry friction is ``rubs[k]`` [V] larger than kS, and its commands are
+    ``run_lags[k]`` [s] later than the effects delay them. The memory of effects is kept between
+    runs with the same number in ``sessions``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])
         if k > 0 and sessions[k] != sessions[k - 1]:
             for i in range(memory.size):
                 memory[i] = 0.0
-        lead = measured[first:last] if measured.shape[0] > 0 else measured
-        gains = trust[first:last] if measured.shape[0] > 0 else trust
+        lead, left = measured, errors
+        if measured.shape[0] > 0:
+            lead, left = measured[first:last], errors[first:last]
+        gains = trust[first:last] if trust.shape[0] > 1 else trust
         step_run(
             time[first:last], asked[first:last], slides[first:last], bodies[k],
             bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k],
-            run_lags[k], steps, plain, lead, gains, out[first:last],
+            run_lags[k], steps, plain, lead, gains, left, out[first:last],
         )  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
     """Allocate the output array of ``move`` for ``n`` samples."""
-    return np.zeros((n, 8))
+    return np.empty((n, 8))

@@ -26,11 +26,11 @@ from sim.physics.engine.one_body import (
     X,
     Y,
     clamp_to_travel,
-    gravity_voltage,
-    motor_voltage,
+    compute_gravity_voltage,
+    compute_motor_voltage,
+    compute_sliding_friction,
     move_exactly,
     predict_midpoint,
-    sliding_friction,
 )
 from sim.physics.engine.two_body_modes import (
     DAMP,
@@ -69,7 +69,7 @@ def step_two_bodies(
     if ways[KNOWN] != ka:
         ways[KNOWN] = ka
         reduced = part * (1.0 - part) * ka
-        stiff, damp = joint_stiffness(joint_compliance(on, p), reduced)
+        stiff, damp = compute_joint_stiffness(joint_compliance(on, p), reduced)
         pace = min(1.4 * math.sqrt(reduced / stiff), part * ka / max(c[KV], TINY))
         ways[STIFF], ways[DAMP], ways[SMALL] = stiff, damp, max(FINE * pace, FINEST)
     stiff, damp = ways[STIFF], ways[DAMP]
@@ -79,7 +79,7 @@ def step_two_bodies(
         if size == 1 or not take > ways[SMALL]:  # nor where it flies off, and nothing is a number
             u = step_through_contacts(state, c, w, on, p, memory, asked, off, ka, take)
         else:
-            push = joint_voltage(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
+            push = compute_joint_force(play, stiff, damp, state[X] - state[Y], state[V] - state[W])
             if play == 0.0 or push != 0.0:
                 one = step_in_contact(
                     state, c, w, on, p, memory, ways, asked, off, ka, dt, level, play, stiff, damp
@@ -114,8 +114,8 @@ def step_in_contact(
     x, v, y, z = state[X], state[V], state[Y], state[W]
     side = 0.5 * play * math.copysign(1.0, x - y)
     d, stands = x - y - side, z == 0.0
-    u = motor_voltage(c, w, on, p, memory, asked, v, off)
-    r = -gravity_voltage(c, y) - force(on, p, y, z)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
+    r = -compute_gravity_voltage(c, y) - force(on, p, y, z)
     if stands and not stays_at_rest(c, on, p, y, stiff * d + damp * v + r, rest):
         return math.nan
     if stands and v == 0.0:
@@ -126,16 +126,16 @@ def step_in_contact(
     half = make_table(ways, which, whole, level + 1)
     full = make_table_from_half(ways, which, whole, level)
     way, toward = math.copysign(1.0, v), math.copysign(1.0, z)
-    b = u - way * part * sliding_friction(c, on, p, v, way)
-    r = 0.0 if stands else r - toward * rest * sliding_friction(c, on, p, z, toward)
+    b = u - way * part * compute_sliding_friction(c, on, p, v, way)
+    r = 0.0 if stands else r - toward * rest * compute_sliding_friction(c, on, p, z, toward)
     d_half = apply_row(ways, half, d, v, z, b, r)
     v_half = apply_row(ways, half + ROW, d, v, z, b, r)
     z_half = apply_row(ways, half + 2 * ROW, d, v, z, b, r)
     y_half = y + apply_row(ways, half + 3 * ROW, d, v, z, b, r)
-    u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
-    b = u - way * part * sliding_friction(c, on, p, v_half, way)
-    r = -gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
-    r = 0.0 if stands else r - toward * rest * sliding_friction(c, on, p, z_half, toward)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
+    b = u - way * part * compute_sliding_friction(c, on, p, v_half, way)
+    r = -compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
+    r = 0.0 if stands else r - toward * rest * compute_sliding_friction(c, on, p, z_half, toward)
     d_end = apply_row(ways, full, d, v, z, b, r)
     v_end = apply_row(ways, full + ROW, d, v, z, b, r)
     z_end = apply_row(ways, full + 2 * ROW, d, v, z, b, r)
@@ -143,17 +143,17 @@ def step_in_contact(
     slowest = min(v * way, v_half * way, v_end * way)
     if stands:
         y_end, z_end = y, 0.0
-        load = stiff * d_end + damp * v_end - gravity_voltage(c, y) - force(on, p, y, 0.0)
+        load = stiff * d_end + damp * v_end - compute_gravity_voltage(c, y) - force(on, p, y, 0.0)
         slowest = slowest if stays_at_rest(c, on, p, y, load, rest) else 0.0
     else:
         slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
     if not slowest > 0.0:
         return math.nan
     if play > 0.0:
-        least = joint_voltage(play, stiff, damp, d_half + side, v_half - z_half) * side
-        least = min(least, joint_voltage(play, stiff, damp, d_end + side, v_end - z_end) * side)
+        halfway = compute_joint_force(play, stiff, damp, d_half + side, v_half - z_half)
+        after = compute_joint_force(play, stiff, damp, d_end + side, v_end - z_end)
         long = dt * math.sqrt(stiff / (part * other)) > 1.0  # enough to part and meet within it
-        if not least > 0.0 or (long and deflection_jumps(d, d_end)):
+        if not min(halfway * side, after * side) > 0.0 or (long and deflection_jumps(d, d_end)):
             return math.nan
     state[X], state[V] = y_end + d_end + side, v_end
     state[Y], state[W] = clamp_to_travel(c, y_end, z_end)
@@ -166,8 +166,8 @@ def deflection_jumps(before: float, after: float) -> bool:
 
 
 def is_held(c: Numbers, on: Numbers, p: Numbers, drive: float, part: float) -> bool:
-    """Whether friction holds a body at rest that has such a part of it."""
-    return abs(drive) <= part * sliding_friction(c, on, p, 0.0, math.copysign(1.0, drive))
+    """Whether friction holds a body at rest; ``part`` is its share of the friction."""
+    return abs(drive) <= part * compute_sliding_friction(c, on, p, 0.0, math.copysign(1.0, drive))
 
 
 def stays_at_rest(c: Numbers, on: Numbers, p: Numbers, y: float, drive: float, part: float) -> bool:
@@ -184,15 +184,15 @@ def step_in_backlash(
     part = motor_inertia_share(on, p)
     own, other = part * ka, (1.0 - part) * ka
     x, v, y, z = state[X], state[V], state[Y], state[W]
-    u = motor_voltage(c, w, on, p, memory, asked, v, off)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     _, v_half = predict_midpoint(c, on, p, x, v, u, c[KV], own, 0.5 * dt, part)
-    drive = -gravity_voltage(c, y) - force(on, p, y, z)
+    drive = -compute_gravity_voltage(c, y) - force(on, p, y, z)
     y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
-    u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
     x, v = move_exactly(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
-    drive = -gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
+    drive = -compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
     y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
-    if joint_voltage(play, stiff, damp, x - y, v - z) != 0.0:
+    if compute_joint_force(play, stiff, damp, x - y, v - z) != 0.0:
         return math.nan
     state[X], state[V] = x, v
     state[Y], state[W] = clamp_to_travel(c, y, z)
@@ -239,35 +239,35 @@ def step_by_midpoint(
     """One step of two bodies by the midpoint rule, whatever happens in it."""
     part, play = motor_inertia_share(on, p), backlash_gap(on, p)
     own, other = part * ka, (1.0 - part) * ka
-    stiff, damp = joint_stiffness(joint_compliance(on, p), part * other)
+    stiff, damp = compute_joint_stiffness(joint_compliance(on, p), part * other)
     x, v, y, z = state[X], state[V], state[Y], state[W]
 
-    u = motor_voltage(c, w, on, p, memory, asked, v, off)
-    push = joint_voltage(play, stiff, damp, x - y, v - z)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
+    push = compute_joint_force(play, stiff, damp, x - y, v - z)
     x_half, v_half = predict_midpoint(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
-    drive = push - gravity_voltage(c, y) - force(on, p, y, z)
+    drive = push - compute_gravity_voltage(c, y) - force(on, p, y, z)
     y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
 
-    u = motor_voltage(c, w, on, p, memory, asked, v_half, off)
-    push = joint_voltage(play, stiff, damp, x_half - y_half, v_half - z_half)
+    u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
+    push = compute_joint_force(play, stiff, damp, x_half - y_half, v_half - z_half)
     x, v = move_exactly(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
-    drive = push - gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
+    drive = push - compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
     y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
     state[X], state[V] = x, v
     state[Y], state[W] = clamp_to_travel(c, y, z)
     return u
 
 
-def joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
-    """[V/unit] stiffness and [V·s/unit] damping of what joins motor and load."""
+def compute_joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
+    """[V/unit] stiffness and [V·s/unit] damping between motor and load."""
     stiff, damping = reduced * (2.0 * math.pi * CONTACT) ** 2, DAMPING
     if soft > 0.0:
         stiff, damping = 1.0 / soft, LOOSE_DAMPING
     return stiff, 2.0 * damping * math.sqrt(stiff * reduced)
 
 
-def joint_voltage(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
-    """[V] with which the motor pushes the load, from how far and how fast it is ahead."""
+def compute_joint_force(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
+    """[V] coupling force of the motor on the load, from the deflection and its rate."""
     into = abs(gap) - 0.5 * play
     if into <= 0.0:
         return 0.0

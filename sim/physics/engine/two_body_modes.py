@@ -71,7 +71,7 @@ def prepare_series(
 
 
 def make_table(ways: Array, at: int, dt: float, level: int) -> int:
-    """Index of the table of a part of a step; it is made if it is not there."""
+    """Index of the table of one part of a step; computed if it is missing."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
@@ -81,23 +81,23 @@ def make_table(ways: Array, at: int, dt: float, level: int) -> int:
         doublings += 1
     sum_series(ways, at + POWERS, moment, step + 1)
     for _ in range(doublings):
-        double_table(ways, step + 1, step + 1)
+        make_doubled_table(ways, step + 1, step + 1)
     ways[step] = dt
     return step + 1
 
 
 def make_table_from_half(ways: Array, at: int, dt: float, level: int) -> int:
-    """Index of the table of a part of a step, made from the table of half of it."""
+    """Index of the table of one part of a step, doubled from the table of its half."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
-    double_table(ways, make_table(ways, at, dt, level + 1), step + 1)
+    make_doubled_table(ways, make_table(ways, at, dt, level + 1), step + 1)
     ways[step] = dt
     return step + 1
 
 
 def sum_series(ways: Array, powers: int, moment: float, to: int) -> None:
-    """The table of a moment: all its terms."""
+    """Make the table of a time step by summing the terms of the series."""
     last = powers + TERMS * TABLE
     for i in range(TABLE):
         ways[to + i] = ways[last + i]
@@ -107,8 +107,8 @@ def sum_series(ways: Array, powers: int, moment: float, to: int) -> None:
             ways[to + i] = ways[to + i] * moment + ways[here + i]
 
 
-def double_table(ways: Array, at: int, to: int) -> None:
-    """The table of twice the time, which may take the place of the one it is made of."""
+def make_doubled_table(ways: Array, at: int, to: int) -> None:
+    """Make the table of twice the time of a table; ``to`` may be ``at``."""
     d0, v0, w0, b0, r0 = ways[at], ways[at + 1], ways[at + 2], ways[at + 3], ways[at + 4]
     d1, v1, w1, b1, r1 = ways[at + 5], ways[at + 6], ways[at + 7], ways[at + 8], ways[at + 9]
     d2, v2, w2, b2, r2 = ways[at + 10], ways[at + 11], ways[at + 12], ways[at + 13], ways[at + 14]

@@ -51,8 +51,8 @@ __all__ = [
     "Scene",
     "Score",
     "TestPlan",
-    "allow_script",
     "animate_mechanism",
+    "make_script_source",
     "read_script",
 ]
 
@@ -126,7 +126,7 @@ def _write_palette() -> str:
 
 @cache
 def read_script() -> str:
-    """The script of every animation: its three files as one module."""
+    """The script of every animation: three files as one JavaScript module."""
     files = (
         Path(engine.__file__).with_name("simulate.js"),
         FOLDER / "stages.js",
@@ -136,8 +136,8 @@ def read_script() -> str:
     return "\n".join(row for row in rows if not row.startswith("import "))
 
 
-def allow_script(script: str) -> str:
-    """The source by which a page's Content-Security-Policy allows one script, and no other."""
+def make_script_source(script: str) -> str:
+    """The Content-Security-Policy source (a hash) that allows this script and no other."""
     digest = hashlib.sha256(script.encode("utf-8")).digest()
     return f"'sha256-{base64.b64encode(digest).decode('ascii')}'"
 

@@ -53,7 +53,7 @@ class TestPlan:
     def voltage(
         self, time: Array, knobs: Mapping[str, float], move: Callable[[Array], Array]
     ) -> Array:
-        """(n,) [V] of the test.
+        """(n,) [V] voltage of the test.
 
         Args:
             time: (n,) [s].
@@ -79,7 +79,7 @@ class Motion:
         voltage: (n,) [V], each held until the next time; a gain is one voltage, set by its knob.
         heading: (n,) [rad] of a swerve drive.
         ghost: drawn as an outline over the others: a model beside the robot.
-        asked: what was asked for: an outline and a line in the color of the text.
+        asked: whether it is the target: an outline and a line in the color of the text.
         gains: kS [V], kV, kA and, where the type has it, kG [V]: the motion is simulated with them.
         program: the gains of a feedforward that follows the scene's target; None takes ``voltage``.
         plan: the test that is driven, in place of a voltage.
@@ -103,7 +103,7 @@ class Motion:
     turns: bool = False
 
     def curve(self, signal: str, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) one of its signals, simulated where it has gains; None where it has no such one.
+        """(n,) one signal of the motion, simulated if it has gains; None if it lacks the signal.
 
         Args:
             signal: ``position``, ``velocity``, ``voltage`` or ``error``.
@@ -122,7 +122,7 @@ class Motion:
         return moved.position if signal == "position" else moved.velocity
 
     def _error(self, scene: "Scene", knobs: Mapping[str, float]) -> Array | None:
-        """(n,) position minus that of the motion that was asked for."""
+        """(n,) position minus the target position."""
         asked = next((one for one in scene.motions if one.asked), None)
         if asked is None or asked is self:
             return None
@@ -227,14 +227,14 @@ class Choice:
 
 @dataclass(frozen=True)
 class Panel:
-    """A plot over time; its axes stay as they are whatever a knob does.
+    """A plot over time whose axes do not change when a slider moves.
 
     Args:
         signal: ``position``, ``velocity``, ``voltage``, or ``error``: how far a position is ahead
-            of the one that was asked for.
+            of the target.
         label: of its axis, with the unit.
-        low: lowest value in the label's unit; None holds what the scenes hold at first.
-        high: highest value; None the same.
+        low: lowest value in the label's unit; None fits the axis to the scenes as first shown.
+        high: highest value; None as for ``low``.
         scale: factor from SI to the unit of the label: 100 for centimeters.
         terms: whether the voltage of the first motion is shared out among kS, kV and kA, as areas.
     """

@@ -70,7 +70,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
         problem: the measurements.
         point: what is believed.
     """
-    missed = smooth_innovations(problem, point)
+    missed = estimate_disturbance(problem, point)
     track = problem.simulate(
         point.structure.model(point.values), point.nuisance, point.kalman_filter
     )
@@ -91,8 +91,8 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
     return max(found, key=lambda one: one.size)
 
 
-def smooth_innovations(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(n,) disturbance per sample, estimated from whitened innovations."""
+def estimate_disturbance(problem: PredictionErrorProblem, point: Estimate) -> Array:
+    """(n,) disturbance at each sample, estimated from whitened innovations."""
     period = problem.period
     push = problem.whiten(point, np.array([[0.5 * period**2, period]]))
     white = problem.whiten(point, point.innovations).reshape(-1, 2)

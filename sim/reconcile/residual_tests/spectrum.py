@@ -15,7 +15,7 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.residual_tests.repeatability import smooth_innovations
+from sim.reconcile.residual_tests.repeatability import estimate_disturbance
 from sim.reconcile.thresholds import FASTEST_PEAK, FEWEST_TURNS, PEAK_FINER, SHORTEST_FOR_PEAK
 
 
@@ -62,7 +62,7 @@ def _disturbances_by_run(
 ) -> Iterator[tuple[Array, Array]]:
     """Of each run that is long enough: times, and pushes less their mean."""
     every, told = (
-        smooth_innovations(problem, point),
+        estimate_disturbance(problem, point),
         np.asarray(~problem.ignored_readings.all(axis=1)),
     )
     for record, (first, last) in zip(

@@ -35,7 +35,7 @@ class ResidualSummary:
 
     @property
     def is_repeated(self) -> bool:
-        """Whether runs miss the same at the same places or speeds."""
+        """Whether runs have the same residuals at the same positions or speeds."""
         return self.repeated.size > ALIKE
 
     @property

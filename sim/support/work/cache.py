@@ -12,7 +12,7 @@ from sim.support.atomic_file import write_atomically
 CACHE = "SYSID_CACHE"  # environment variable: another folder
 
 
-def cache_folder() -> Path:
+def find_cache_folder() -> Path:
     """The folder of the user's cache, which may not be there yet."""
     asked = os.environ.get(CACHE)
     return Path(asked or platformdirs.user_cache_dir("sysid-course", appauthor=False))
@@ -27,7 +27,7 @@ def read_cached(path: Path) -> bytes | None:
 
 
 def write_cached(path: Path, content: bytes) -> None:
-    """Write a file, whole: whoever reads at the same time sees all of it, or what was there.
+    """Write a cached file atomically: a reader sees its old content or all of the new.
 
     Raises:
         OSError: there is no place for it.
@@ -37,7 +37,7 @@ def write_cached(path: Path, content: bytes) -> None:
 
 
 def select_older(paths: Iterable[Path], *, than: int) -> list[Path]:
-    """All but the newest of some files, so many; what another process removes is not among them."""
+    """All but the ``than`` newest files, without those that another process removed."""
     ages = []
     for path in paths:
         with suppress(OSError):

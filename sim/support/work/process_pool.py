@@ -27,8 +27,8 @@ class WorkerLost(BadRequest):
     """A process was ended from outside, or brought down by what it did."""
 
 
-def available_cores() -> int:
-    """How many this process may use."""
+def count_available_cores() -> int:
+    """Number of processor cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -52,7 +52,7 @@ def run_jobs_locally(
     if processes <= 1:
         yield from map(work, jobs)
         return
-    executor = worker_pool(processes)
+    executor = make_worker_pool(processes)
     try:
         yield from collect_results(executor, work, jobs, ahead=AHEAD * processes)
     except BrokenProcessPool:
@@ -64,7 +64,7 @@ def run_jobs_locally(
         executor.shutdown(cancel_futures=True)
 
 
-def worker_pool(processes: int) -> ProcessPoolExecutor:
+def make_worker_pool(processes: int) -> ProcessPoolExecutor:
     """Processes that wait for work, and end when this one does."""
     return ProcessPoolExecutor(
         processes,

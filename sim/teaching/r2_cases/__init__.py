@@ -40,7 +40,7 @@ class Case:
     fit: Fit
     harmful: bool
 
-    def gain_error(self, gain: str) -> float:
+    def compute_gain_error(self, gain: str) -> float:
         """Relative error of a gain: 0.1 is 10 % too large, -2 has the wrong sign."""
         return self.fit.gains[gain] / self.truth[gain] - 1.0
 

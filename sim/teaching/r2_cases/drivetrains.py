@@ -28,7 +28,7 @@ class Setup:
     routine: Routine = ROUTINE
 
     def log(self, *, rng: np.random.Generator) -> Log:
-        """What a sound robot program records of it."""
+        """The log that a correct robot program records of the mechanism."""
         return simulate(self.mechanism, self.routine, rng=rng)
 
 

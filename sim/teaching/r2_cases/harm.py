@@ -73,7 +73,7 @@ def add_position_jump(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG00
 
 
 def add_early_stop(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
-    """Let both steps run into a stop before they have told all they know."""
+    """Let both step tests run into a stop too early to determine the gains."""
     for index in STEPS:
         run = log.runs[index]
         speed = np.abs(run.velocity)
@@ -84,7 +84,7 @@ def add_early_stop(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 -
 
 
 def log_commanded_voltage(setup: Setup) -> Harm:
-    """Log the voltage that the routine asked for."""
+    """Log the commanded voltage."""
 
     def spoil(log: Log, rng: np.random.Generator) -> Log:  # noqa: ARG001 - as every harm
         return replace(log, runs=tuple(replace(r, voltage=_asked(r, setup)) for r in log.runs))
@@ -135,7 +135,7 @@ def _scaled(log: Log, factor: float) -> Log:
 
 
 def _asked(run: Run, setup: Setup) -> Array:
-    """(n,) [V] what the routine asked for."""
+    """(n,) [V] the routine's commanded voltage."""
     since = run.time - run.time[0] + LOOPS_BEFORE_DRIVE * PERIOD
     return np.array([setup.routine.command_voltage(run.test, t) for t in since.tolist()])
 

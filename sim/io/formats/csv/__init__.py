@@ -18,7 +18,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.entry import Entry
-from sim.io.format import HEAD, ReadOptions, doubt_motor_choice, make_run
+from sim.io.format import HEAD, ReadOptions, make_run, warn_of_motor_choice
 from sim.io.formats.csv.entries import is_export, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
 
@@ -54,12 +54,12 @@ def _exported(path: Path) -> bool:
         return is_export(read_header(stream.read(HEAD)))
 
 
-def read(path: Path, asked: ReadOptions) -> Log:
+def read(path: Path, options: ReadOptions) -> Log:
     """Read a CSV log.
 
     Args:
         path: the file.
-        asked: what its reader knows: units, type, and columns of other names (``entries``).
+        options: the user's choices: units, type, and columns of other names (``entries``).
 
     Raises:
         UnreadableFile: not UTF-8, no rows, rows of unequal length, or an unknown test.
@@ -67,16 +67,16 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadSample: a cell is not a finite number; the message names line and column.
     """
     if _exported(path):
-        log, _ = assemble_log(read_entries(path), asked=asked, where=str(path))
+        log, _ = assemble_log(read_entries(path), options=options, where=str(path))
         return log
-    table = open_table(path, entries=asked.entries)
+    table = open_table(path, entries=options.entries)
     tests, codes = table.group_by_test()
     signals = {"time": table.parse_column("time_s")}
     signals |= {name: table.parse_column(name) for name in ("voltage", "position", "velocity")}
     signals |= {name: table.parse_column(name, gaps=True) for name in EXTRA if name in table.cells}
-    si = find_unit(asked.units_or_default).si
+    si = find_unit(options.units_or_default).si
     runs: list[Run] = []
-    doubts = [*table.doubts, *doubt_motor_choice(asked.motor, where=table.where)]
+    doubts = [*table.doubts, *warn_of_motor_choice(options.motor, where=table.where)]
     for number, rows in enumerate(_split(table, codes, signals["time"])):
         mine = {
             name: values[rows]
@@ -89,22 +89,22 @@ def read(path: Path, asked: ReadOptions) -> Log:
         doubts.extend(said)
     return Log(
         tuple(runs),
-        units=asked.units_or_default,
-        type=asked.type or "",
+        units=options.units_or_default,
+        type=options.type or "",
         source=table.where,
         doubts=tuple(doubts),
     )
 
 
-def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
     """Read a CSV log, a log for each motor that a log viewer's export holds.
 
     Raises:
         Refusal: as ``read``.
     """
     if not _exported(path):
-        return {"": read(path, asked)}
-    return assemble_motor_logs(read_entries(path), asked=asked, where=str(path))[0]
+        return {"": read(path, options)}
+    return assemble_motor_logs(read_entries(path), options=options, where=str(path))[0]
 
 
 def write(log: Log, path: Path) -> None:

@@ -22,7 +22,7 @@ _Sample = tuple[float, str]  # time [µs] and cell
 
 
 def is_export(names: Sequence[str]) -> bool:
-    """Whether the names of the first line, lower case, are those of an export."""
+    """Whether the lower-case column names are those of an AdvantageScope or DataLogTool export."""
     return len(names) > 1 and names[0] == TIME and "time_s" not in names
 
 

@@ -34,7 +34,7 @@ _SAME = {
 
 @dataclass(frozen=True)
 class CsvTable:
-    """The cells of a file.
+    """The cells of a CSV file, column by column.
 
     Args:
         where: the file.
@@ -113,7 +113,7 @@ class CsvTable:
 
 
 def split_rows(path: Path) -> tuple[str, Iterator[tuple[int, list[str]]]]:
-    """What stands between the cells, and line and cells of each row that is not blank.
+    """The separator, and the line number and cells of each row that is not blank.
 
     Raises:
         UnreadableFile: not UTF-8, or a quotation mark without its partner.

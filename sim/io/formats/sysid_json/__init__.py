@@ -15,7 +15,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
-from sim.io.format import ReadOptions, doubt_motor_choice, make_run
+from sim.io.format import ReadOptions, make_run, warn_of_motor_choice
 from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
 from sim.io.formats.sysid_json.file_header import FileHeader, read_header
 from sim.io.formats.sysid_json.rows import (
@@ -36,12 +36,12 @@ def recognizes(head: bytes) -> bool:
     return head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"{") and bool(_KEY.search(head))
 
 
-def read(path: Path, asked: ReadOptions) -> Log:
+def read(path: Path, options: ReadOptions) -> Log:
     """Read a log of the tools before 2024.
 
     Args:
         path: the file.
-        asked: what its reader knows: units, type, and which side of a drivetrain (``motor``).
+        options: the user's choices: units, type, and which side of a drivetrain (``motor``).
 
     Raises:
         UnreadableFile: damaged JSON, rows of a width no tool wrote, or no run at all.
@@ -49,18 +49,18 @@ def read(path: Path, asked: ReadOptions) -> Log:
         BadSample: a number that cannot be a measurement.
         BadRequest: a side that is none, or names of entries, which rows do not have.
     """
-    return _Document.load(path, asked).log(asked.motor)
+    return _Document.load(path, options).log(options.motor)
 
 
-def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
     """Read a log, a log for each side of a drivetrain.
 
     Raises:
         Refusal: as ``read``, but for a side that does not move: its log says so when it is fitted.
     """
-    document = _Document.load(path, asked)
-    if len(document.form.sides) == 1 or asked.motor:
-        return {"": document.log(asked.motor)}
+    document = _Document.load(path, options)
+    if len(document.form.sides) == 1 or options.motor:
+        return {"": document.log(options.motor)}
     return {side: document.log(side) for side in SIDES}
 
 
@@ -83,17 +83,17 @@ class _Document:
     doubts: tuple[Doubt, ...]
 
     @classmethod
-    def load(cls, path: Path, asked: ReadOptions) -> "_Document":
+    def load(cls, path: Path, options: ReadOptions) -> "_Document":
         """Read a file."""
         where = str(path)
-        if asked.entries:
+        if options.entries:
             raise BadRequest(
                 "the columns of this format have no names",
                 where=where,
                 advice="Leave out --state, --voltage, --position and --velocity.",
             )
         document = load_json(path)
-        said = read_header(document, asked, where=where)
+        said = read_header(document, options, where=where)
         tables, doubts = parse_tables(document, where=where)
         form = detect_form(tables, said, where=where)
         check_columns(tables, form, where=where)
@@ -126,12 +126,12 @@ class _Document:
 def _sides(
     tables: dict[str, Array], form: RowForm, said: FileHeader, motor: str | None, *, where: str
 ) -> tuple[dict[str, Side], list[Doubt]]:
-    """One side for every test: the only one, the one asked for, or both made one."""
+    """One side for every test: the only one, the chosen one, or the mean of both."""
     found = [
         {test: Side(*(table[:, column] for column in columns)) for test, table in tables.items()}
         for columns in form.sides
     ]
     if len(found) == 1:
         sides, doubts = read_one_side(found[0], where=where)
-        return sides, [*doubts, *doubt_motor_choice(motor, where=where)]
+        return sides, [*doubts, *warn_of_motor_choice(motor, where=where)]
     return read_drivetrain(found, motor=motor or "combined", angular=said.angular, where=where)

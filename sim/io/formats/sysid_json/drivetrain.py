@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest, MissingSignal
-from sim.io.formats.sysid_json.side import Side, align_signs, make_doubt, sign_of_test
+from sim.io.formats.sysid_json.side import Side, align_signs, find_test_sign, make_doubt
 
 STILL = 0.02  # [share of the other side's largest velocity] an encoder that counts nothing
 APART = 0.2  # [share of the mean velocity, RMS] two sides of one chassis do not differ so much
@@ -69,7 +69,7 @@ def _align_sides(halves: list[dict[str, Side]]) -> dict[int, list[str]]:
     for test in halves[0]:
         ways = [half[test].signs[1] for half in halves]
         if ways[0] * ways[1] < 0:
-            wrong = ways.index(-sign_of_test(test))
+            wrong = ways.index(-find_test_sign(test))
             halves[wrong][test] = halves[wrong][test].reverse(voltage=True, motion=True)
             changed.setdefault(wrong, []).append(test)
     return changed

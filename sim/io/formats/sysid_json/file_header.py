@@ -51,7 +51,7 @@ class FileHeader:
         return "angular" in self.mechanism.lower()
 
 
-def read_header(document: Mapping[str, object], asked: ReadOptions, *, where: str) -> FileHeader:
+def read_header(document: Mapping[str, object], options: ReadOptions, *, where: str) -> FileHeader:
     """Collect what the file says; what a person says about units goes before it.
 
     Raises:
@@ -72,7 +72,7 @@ def read_header(document: Mapping[str, object], asked: ReadOptions, *, where: st
                 "is with --type simple, elevator or arm.",
             )
         )
-    units, unsure = _units(document, asked, type_=type_, where=where)
+    units, unsure = _units(document, options, type_=type_, where=where)
     per_rotation = document.get("unitsPerRotation", 1.0)
     if not isinstance(per_rotation, float) or not 0.0 < per_rotation < LARGEST:
         raise UnreadableFile(
@@ -86,20 +86,20 @@ def read_header(document: Mapping[str, object], asked: ReadOptions, *, where: st
 
 
 def _units(
-    document: Mapping[str, object], asked: ReadOptions, *, type_: str, where: str
+    document: Mapping[str, object], options: ReadOptions, *, type_: str, where: str
 ) -> tuple[str, tuple[Doubt, ...]]:
     """The unit of position, and a doubt where it had to be guessed or was contradicted."""
     found = document.get("units")
     known = found.strip().lower() if isinstance(found, str) else ""
-    if asked.units:
+    if options.units:
         doubt = Doubt(
             "contradicting-units",
-            f"{where} says its positions are in {found}; they are taken as {asked.units}, as you "
+            f"{where} says its positions are in {found}; they are taken as {options.units}, as you "
             "asked. Leave out the units to follow the file.",
         )
-        return asked.units, (doubt,) if found is not None and known != asked.units else ()
+        return options.units, (doubt,) if found is not None and known != options.units else ()
     if found is None:
-        default = "radians" if "arm" in (type_, asked.type) else "meters"
+        default = "radians" if "arm" in (type_, options.type) else "meters"
         doubt = Doubt(
             "units-unknown",
             f"{where} does not say in which units it is, as no file of 2019 and 2020 does: taken "

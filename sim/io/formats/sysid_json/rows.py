@@ -27,7 +27,7 @@ EMPTIEST = 4.0  # [V] a robot whose battery is lower does not run
 
 @dataclass(frozen=True)
 class RowForm:
-    """Which column of a row holds what; time is the first in all.
+    """The meaning of each column of a row; the first is always the time.
 
     Args:
         sides: for each side, its columns of voltage, position and velocity.
@@ -39,7 +39,7 @@ class RowForm:
 
     @property
     def names(self) -> dict[int, str]:
-        """The columns that are read -> what they hold; a gyro's are not."""
+        """Column that is read -> its signal; a gyro's columns are not read."""
         names = {0: "time"} | ({} if self.battery is None else {self.battery: "battery voltage"})
         for side, columns in zip(("left ", "right "), self.sides, strict=False):
             prefix = side if len(self.sides) > 1 else ""

@@ -48,7 +48,7 @@ _SAID = {
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """What one side of a mechanism logged in one run.
+    """The columns that one side of a mechanism logged in one run.
 
     Args:
         voltage: (n,) [V].
@@ -62,7 +62,7 @@ class Side:
 
     @property
     def columns(self) -> tuple[Array, Array, Array]:
-        """The three together."""
+        """Voltage, position and velocity together."""
         return self.voltage, self.position, self.velocity
 
     @property
@@ -82,7 +82,7 @@ class Side:
         return replace(side, position=-side.position, velocity=-side.velocity) if motion else side
 
     def signals(self, *, time: Array, scale: float) -> dict[str, Array]:
-        """What a Run is made of; positions and velocities times ``scale``."""
+        """The columns for ``make_run``; positions and velocities times ``scale``."""
         return {
             "time": time,
             "voltage": self.voltage,
@@ -91,7 +91,7 @@ class Side:
         }
 
 
-def sign_of_test(test: str) -> int:
+def find_test_sign(test: str) -> int:
     """The sign of the motion that a test's name states: 1 forward, -1 reverse."""
     return 1 if test.endswith("forward") else -1
 
@@ -111,7 +111,7 @@ def read_one_side(runs: Mapping[str, Side], *, where: str) -> tuple[dict[str, Si
     bare = [
         test
         for test, side in runs.items()
-        if low >= -NOISE * high and sign_of_test(test) < 0 and side.signs == (1, -1)
+        if low >= -NOISE * high and find_test_sign(test) < 0 and side.signs == (1, -1)
     ]
     signed = {test: side.reverse(voltage=test in bare) for test, side in runs.items()}
     return signed, [make_doubt("unsigned-voltage", "voltage", bare, where=where)] if bare else []
@@ -135,7 +135,7 @@ def align_signs(
         side = given.reverse(voltage=mirrored, motion=mirrored)
         voltage, velocity = side.signs
         if voltage * velocity < 0:
-            code = "inverted-voltage" if velocity == sign_of_test(test) else "inverted-encoder"
+            code = "inverted-voltage" if velocity == find_test_sign(test) else "inverted-encoder"
             code = "unsigned-voltage" if signless else code
             changed.setdefault(code, []).append(test)
             encoder = code == "inverted-encoder"
@@ -157,6 +157,6 @@ def _voltage_range(runs: Mapping[str, Side]) -> tuple[float, float]:
 def _is_unsigned(runs: Mapping[str, Side]) -> bool:
     """Whether tests of both directions have voltages of one sign, which then says nothing."""
     low, high = _voltage_range(runs)
-    return len({sign_of_test(test) for test in runs}) > 1 and (
+    return len({find_test_sign(test) for test in runs}) > 1 and (
         low >= -NOISE * high or high <= -NOISE * low
     )

@@ -36,7 +36,7 @@ class _Maker(Protocol[Made_co]):
     """Makes logs of entries."""
 
     def __call__(
-        self, entries: Sequence[Entry], *, asked: ReadOptions, where: str
+        self, entries: Sequence[Entry], *, options: ReadOptions, where: str
     ) -> tuple[Made_co, tuple[RunInterval, ...]]:
         """What is made, and the times of its runs."""
 
@@ -55,43 +55,43 @@ def entries(path: Path) -> list[FileEntry]:
     return list(read_contents(load_records(path)).entries)
 
 
-def read(path: Path, asked: ReadOptions) -> Log:
+def read(path: Path, options: ReadOptions) -> Log:
     """Read the runs of one mechanism from a WPILOG file.
 
     Args:
         path: the file.
-        asked: what its reader knows: units, motor, and the names of entries.
+        options: the user's choices: units, motor, and the names of entries.
 
     Raises:
         UnreadableFile: it is foreign, empty, or damaged before the end of the first run.
         MissingSignal: an entry is missing; the message names it and what there is instead.
-        BadRequest: what was asked for is not in it, or it holds several mechanisms.
+        BadRequest: it lacks the chosen motor or mechanism, or holds several mechanisms.
         BadSample: it holds a number that cannot be a measurement.
     """
-    log, doubts = _read(path, asked, assemble_log)
+    log, doubts = _read(path, options, assemble_log)
     return log.add_doubts(*doubts)
 
 
-def read_motors(path: Path, asked: ReadOptions) -> dict[str, Log]:
+def read_motors(path: Path, options: ReadOptions) -> dict[str, Log]:
     """Read the runs of one mechanism, a log for each of its motors.
 
     Args:
         path: the file.
-        asked: what its reader knows: units, motor, and the names of entries.
+        options: the user's choices: units, motor, and the names of entries.
 
     Raises:
         Refusal: as ``read``.
     """
-    logs, doubts = _read(path, asked, assemble_motor_logs)
+    logs, doubts = _read(path, options, assemble_motor_logs)
     return {name: log.add_doubts(*doubts) for name, log in logs.items()}
 
 
 def _read(
-    path: Path, asked: ReadOptions, make: _Maker[Made_co]
+    path: Path, options: ReadOptions, make: _Maker[Made_co]
 ) -> tuple[Made_co, tuple[Doubt, ...]]:
     """What is made of a file's entries, and what is odd about the file."""
     where = str(path)
-    named = set(asked.entries.values())
+    named = set(options.entries.values())
     records = load_wanted_records(path, partial(_is_wanted, named=named))
     found = read_contents(records)
     damage = found.damage
@@ -100,7 +100,7 @@ def _read(
         raise _unreadable(damage, records.end, where, "there is no record before it")
     try:
         with np.errstate(all="ignore"):  # what is not finite is refused where a run is made of it
-            made, spans = make(found.entries, asked=asked, where=where)
+            made, spans = make(found.entries, options=options, where=where)
     except MissingSignal as missing:
         if damage is None:
             raise

@@ -21,7 +21,7 @@ LIKELY_SIZE = 1 << 16  # [bytes] a text or an array that was being written is ha
 
 @dataclass(frozen=True)
 class FileDamage:
-    """Where reading stopped before the end of the file.
+    """The place and reason at which reading stopped before the end of the file.
 
     Args:
         offset: the first byte that was not used.
@@ -197,7 +197,7 @@ def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage |
     left = records.size - offset
     if not left:
         return None
-    if records.only_zeros_from(offset):
+    if records.has_only_zeros_from(offset):
         return FileDamage(offset, left, "nothing but zero bytes", torn=True)
     if stop:
         return FileDamage(offset, left, stop.what, torn=False)
@@ -206,7 +206,7 @@ def _damage(records: Records, lives: _Lives, stop: _Stop | None) -> FileDamage |
 
 def _overrun(records: Records, lives: _Lives, offset: int, left: int) -> FileDamage:
     """The record at ``offset`` says it is longer than the file: cut off, or nonsense."""
-    head = records.header_at(offset)
+    head = records.read_header_at(offset)
     number, size = int(head.id[0]), int(head.size[0])
     if int(head.payload[0]) > records.size:
         return FileDamage(offset, left, "a record that stops within its header", torn=True)

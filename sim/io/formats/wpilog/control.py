@@ -17,7 +17,7 @@ _TEXTS = {START: 3, FINISH: 0, METADATA: 1}
 
 @dataclass(frozen=True)
 class Start:
-    """Records with this id belong to this entry from here on."""
+    """Control record: from here on, this id stands for this entry."""
 
     id: int
     name: str
@@ -27,14 +27,14 @@ class Start:
 
 @dataclass(frozen=True)
 class Finish:
-    """No more records of this entry; its id is free."""
+    """Control record: the entry has ended, and its id is free."""
 
     id: int
 
 
 @dataclass(frozen=True)
 class Metadata:
-    """The metadata of an entry change."""
+    """Control record: the entry has new metadata."""
 
     id: int
     metadata: str
@@ -56,7 +56,7 @@ def parse_control_record(payload: bytes) -> Control | None:
     return Metadata(number, *texts) if which == METADATA else Finish(number)
 
 
-def start_payload(entry: Start) -> bytes:
+def make_start_payload(entry: Start) -> bytes:
     """The payload of the control record that starts an entry."""
     texts = (text.encode("utf-8", "replace") for text in (entry.name, entry.type, entry.metadata))
     said = b"".join(_LENGTH.pack(len(text)) + text for text in texts)

@@ -23,7 +23,7 @@ class GrowingLog:
     """
 
     def __init__(self, path: Path, *, state: str | None = None) -> None:
-        self._asked = ReadOptions(entries={"state": state} if state else {})
+        self._options = ReadOptions(entries={"state": state} if state else {})
         self._size = 0  # [bytes] at the last look
         self._file = GrowingFile(path, lambda entry: entry.type == STRING)
 
@@ -49,12 +49,12 @@ class GrowingLog:
         entries = read_contents(self._file.read_appended_records()).entries
         where = str(self.path)
         with suppress(MissingSignal):
-            states = find_state_entries(entries, asked=self._asked, where=where)
+            states = find_state_entries(entries, options=self._options, where=where)
             found = [one for state in states for one in find_run_intervals(state, where=where)[0]]
             return tuple(sorted(found, key=lambda one: one.begin))
         return ()
 
     @property
     def was_replaced(self) -> bool:
-        """Whether the file is shorter than what was read of it, so that it is another one."""
+        """Whether the file is shorter than what was read of it, so it is another file."""
         return self.path.stat().st_size < self._size

@@ -85,7 +85,7 @@ class File:
 
 @dataclass(frozen=True, eq=False)
 class RecordHeaders:
-    """What the headers of some records say.
+    """The fields of some records' headers.
 
     Args:
         id: (n,) entry id; 0 for control records.
@@ -120,15 +120,15 @@ class Records:
     end: int
     head: RecordHeaders
 
-    def header_at(self, offset: int) -> RecordHeaders:
-        """What the header at an offset of the file says, whole or not."""
+    def read_header_at(self, offset: int) -> RecordHeaders:
+        """The header at an offset of the file, complete or not."""
         with open_log(self.path) as stream:
             stream.seek(offset)
             found = bytearray(stream.read(PAD)) + bytearray(PAD)
         header = read_headers(File(found).buffer, np.array([0]))
         return RecordHeaders(header.id, header.size, header.time, header.payload + offset)
 
-    def only_zeros_from(self, offset: int) -> bool:
+    def has_only_zeros_from(self, offset: int) -> bool:
         """Whether the rest of the file is nothing but zero bytes."""
         with open_log(self.path) as stream:
             stream.seek(offset)
@@ -201,7 +201,7 @@ def load_records(path: Path) -> Records:
         content[:size] = found
     del content[size + PAD :]  # of a file that became shorter while it was read
     whole = File(content)
-    start, end = follow_records(whole, first=first_record(whole, size=size, where=str(path)))
+    start, end = follow_records(whole, first=find_first_record(whole, size=size, where=str(path)))
     return Records(path, size, whole, start, end, read_headers(whole.buffer, start))
 
 
@@ -256,8 +256,8 @@ def view_numbers(buffer: Bytes, kind: type[Number]) -> NDArray[Number]:
     return np.ndarray((buffer.size - dtype.itemsize + 1,), dtype, buffer, strides=(1,))
 
 
-def first_record(file: File, *, size: int, where: str) -> int:
-    """The offset of the first record, behind a preface that is found in order.
+def find_first_record(file: File, *, size: int, where: str) -> int:
+    """Offset of the first record, after the file header has been checked.
 
     Args:
         file: the beginning of the file.

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sim.core.errors import BadRequest
 from sim.core.log import Array
-from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.control import Start, make_start_payload
 from sim.io.formats.wpilog.records import MAGIC, MAJOR
 from sim.support.atomic_file import write_atomically
 
@@ -65,7 +65,7 @@ def write_signals(groups: Sequence[SignalGroup], path: Path, *, units: Mapping[s
         )
     ids = {name: number for number, name in enumerate(kinds, start=1)}
     starts = [
-        (0, 0, start_payload(Start(number, name, kinds[name], units.get(name, ""))))
+        (0, 0, make_start_payload(Start(number, name, kinds[name], units.get(name, ""))))
         for name, number in ids.items()
     ]
     records = sorted(
@@ -124,7 +124,7 @@ class SignalRecorder:
     def record(
         self, name: str, kind: str, time: int, value: float | str, *, metadata: str = ""
     ) -> None:
-        """Add a value.
+        """Add one value of a signal.
 
         Args:
             name: of the entry; the first value of a name and a type starts one.
@@ -135,7 +135,7 @@ class SignalRecorder:
         """
         if (name, kind) not in self._numbers:
             self._numbers[name, kind] = number = len(self._numbers) + 1
-            said = start_payload(Start(number, name, kind, metadata))
+            said = make_start_payload(Start(number, name, kind, metadata))
             self._stream.write(_pack_long(time, 0, said))
         if isinstance(value, str):
             payload = value.encode("utf-8", "replace")
@@ -144,11 +144,11 @@ class SignalRecorder:
         self._stream.write(_pack_long(time, self._numbers[name, kind], payload))
 
     def flush(self) -> None:
-        """Let others read what was recorded so far."""
+        """Write the values so far to the file, so that others can read them."""
         self._stream.flush()
 
     def close(self) -> None:
-        """End the file."""
+        """Write what is left and close the file."""
         self._stream.close()
 
 

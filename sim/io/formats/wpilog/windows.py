@@ -22,7 +22,7 @@ from sim.io.formats.wpilog.records import (
     Numbers,
     RecordHeaders,
     Records,
-    first_record,
+    find_first_record,
     follow_records,
     open_log,
     read_headers,
@@ -36,7 +36,7 @@ IDS = 1 << 16  # records with an id above are all kept
 
 
 def load_wanted_records(path: Path, wanted: Wanted) -> Records:
-    """The records of the wanted entries of a file, and of all that is damaged in it.
+    """The records of the wanted entries of a file, and those that are malformed.
 
     Args:
         path: the file.
@@ -87,7 +87,7 @@ def _read_windows(path: Path, kept: "_Kept", *, at: int) -> tuple[int, int]:
         if at == 0:
             stream.seek(0)
             opening = File(bytearray(stream.read(PREFACE)) + bytearray(PAD))
-            at = first_record(opening, size=size, where=str(path))
+            at = find_first_record(opening, size=size, where=str(path))
         window = FIRST
         while at < size:
             file = _window(stream, at, window)

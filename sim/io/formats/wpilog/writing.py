@@ -17,7 +17,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import UNITS
 from sim.io.entries.entry import NEEDED, OPTIONAL
 from sim.io.entries.state import IDLE, WORD
-from sim.io.formats.wpilog.control import Start, start_payload
+from sim.io.formats.wpilog.control import Start, make_start_payload
 from sim.io.formats.wpilog.records import MAGIC, MAJOR, Bytes, Numbers
 
 SECOND = 1e6  # [µs]
@@ -60,7 +60,8 @@ def write(log: Log, path: Path) -> None:
     width = _width(ends[-1])
     parts = [MAGIC + struct.pack("<HI", MAJOR << 8, 0)]
     parts += [
-        _record(0, int(times[0][0]), start_payload(entry), width) for entry in _entries(log, ids)
+        _record(0, int(times[0][0]), make_start_payload(entry), width)
+        for entry in _entries(log, ids)
     ]
     for run, time, end in zip(log.runs, times, ends, strict=True):
         parts.append(_loops(run, time, ids, width=width, si=UNITS[log.units].si))
