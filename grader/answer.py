@@ -273,7 +273,11 @@ def _read_value(name: str, given: Mapping[str, object], key: AnswerKey) -> float
 
 def _describe_wrong_number(name: str, value: float, slips: tuple[WrongNumber, ...]) -> str:
     if slips:
-        return "; or ".join(slip.says for slip in slips).replace("?; or ", "? Or: ")
+        return (
+            "; or ".join(slip.says for slip in slips)
+            .replace("?; or about", "? Or it is about")
+            .replace("?; or ", "? Or: ")
+        )
     if value < 0:
         return (
             f"{name} cannot be negative. Does velocity or voltage have the wrong sign in your data?"

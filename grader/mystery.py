@@ -170,5 +170,6 @@ def _explain_unwritable(folder: Path) -> Iterator[None]:
         raise BadRequest(
             f"the mystery cannot be written: {error.strerror or error}",
             where=str(folder),
-            advice="Make room on this disk, or allow yourself to write into this folder.",
+            advice="Free some space on this disk, or give yourself permission to write into this "
+            "folder.",
         ) from error

@@ -72,7 +72,8 @@ def write_student_files(
         raise BadRequest(
             f"your {what} cannot be written: {error.strerror}",
             where=str(folder),
-            advice="Make room on this disk, or allow yourself to write into this folder.",
+            advice="Free some space on this disk, or give yourself permission to write into this "
+            "folder.",
         ) from error
     number = exercise.name.removeprefix("exercise")
     if any(news) and there:

@@ -61,7 +61,7 @@ DRAG = Finding(
     gap_after=0.0328,
     score=812.0,
     sentence="Drag pushes back with the square of speed.",
-    inspect="Grease that has become stiff.",
+    inspect="Check whether grease has become stiff.",
     separating_test="",
 )
 SLIP = Finding(
@@ -83,12 +83,12 @@ SAG = replace(
     size="minor",
     parameters={"share": ParameterEstimate(0.04, 0.01, "1")},
     sentence="A battery that gives way.",
-    inspect="An old battery.",
+    inspect="Check whether the battery is old.",
 )
 UNSURE = replace(
     DRAG,
     ambiguous_with=("stribeck",),
-    separating_test="Record a coast: only drag grows with the speed.",
+    separating_test="Record a coast. Only the voltage that drag takes grows with the speed.",
 )
 TRIED = (
     TriedCandidate("drag", 812.0, 0.03, admitted=True, why=""),

@@ -74,7 +74,7 @@ TABLE = [
     ),
     ("exercise9", {"kV": 1 / 60}, "When the drivetrain should move at 2 m/s, it hardly moves."),
     ("exercise9", {"kV": -1.0}, "it goes the other way"),
-    ("exercise9", {"kA": 0.0}, "While the drivetrain gets faster, it is up to about"),
+    ("exercise9", {"kA": 0.0}, "While the drivetrain speeds up, its velocity is up to about"),
     ("exercise1", {"forward": 1 / 12}, "Forward, with your volts: it hardly moves."),
     ("exercise1", {"backward": -1.0}, "Backward, with your volts: it goes the other way."),
     ("exercise1", {"braking": 2.0}, "Braking, with your volts: it is about"),

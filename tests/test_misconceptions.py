@@ -107,5 +107,5 @@ def test_a_heavier_robot_needs_more_ka_and_no_more_ks_by_itself(reads):
 def test_drag_is_air_and_neither_grease_nor_a_belt(reads):
     looks = EFFECTS["drag"].inspect
 
-    assert looks.startswith("Whatever moves air")
+    assert looks.startswith("Check whether a part moves air")
     reads(looks)

@@ -42,7 +42,8 @@ def _check_identity(one: Submission, secret: bytes | None) -> Submission:
     one = _by_name(one, found.student)
     if secret is None:
         raise BadRequest(
-            f"the numbers of {one.student} come from the class {found.name}, which has a secret",
+            f"the numbers of {one.student} were made for the class {found.name}, "
+            "which has a secret",
             where=str(one.place),
             advice="Give the secret file that grade release made: --secret class.secret",
         )

@@ -64,7 +64,7 @@ class FollowedProfile:
         way = "sinks" if drift < 0.0 else "climbs"
         told = f"When it should stand still, it {way} {self._size(drift)}"
         if self.position[end] in self.stops:
-            return f"{told} and reaches its stop."
+            return f"{told} and reaches its hard stop."
         return f"{told} in {self.target.time[end]:.1g} s."
 
     def _went(self) -> str:
@@ -73,7 +73,7 @@ class FollowedProfile:
         wanted, found = self.target.velocity[place], self.velocity[place]
         told = f"When it should move at {wanted:.2g} {self.symbol}/s, it"
         if self.position[place] in self.stops:
-            return f"{told} is already at its stop."
+            return f"{told} has already reached its hard stop."
         if abs(found) <= STANDS * abs(wanted):
             return f"{told} hardly moves."
         if found * wanted < 0.0:
@@ -93,8 +93,8 @@ class FollowedProfile:
         if abs(off) <= SEEN * max(map(abs, wanted)):
             return ""
         ahead = off * wanted[self.target.cruise_end] > 0.0
-        way = "fast" if ahead else "slow"
-        return f"While it gets faster, it is up to {self._size(off)}/s too {way}."
+        way = "high" if ahead else "low"
+        return f"While it speeds up, its velocity is up to {self._size(off)}/s too {way}."
 
     def _stands(self) -> str:
         """How far it is off in the end."""

@@ -103,7 +103,7 @@ def contaminate(
     if not 0.0 <= severity <= MOST:
         raise BadRequest(
             f"{name} of severity {severity:g}",
-            advice=f"Choose 0 (no fault) to {MOST:g}. Severity 1 means: {fault.ordinary}.",
+            advice=f"Choose 0 (no fault) to {MOST:g}. Severity 1 means that {fault.ordinary}.",
         )
     if log.type and log.type not in fault.types:
         raise BadRequest(

@@ -342,7 +342,7 @@ def _head(given: str) -> bytes:
             raise UnreadableFile("the file is empty", advice="Copy it from the robot again.")
         if state.st_size > LARGEST_FILE:
             raise UnreadableFile(
-                f"the file is {state.st_size / 2**30:.1f} GiB large, but files larger than "
+                f"the size of the file is {state.st_size / 2**30:.1f} GiB, but files larger than "
                 f"{LARGEST_FILE / 2**30:.0f} GiB cannot be read",
                 advice="Export only the four tests from it, with AdvantageScope for example.",
             )

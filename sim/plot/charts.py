@@ -174,7 +174,7 @@ def plot_misses(
     total = f"{to_text(float(np.sum((up - said) ** 2)))}{_squared(ylabel)}"
     _corner(axes, f"sum of squared errors: {total}")
     alt = (
-        f"The picture shows {across.size} samples: {ylabel} over {xlabel}. The line is "
+        f"The picture shows {across.size} samples, with {ylabel} against {xlabel}. The line is "
         f"{to_text(intercept)} + {to_text(slope)} × {xlabel.partition(' ')[0]}. Vertical bars show "
         f"its errors. The sum of their squares is {total}."
     )

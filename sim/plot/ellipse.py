@@ -180,8 +180,8 @@ def _words(information: Array, names: tuple[str, str]) -> str:
     if math.isinf(half[0]):
         along = directions[:, 0] / directions[0, 0] if directions[0, 0] else directions[:, 0]
         return (
-            f"a straight band that never ends. Along the band, {names[1]} changes by "
-            f"{to_text(float(along[1]))} when {names[0]} changes by 1. The true gains can be "
+            f"a straight band that goes on beyond the picture. Along the band, {names[1]} changes "
+            f"by {to_text(float(along[1]))} when {names[0]} changes by 1. The true gains can be "
             "anywhere in the band."
         )
     first, second = _errors(information)

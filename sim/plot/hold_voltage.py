@@ -128,8 +128,8 @@ def plot_hold_angles(
     add_legend(figure, (axes,))
     alt = (
         "A band shows which voltages hold an arm at each angle. The band is "
-        f"{to_text(2 * ks)} V wide everywhere. Its middle follows a cosine curve of up to "
-        f"{to_text(kg)} V. The highest point is at {to_text(level)} degrees: there {words.level}. "
+        f"{to_text(2 * ks)} V wide everywhere. The middle of the band follows a cosine curve with "
+        f"a peak of {to_text(kg)} V. The peak is at {to_text(level)} degrees: there {words.level}. "
         f"Each of the {len(holds)} measured angles has two marks. They are the lowest and the "
         "highest voltage that hold the arm there."
     )

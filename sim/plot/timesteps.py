@@ -166,22 +166,19 @@ def _words(all_steps: Sequence[_Steps], *, median: float, top: float) -> str:
     total = sum(one.length.size for one in all_steps)
     gaps = sum(int(one.gaps.sum()) for one in all_steps)
     said = "One panel for each test shows the time from each sample to the next. A "
-    said += (
-        f"solid line marks the median of these times, {to_text(median)} ms. A dotted line marks "
-    )
-    said += f"{GAP:g} times the median. "
+    said += f"solid line marks the median of these time steps, {to_text(median)} ms. "
+    said += f"A dotted line marks {GAP:g} times the median. "
     if not gaps:
         longest = max(float(one.length.max()) for one in all_steps)
         return said + (
-            f"None of the {total} times is above the dotted line. The longest is "
+            f"None of the {total} time steps is above the dotted line. The longest is "
             f"{to_text(longest)} ms."
         )
     verb, mark = (
         ("is", "a diamond marks this gap") if gaps == 1 else ("are", "diamonds mark these gaps")
     )
-    said += (
-        f"{gaps} of the {total} times {verb} above the dotted line ({_share(gaps, total)}): {mark}."
-    )
+    said += f"{gaps} of the {total} time steps {verb} above the dotted line "
+    said += f"({_share(gaps, total)}): {mark}."
     for one in all_steps:
         where = np.flatnonzero(one.gaps)
         if not where.size:

@@ -199,7 +199,7 @@ def _words(ramps: Sequence[_Ramps], lines: Mapping[str, Line], per: Unit, *, top
         said += f"{_two(one.velocity[index])} {per.symbol}/s at {_two(one.voltage[index])} V"
         fast = f"{_way(one.way)} faster than {MOVING * top:.2f} {per.symbol}/s"
         said += (
-            f". The mechanism first moves {fast} at {_two(one.voltage[moving][0])} V"
+            f". At {_two(one.voltage[moving][0])} V, the mechanism moves {fast} for the first time"
             if moving.any()
             else f". The mechanism never moves {fast}"
         )

@@ -118,8 +118,8 @@ def list_inspections(one: Finding) -> tuple[tuple[str, str], ...]:
         return (("What to do", one.inspect),)
     rivals = [(name, EFFECTS[name].inspect) for name in one.ambiguous_with if name in EFFECTS]
     return (
-        ("What to check", one.inspect),
-        *((f"What to check if it is {name}", text) for name, text in rivals),
+        ("What to do", one.inspect),
+        *((f"What to do if it is {name}", text) for name, text in rivals),
     )
 
 

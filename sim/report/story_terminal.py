@@ -65,7 +65,7 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     for place in story.where[:PLACES]:
         say(place.sentence, indent=2)
     say("")
-    say(f"{story.how} The noise is the noise of the velocity signal, measured without a model.")
+    say(f"{story.how} The sensor noise is measured in the velocity signal, without a model.")
     for test in list_next_tests(story):
         say(f"Test to run next: {test}", style="bold")
     for message in list_remarks(story):
@@ -110,7 +110,7 @@ def _finding(say: _Sayer, one: Finding, story: Story) -> None:
 
 def _gaps(say: _Sayer, story: Story) -> None:
     """The shrinking gap as bars of characters that every terminal has."""
-    say("The gap: the simulation error divided by the sensor noise (1 means only noise):")
+    say("The gap is the simulation error divided by the sensor noise (1 means only noise):")
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     wide = max(map(len, names))
     most = max(story.gap_before, *(one.gap for one in story.chapters), story.noise_floor)

@@ -27,7 +27,7 @@ MISTAKES = (
         ANSWERS,
         scale_numbers(100.0, "simulated_velocity_r2"),
         "r2",
-        "There are two R². Write the simulated",
+        "There are two R² values. Write the simulated",
         "M-R2",
     ),
     Mistake(

@@ -47,8 +47,8 @@ def picture(figures: Measured) -> Picture:
     else:
         axes[-1].remove()
     alt = (
-        "The median kA that two methods find, divided by the true kA, and the velocity error in "
-        "runs of real robots that were held out. " + " ".join(said)
+        "For two methods: the median kA, divided by the true kA, and the velocity error on "
+        "held-out runs of real robots. " + " ".join(said)
     )
     return Picture(figure, alt)
 
@@ -127,7 +127,7 @@ def real(axes: Axes, runs: Sequence[HeldOutScore]) -> str:
     )  # fmt: skip
     axes.set_title("Real robots: a run held out, predicted", fontsize=10, color=INK, loc="left")
     better = sum(one.ours <= one.recipe for one in runs)
-    return f"Real robots: our error is no larger in {better} of {len(runs)} runs."
+    return f"Real robots: our error is no larger than the recipe's in {better} of {len(runs)} runs."
 
 
 def tick(name: str) -> str:

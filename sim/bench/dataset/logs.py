@@ -115,7 +115,8 @@ def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
     if not FASTEST <= period <= SLOWEST:
         found.refuse_value(
             "period",
-            advice=f"Give a time from {FASTEST:g} to {SLOWEST:g} s. Robot programs use 0.02 s.",
+            advice=f"Give a time from {FASTEST:g} to {SLOWEST:g} s. Robot programs use a time "
+            "step of 0.02 s.",
         )
     return LogSettings(
         routine=routine,

@@ -90,8 +90,8 @@ def check_folder(
             f"these files belonged to this dataset, but the spec no longer contains them: "
             f"{list_first(files, most=LISTED)}",
             where=str(place.folder),
-            advice="Move these files away, name another folder with -o, or add --overwrite: it "
-            "removes these files from the key.",
+            advice="Move these files away, name another folder with -o, or add --overwrite. "
+            "Then the key no longer contains these files.",
         )
     return found
 

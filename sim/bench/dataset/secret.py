@@ -135,8 +135,8 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
         raise BadRequest(
             "it says neither secret nor seed",
             where=spec.where,
-            advice=f'Add secret = "class{ENDING}" (this command makes the file). Or add seed = 1, '
-            "if anybody may make the same data again.",
+            advice=f'Add secret = "class{ENDING}" to the spec, and run this command again: it '
+            "makes the file. Or add seed = 1, if everybody is allowed to make the same data again.",
         )
     if not make:
         raise BadRequest(

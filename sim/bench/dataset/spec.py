@@ -70,7 +70,7 @@ def read_spec(path: Path) -> Spec:
     if total > MOST_LOGS:
         top.refuse(
             f"{total} logs are requested",
-            advice=f"Make several datasets: one has at most {MOST_LOGS} logs.",
+            advice=f"Make several datasets: each dataset can have at most {MOST_LOGS} logs.",
         )
     return spec
 
@@ -107,7 +107,7 @@ def _secret(top: TomlTable, *, folder: Path) -> Path | None:
     if not name.endswith(ENDING) or len(name) == len(ENDING):
         top.refuse(
             f"secret is not the name of a file that ends in {ENDING}",
-            advice=f'Write secret = "class{ENDING}": this command makes the file. Others may read '
-            "the spec, so the secret itself must not be in it.",
+            advice=f'Write secret = "class{ENDING}" into the spec, and run this command again: it '
+            "makes the file. Others may read the spec, so the secret itself must not be in it.",
         )
     return folder / name

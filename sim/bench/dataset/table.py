@@ -51,7 +51,7 @@ class TomlTable:
         if not isinstance(content, dict):
             self.refuse(
                 f"there are no keys here, only {_shown(content)}",
-                advice="Write lines with a key, = and a value.",
+                advice="Write each line as key = value.",
             )
         self.content: Mapping[str, object] = content
         for key in content:

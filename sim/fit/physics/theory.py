@@ -106,9 +106,9 @@ def _explain_ratio(share: float, parts: Parts) -> list[str]:
     geared = (
         (
             1.0 / parts.ratio,
-            f"a gear ratio of {parts.ratio:g} that is missing, so the log counts motor turns",
+            f"a log that counts turns of the motor, without the gear ratio of {parts.ratio:g}",
         ),
-        (parts.ratio, f"a gear ratio of {parts.ratio:g} applied twice in the log"),
+        (parts.ratio, f"a gear ratio of {parts.ratio:g} that was applied twice in the log"),
         (parts.ratio**-2, f"a gear ratio of {parts.ratio:g} that is upside down"),
     )
     known = (*FACTORS, *(pair for pair in geared if not 1.0 / TIGHT < pair[0] < TIGHT))
@@ -117,7 +117,7 @@ def _explain_ratio(share: float, parts: Parts) -> list[str]:
         for factor, why in known
         if NEAR[0] < share / factor < NEAR[1]
     ]
-    return [f"{why} (a factor of {factor:.3g})" for _, factor, why in sorted(near)[:2]]
+    return [f"a factor of {factor:.3g} ({why})" for _, factor, why in sorted(near)[:2]]
 
 
 def _parts_instead(kv: float, parts: Parts) -> str:

@@ -38,7 +38,7 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
     return [
         Doubt(
             "fine-r2",
-            f"SysId would show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, "
+            f"SysId would still show a simulated velocity R² of {found.simulated_velocity_r2:.2f}, "
             f"which counts as good. But in {said} a simulation with SysId's gains is wrong by "
             f"{worst:.0%} of the top speed. Plot these seconds before you trust kA.",
         )
@@ -175,9 +175,10 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "fast-ramp",
             f"The voltage ramp rises by {rate:.2g} V/s, which is fast for a mechanism with a time "
-            f"constant of {features.baseline.timescale:.2g} s. SysId allows for that, but a line "
-            f"drawn through voltage against velocity gives a kS that is {shift:.2f} V too large. "
-            f"If you want to draw one, use half the ramp rate: {0.5 * rate:.2g} V/s.",
+            f"constant of {features.baseline.timescale:.2g} s. SysId allows for that, but a "
+            f"straight line through the plot of voltage against velocity gives a kS that is "
+            f"{shift:.2f} V too large. If you want to draw such a line, use half the ramp rate: "
+            f"{0.5 * rate:.2g} V/s.",
         )
     ]
 

@@ -190,7 +190,7 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
         confidence=_confidence(share, back=back, seen=bus is not None),
         evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
         f"but the log still shows {volts:.1f} V{said}.",
-        advice=f"{_advice(run)} Log the applied voltage, not the commanded one.",
+        advice=f"{_advice(run)} Log the applied voltage instead of the commanded voltage.",
     )
 
 
@@ -251,7 +251,7 @@ def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> fl
 FAULT = Fault(
     name="brownout",
     summary="the controller turned the motors off, but the log still shows a voltage",
-    ordinary="the motors are without voltage for 0.3 s",
+    ordinary="the motors get no voltage for 0.3 s",
     spoil=spoil,
     detect=detect,
     when=(0.3, 0.6),

@@ -142,7 +142,7 @@ def _loss(
 FAULT = Fault(
     name="encoder-slip",
     summary="the sensor slips on its shaft, or skips a tooth",
-    ordinary="it shows half of the speed for 0.4 s, or skips for 0.08 s",
+    ordinary="the sensor shows half of the speed for 0.4 s, or skips for 0.08 s",
     spoil=spoil,
     detect=detect,
 )

@@ -114,8 +114,8 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
         f"at up to {volts[impact:].max():.1f} V: it hit its end, "
         f"{_way(run, impact):.3g} from where the run started.",
-        advice="Cut the run before the impact. Or set soft limits, run it again, and let go of the "
-        "button earlier.",
+        advice="Keep only the part of the run before the impact. Or set soft limits, run the test "
+        "again, and let go of the button earlier.",
     )
 
 
@@ -215,7 +215,7 @@ def _percent(speed: float, run: Run) -> str:
 FAULT = Fault(
     name="hard-stop",
     summary="the mechanism hits its end while the voltage stays on",
-    ordinary="0.6 s against the stop",
+    ordinary="the mechanism pushes against its stop for 0.6 s",
     spoil=spoil,
     detect=detect,
     when=(0.6, 0.95),

@@ -94,7 +94,7 @@ def _times(count: int) -> str:
 FAULT = Fault(
     name="loop-overrun",
     summary="the robot program is too slow: samples are missing",
-    ordinary="about five stalls of 80 to 225 ms within 1.5 s",
+    ordinary="the loop stalls about five times within 1.5 s, for 80 to 225 ms each time",
     spoil=spoil,
     detect=detect,
     about="time",

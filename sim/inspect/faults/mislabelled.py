@@ -51,7 +51,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="mislabelled-test",
                 where=LogInterval.of_samples(index, run),
                 confidence=CONFIDENCE,
-                evidence=f"The name of the run is {run.test}, but it looks like {seems}: "
+                evidence=f"The run has the name {run.test}, but it looks like {seems}: "
                 f"{_voltage(run)}.",
                 advice=f"Rename the run to {seems}, and check which button starts which test.",
             )

@@ -74,7 +74,7 @@ def _nowhere(test: str) -> LogInterval:
 FAULT = Fault(
     name="missing-test",
     summary="one of the four tests is not in the log",
-    ordinary="one test is lost; at severity 2 two, at severity 3 three",
+    ordinary="one test is lost; at severity 2, two tests are lost, and at severity 3, three",
     spoil=spoil,
     detect=detect,
     whole=True,

@@ -113,7 +113,7 @@ def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) 
 FAULT = Fault(
     name="noisy-standstill",
     summary="the velocity is noisy while nothing moves",
-    ordinary="noise at rest of 6 % of the top speed, in both quasistatic tests",
+    ordinary="the noise at rest is 6 % of the top speed, in both quasistatic tests",
     spoil=spoil,
     detect=detect,
     kinds=("quasistatic",),

@@ -116,7 +116,7 @@ def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damag
 FAULT = Fault(
     name="stuck-sensor",
     summary="position and velocity do not change for a while, although the mechanism moves",
-    ordinary="both do not change for 15 % of the run",
+    ordinary="position and velocity do not change for 15 % of the run",
     spoil=spoil,
     detect=detect,
 )

@@ -185,16 +185,16 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
         where=where,
         confidence=1.0 - 0.3 / len(story),
         evidence=f"{said}. {echo}.",
-        advice="If there are several motors, check whether one of them loses its command. Look "
-        "also for missing CAN frames, and for a second loop that writes the voltage. Then record "
-        "again.",
+        advice="If there are several motors, check whether one of them stops receiving its "
+        "command. Look also for missing CAN frames, and for a second loop that writes the voltage. "
+        "Then record again.",
     )
 
 
 FAULT = Fault(
     name="voltage-dropout",
     summary="for moments the voltage in the log is too small, but the motion does not change",
-    ordinary="zero for 15 ms, every 0.22 s to the end of the run",
+    ordinary="the voltage is zero for 15 ms, every 0.22 s to the end of the run",
     spoil=spoil,
     detect=detect,
 )

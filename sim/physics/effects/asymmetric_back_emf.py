@@ -43,14 +43,15 @@ EFFECT = Effect(
         ),
     ),
     fingerprint="The voltage-velocity lines of forward and reverse have different slopes.",
-    inspect="A brushed motor with advanced timing, a roller or belt that folds one way.",
+    inspect="Check whether the motor is a brushed motor with advanced timing, and whether a roller "
+    "or belt folds in one direction.",
     apart={
         "asymmetric-friction": (
-            "Run at two speeds: a difference in back-EMF grows with the speed, a difference in "
+            "Run at two speeds. A difference in back-EMF grows with the speed, a difference in "
             "friction does not."
         ),
         "constant-load": (
-            "Run at two speeds: a difference in back-EMF grows with the speed, a difference from "
+            "Run at two speeds. A difference in back-EMF grows with the speed, a difference from "
             "a constant load does not."
         ),
     },

@@ -47,14 +47,15 @@ EFFECT = Effect(
         ),
     ),
     fingerprint="Forward needs more voltage than reverse by the same amount at every speed.",
-    inspect="A worm gear or ratchet, a bearing loaded on one side, a brake that drags.",
+    inspect="Check for a worm gear or ratchet, a bearing that is loaded on one side, and a brake "
+    "that drags.",
     apart={
         "constant-load": (
-            "Let the mechanism go at rest: a load moves it, friction does not. While the "
+            "Let the mechanism go at rest. A load moves it, friction does not. While the "
             "mechanism moves, the two look the same."
         ),
         "asymmetric-back-emf": (
-            "Run at two speeds: a difference in back-EMF grows with the speed, a difference in "
+            "Run at two speeds. A difference in back-EMF grows with the speed, a difference in "
             "friction does not."
         ),
     },

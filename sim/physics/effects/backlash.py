@@ -48,14 +48,15 @@ EFFECT = Effect(
     ),
     fingerprint="After every start or change of direction the velocity jumps up, drops, and is "
     "then normal.",
-    inspect="Gears, hex shafts and chains: hold the motor, and turn the mechanism by hand.",
+    inspect="Check gears, hex shafts and chains for free play: hold the motor, and turn the "
+    "mechanism by hand.",
     apart={
         "compliance": (
-            "Change direction with two sizes of step, and log every 5 ms: free play stays the "
+            "Change direction with two sizes of step, and log every 5 ms. Free play stays the "
             "same, but a spring bends further with the larger step."
         ),
         "stribeck": (
-            "Run a triangle test: free play shows at each change of direction, Stribeck friction "
+            "Run a triangle test. Free play shows at each change of direction, Stribeck friction "
             "shows at each start."
         ),
     },

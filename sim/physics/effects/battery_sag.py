@@ -53,14 +53,15 @@ EFFECT = Effect(
     formula="(u - kV·v)/(1 + share·(u/12)²) in place of u - kV·v",
     parameters=(Parameter("share", "resistance of the battery / of the motors", "1", most=100.0),),
     fingerprint="Steps start more slowly than kA says, and larger steps even more so.",
-    inspect="An old battery, a loose Anderson connector, a log of commanded voltage.",
+    inspect="Check whether the battery is old, whether an Anderson connector is loose, and whether "
+    "the log contains the commanded voltage.",
     apart={
         "drag": (
-            "Run a step with another voltage, or log the applied voltage: battery sag grows with "
+            "Run a step with another voltage, or log the applied voltage. Battery sag grows with "
             "the step."
         ),
         "current-limit": (
-            "Run a step with another voltage: a limit cuts off at one current, battery sag grows "
+            "Run a step with another voltage. A limit cuts off at one current, battery sag grows "
             "gradually."
         ),
     },

@@ -95,16 +95,16 @@ EFFECT = Effect(
         "The missing voltage comes and goes with the position, at the same places in every run."
     ),
     inspect=(
-        "A sprocket or pulley that is not round, a bent shaft, a wheel with a flat spot, "
-        "motor magnets."
+        "Check whether a sprocket or pulley is not round, whether a shaft is bent, and whether a "
+        "wheel has a flat spot. The magnets of the motor can be the cause, too."
     ),
     apart={
         "compliance": (
-            "Run at another speed: cogging stays at the same positions, a vibration keeps its "
+            "Run at another speed. Cogging stays at the same positions, a vibration keeps its "
             "frequency."
         ),
         "gravity-cosine": (
-            "Use the full travel: the force of gravity repeats only once per turn of the arm."
+            "Use the full travel. The force of gravity repeats only once per turn of the arm."
         ),
     },
     example=ordinary_parameters,

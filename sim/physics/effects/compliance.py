@@ -55,15 +55,15 @@ EFFECT = Effect(
     fingerprint=(
         "After every change of voltage the velocity oscillates, always at the same frequency."
     ),
-    inspect="Belts, chains and long shafts: hold the motor, push the load, and watch it spring "
-    "back.",
+    inspect="Check belts, chains and long shafts: hold the motor, push the load, and watch whether "
+    "it springs back.",
     apart={
         "backlash": (
-            "Change direction with two sizes of step, and log every 5 ms: free play stays the "
+            "Change direction with two sizes of step, and log every 5 ms. Free play stays the "
             "same, but a spring bends further with the larger step."
         ),
         "cogging": (
-            "Run at another speed: cogging stays at the same positions, a vibration keeps its "
+            "Run at another speed. Cogging stays at the same positions, a vibration keeps its "
             "frequency."
         ),
     },

@@ -48,18 +48,19 @@ EFFECT = Effect(
     formula="load",
     parameters=(Parameter("load", "constant voltage", "V", least=-12.0, most=12.0),),
     fingerprint="The missing voltage is the same at every speed and position, and has one sign.",
-    inspect="Weight on an elevator fitted as simple, a constant-force spring, a field that slopes.",
+    inspect="Check whether an elevator was fitted as simple, whether a constant-force spring "
+    "pulls, and whether the field slopes.",
     apart={
         "asymmetric-friction": (
-            "Let the mechanism go at rest: a load moves it, friction does not. While the "
+            "Let the mechanism go at rest. A load moves it, friction does not. While the "
             "mechanism moves, the two look the same."
         ),
         "spring": (
-            "Use the full travel: the force of a spring changes with the position, a constant "
+            "Use the full travel. The force of a spring changes with the position, a constant "
             "load does not."
         ),
         "gravity-cosine": (
-            "Use the full travel: gravity on an arm changes with the angle, a constant load does "
+            "Use the full travel. Gravity on an arm changes with the angle, a constant load does "
             "not."
         ),
     },

@@ -47,14 +47,14 @@ EFFECT = Effect(
     ),
     fingerprint="A step's velocity rises in a straight line before it bends, instead of bending "
     "from the start.",
-    inspect="Stator and supply limits in the motor controller's configuration.",
+    inspect="Check the stator and supply limits in the motor controller's configuration.",
     apart={
         "battery-sag": (
-            "Run a step with another voltage: a limit cuts off at one current, battery sag grows "
+            "Run a step with another voltage. A limit cuts off at one current, battery sag grows "
             "gradually."
         ),
         "delay": (
-            "Log every 5 ms, or run a step with another voltage: a delay is the same for both "
+            "Log every 5 ms, or run a step with another voltage. A delay is the same for both "
             "steps."
         ),
     },

@@ -48,14 +48,14 @@ EFFECT = Effect(
     formula="u = 0 where |u| < band",
     parameters=(Parameter("band", "smallest voltage that is applied", "V", most=12.0),),
     fingerprint="Ramps start late and then jump to their speed; below one voltage it coasts.",
-    inspect="The neutral deadband in the motor controller's configuration.",
+    inspect="Check the neutral deadband in the motor controller's configuration.",
     apart={
         "stribeck": (
-            "Let the voltage fall slowly (triangle test): below one voltage a deadband gives no "
+            "Let the voltage fall slowly (triangle test). Below one voltage a deadband gives no "
             "voltage at all, friction only slows the mechanism."
         ),
         "delay": (
-            "Run two ramps: with a deadband the motion starts at the same voltage, with a delay "
+            "Run two ramps. With a deadband the motion starts at the same voltage, with a delay "
             "it starts after the same time."
         ),
     },

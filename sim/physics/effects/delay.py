@@ -51,17 +51,18 @@ EFFECT = Effect(
     formula="u(t) = V(t - lag)",
     parameters=(Parameter("lag", "time from command to motor", "s", most=0.5),),
     fingerprint="Nothing happens for a moment after every change of voltage.",
-    inspect="Logging in a different loop than driving, a busy CAN bus, a slew-rate limit.",
+    inspect="Check whether the log is written in a different loop than the motor output, whether "
+    "the CAN bus is busy, and whether a slew-rate limit is set.",
     apart={
         "velocity-filter": (
-            "Look at the position: a delay also shifts the position, a filter does not."
+            "Look at the position. A delay also shifts the position, a filter does not."
         ),
         "current-limit": (
-            "Log every 5 ms, or run a step with another voltage: a delay is the same for both "
+            "Log every 5 ms, or run a step with another voltage. A delay is the same for both "
             "steps."
         ),
         "deadband": (
-            "Run two ramps: with a deadband the motion starts at the same voltage, with a delay "
+            "Run two ramps. With a deadband the motion starts at the same voltage, with a delay "
             "it starts after the same time."
         ),
     },

@@ -38,15 +38,16 @@ EFFECT = Effect(
     parameters=(Parameter("drag", "volts per squared speed", "V·s²/{u}²", power=2),),
     fingerprint="The missing voltage grows with speed, the same in both directions, and is zero"
     " near standstill.",
-    inspect="Whatever moves air: a flywheel or a roller that works as a fan, spokes, a large flat "
-    "surface. It is not thick grease, which raises kV, nor a tight belt, which raises kS.",
+    inspect="Check whether a part moves air: a flywheel or a roller that works as a fan, spokes, "
+    "or a large flat surface. Thick grease is not the cause, because it raises kV. A tight belt is "
+    "not the cause, because it raises kS.",
     apart={
         "stribeck": (
-            "Run a faster ramp or a larger step: drag keeps growing with the speed, Stribeck "
+            "Run a faster ramp or a larger step. Drag keeps growing with the speed, Stribeck "
             "friction stays small."
         ),
         "voltage-limit": (
-            "Record a coast: drag slows the mechanism while no voltage is applied, a voltage "
+            "Record a coast. Drag slows the mechanism while no voltage is applied, a voltage "
             "limit does not."
         ),
     },

@@ -60,14 +60,15 @@ EFFECT = Effect(
         Parameter("upright", "the same at 90 degrees", "V", least=-12.0, most=12.0),
     ),
     fingerprint="The missing voltage follows the angle like a cosine, at every speed.",
-    inspect="An arm fitted as simple, an angle whose zero is not level, a turret on a slope.",
+    inspect="Check whether an arm was fitted as simple, whether the arm is level at an angle of "
+    "zero, and whether a turret stands on a slope.",
     apart={
         "spring": (
-            "Use the full travel, or start at another position: the voltage for gravity follows a"
+            "Use the full travel, or start at another position. The voltage for gravity follows a"
             " cosine, the voltage for a spring follows a straight line."
         ),
         "constant-load": (
-            "Use the full travel: gravity on an arm changes with the angle, a constant load does "
+            "Use the full travel. Gravity on an arm changes with the angle, a constant load does "
             "not."
         ),
     },

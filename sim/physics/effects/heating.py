@@ -56,14 +56,15 @@ EFFECT = Effect(
     formula="(u - kV·v)/(1 + warmth), warmth grows with (u - kV·v)²",
     parameters=(Parameter("rate", "warmth per squared volt and second", "1/(V²·s)", most=10.0),),
     fingerprint="Later runs react more weakly than earlier runs, above all after a large current.",
-    inspect="Motor temperature in the log; let it cool between tests.",
+    inspect="Look at the temperature of the motor in the log, and let the motor cool between "
+    "tests.",
     apart={
         "inertia-change": (
-            "Repeat the first test at the end: a motor gets warm slowly, a load changes at one "
+            "Repeat the first test at the end. A motor gets warm slowly, a load changes at one "
             "moment."
         ),
         "battery-sag": (
-            "Repeat the first test at the end: the motor is warmer than before, battery sag is "
+            "Repeat the first test at the end. The motor is warmer than before, battery sag is "
             "the same as before."
         ),
     },

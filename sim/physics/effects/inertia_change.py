@@ -144,13 +144,13 @@ EFFECT = Effect(
         ),
     ),
     fingerprint="kA changes from one value to another at one moment.",
-    inspect="The load that the mechanism carried, and changes between tests.",
+    inspect="Check which load the mechanism carried, and what you changed between the tests.",
     apart={
         "velocity-filter": (
-            "Look at the position: a filter does not change it, another inertia does."
+            "Look at the position. A filter does not change it, another inertia does."
         ),
         "heating": (
-            "Repeat the first test at the end: a motor gets warm slowly, a load changes at one "
+            "Repeat the first test at the end. A motor gets warm slowly, a load changes at one "
             "moment."
         ),
     },

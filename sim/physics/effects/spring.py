@@ -58,14 +58,15 @@ EFFECT = Effect(
         Parameter("preload", "volts at position zero", "V", least=-1e3, most=1e3),
     ),
     fingerprint="The missing voltage is a straight line over position, at every speed.",
-    inspect="Tubing or gas springs that hold up an arm, a cable chain, a hose that winds up.",
+    inspect="Check for tubing or gas springs that hold up an arm, for a cable chain, and for a "
+    "hose that winds up.",
     apart={
         "gravity-cosine": (
-            "Use the full travel, or start at another position: the voltage for gravity follows a"
+            "Use the full travel, or start at another position. The voltage for gravity follows a"
             " cosine, the voltage for a spring follows a straight line."
         ),
         "constant-load": (
-            "Use the full travel: the force of a spring changes with the position, a constant "
+            "Use the full travel. The force of a spring changes with the position, a constant "
             "load does not."
         ),
     },

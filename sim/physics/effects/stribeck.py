@@ -62,14 +62,15 @@ EFFECT = Effect(
         "The missing voltage is large at very low speed and fades with speed; the "
         "mechanism starts with a jerk."
     ),
-    inspect="A dry bearing, a gasket, a chain that is too tight, grease that has become stiff.",
+    inspect="Check whether a bearing is dry, whether a gasket rubs, whether a chain is too tight, "
+    "and whether grease has become stiff.",
     apart={
         "deadband": (
-            "Let the voltage fall slowly (triangle test): below one voltage a deadband gives no "
+            "Let the voltage fall slowly (triangle test). Below one voltage a deadband gives no "
             "voltage at all, friction only slows the mechanism."
         ),
         "drag": (
-            "Run a faster ramp or a larger step: drag keeps growing with the speed, Stribeck "
+            "Run a faster ramp or a larger step. Drag keeps growing with the speed, Stribeck "
             "friction stays small."
         ),
     },

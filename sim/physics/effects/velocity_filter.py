@@ -66,11 +66,12 @@ EFFECT = Effect(
     formula="seen(t) = (x(t) - x(t - window))/window",
     parameters=(Parameter("window", "time over which it averages", "s", most=1.0),),
     fingerprint="The velocity follows the slope of the position with a delay; steps look rounded.",
-    inspect="Velocity filter and measurement period of the motor controller's encoder.",
+    inspect="Check the velocity filter and the measurement period of the motor controller's "
+    "encoder.",
     apart={
-        "delay": "Look at the position: a delay also shifts the position, a filter does not.",
+        "delay": "Look at the position. A delay also shifts the position, a filter does not.",
         "inertia-change": (
-            "Look at the position: a filter does not change it, another inertia does."
+            "Look at the position. A filter does not change it, another inertia does."
         ),
     },
     example=ordinary_parameters,

@@ -47,10 +47,11 @@ EFFECT = Effect(
         ),
     ),
     fingerprint="The velocity is the slope of the position times a constant, in every run.",
-    inspect="Conversion factors of position and of velocity: gear ratio, wheel, minutes.",
+    inspect="Check the conversion factors of position and velocity: gear ratio, wheel size, and "
+    "minutes or seconds.",
     apart={
         "asymmetric-back-emf": (
-            "Compare the velocity with the slope of the position: only velocity-scale makes the "
+            "Compare the velocity with the slope of the position. Only velocity-scale makes the "
             "two differ by a constant factor."
         ),
     },

@@ -41,14 +41,15 @@ EFFECT = Effect(
     formula="u kept within ± limit",
     parameters=(Parameter("limit", "largest voltage applied", "V", least=1e-3, neutral=1e6),),
     fingerprint="Above a certain voltage the mechanism gets no faster, in ramps and in steps.",
-    inspect="Peak output and voltage compensation in the motor controller's configuration.",
+    inspect="Check the peak output and the voltage compensation in the motor controller's "
+    "configuration.",
     apart={
         "drag": (
-            "Record a coast: drag slows the mechanism while no voltage is applied, a voltage "
+            "Record a coast. Drag slows the mechanism while no voltage is applied, a voltage "
             "limit does not."
         ),
         "current-limit": (
-            "Run a ramp: with a current limit the mechanism still reaches its full speed, but "
+            "Run a ramp. With a current limit the mechanism still reaches its full speed, but "
             "later."
         ),
     },

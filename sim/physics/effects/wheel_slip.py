@@ -61,16 +61,16 @@ EFFECT = Effect(
         "After a strong step the velocity jumps up and hardly rises until the robot has caught up; "
         "a gentle step shows nothing."
     ),
-    inspect="Tires, carpet and the robot's weight on the driven wheels.",
+    inspect="Check the tires, the carpet and the robot's weight on the driven wheels.",
     apart={
         "current-limit": (
-            "Log the current: at a current limit it stays the same, with wheels that slip it falls."
+            "Log the current. At a current limit it stays the same, with wheels that slip it falls."
         ),
         "backlash": (
-            "Use a smaller step: free play shows at every start, wheels slip only at strong starts."
+            "Use a smaller step. Free play shows at every start, wheels slip only at strong starts."
         ),
         "inertia-change": (
-            "Use a smaller step: then the wheels do not slip, but a different inertia still shows."
+            "Use a smaller step. Then the wheels do not slip, but a different inertia still shows."
         ),
     },
     example=ordinary_parameters,
