@@ -232,10 +232,10 @@ def check_signs(facts: RoutineFacts, *, points: float, mirrored: bool) -> str | 
 
 
 def check_logged_signs(signals: Sequence[LoggedSignal]) -> None:
-    """Raise ``WrongAnswer`` unless the signals of each motor are logged with one sign.
+    """Raise ``WrongAnswer`` unless the signals of each motor agree in their sign.
 
     Raises:
-        WrongAnswer: one is turned round and another is not.
+        WrongAnswer: one signal is inverted and another is not.
     """
     for one in signals:
         if one.unsigned and one.signal in {*MOVING, "voltage"}:
@@ -395,7 +395,7 @@ def check_constants(facts: RoutineFacts, given: dict[str, float]) -> None:
         given: the task's own constants, name and value.
 
     Raises:
-        WrongAnswer: one is another number.
+        WrongAnswer: a number was changed, or is not used.
     """
     there = dict(facts.constants)
     for name, value in given.items():

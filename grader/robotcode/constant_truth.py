@@ -167,7 +167,10 @@ def fold_literal(node: Node) -> bool | None:
 
 
 def find_operator(node: Operation | Opaque) -> str:
-    """``and``, ``or``, ``not`` or a sign; Python's own words stand in the text only."""
+    """The operator of a node: ``and``, ``or``, ``not`` or a symbol like ``==``; empty if unknown.
+
+    Python's keywords are not in the parsed node, so they are read from its source text.
+    """
     first, *more = node.parts or (node,)
     source = node.place.source
     if isinstance(node, Operation) and node.sign != "?":

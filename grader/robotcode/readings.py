@@ -89,7 +89,7 @@ class DeviceSettings:
 
 
 def find_quantity(method: str, *, motor: bool) -> str:
-    """The quantity that a method of a device reports; empty if it is none of these."""
+    """The quantity that a device's method returns, as ``voltage``; empty if none."""
     if method in APPLIED_VOLTAGE or (motor and method == "getVoltage"):
         return "voltage"
     if method in BUS_VOLTAGE:

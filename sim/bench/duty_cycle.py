@@ -42,8 +42,8 @@ def simulate_duty_cycle(
 
     Returns:
         The log with the voltage that really reached the motors, and the battery's as
-        ``bus_voltage``. The command was 12 V times the first over the second. A battery
-        that falls below ``LOWEST`` is a doubt: here it goes on.
+        ``bus_voltage``. The command was 12 V times motor voltage over bus voltage. If the
+        battery falls below ``LOWEST``, the log has a warning, and the simulation goes on.
 
     Raises:
         BadRequest: as for ``simulate``.

@@ -37,7 +37,7 @@ class Recorder:
     latency: float = 0.0
 
     def record(self, mechanism: Mechanism) -> Mechanism:
-        """A copy of the mechanism, measured by this device."""
+        """A copy of the mechanism whose sensors sample as this recorder does."""
         sensor = replace(
             mechanism.sensor, frame=self.frame, filter=self.filter, latency=self.latency
         )

@@ -249,7 +249,7 @@ class PredictionErrorProblem:
             model: what moves.
             nuisance: how each run begins.
             kalman_filter: what corrects the state.
-            clocks: (runs,) [s] when each run begins, if not when it did.
+            clocks: (runs,) [s] start time of each run; None takes the recorded one.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
         errors = np.empty(self.measured.shape)

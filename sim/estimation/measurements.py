@@ -45,14 +45,14 @@ class RunMeasurements:
     Args:
         time: (n,) [s].
         voltage: (n,) [V].
-        voltage_slide: (n,) [V] by which it slides evenly to the next sample; 0 is held.
+        voltage_slide: (n,) [V] linear change until the next sample; 0 is a zero-order hold.
         voltage_error: (n,) [V] standard deviation of its mean until the next sample.
         measured: (n, 2) position and velocity, nan where they are not fresh.
         moving: (n,) where it moves.
         informative: (n,) where it moves, or is about to: what is compared. That must not depend on
-            a model, or a model could gain by looking away.
-        at_rest: (n,) where a position is the one read at rest, and its error of rounding, too: so
-            often repeated it would pass for knowledge.
+            a model, or a model could become likelier by leaving samples out.
+        at_rest: (n,) where the position repeats the one read at rest, with the same rounding error:
+            such samples are no independent measurements.
         velocity: [m/s or rad/s] it begins with.
         position: [m or rad] it begins at.
     """

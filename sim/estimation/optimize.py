@@ -215,7 +215,7 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
 def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimate) -> Array:
     """(searched, searched) covariance of the parameters, the nuisance parameters marginalized.
 
-    A combination of parameters that the log does not determine has a huge error, not none.
+    A combination of parameters that the log does not determine has a huge variance, not zero.
 
     Args:
         problem: the measurements.

@@ -26,7 +26,10 @@ TOGETHER = 0.5  # [s] for which what is missing errs one way
 def compute_gain_covariances(
     problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
 ) -> Iterator[tuple[Estimate, Array]]:
-    """An estimate and a (searched, searched) covariance of its parameters, one for each cause.
+    """For each cause of error, an estimate and the (searched, searched) covariance by this cause.
+
+    The causes are noise with effects too small to see, variation from run to run, and what the
+    model lacks.
 
     Args:
         problem: what was searched.

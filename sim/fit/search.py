@@ -100,7 +100,7 @@ def predict_improvement(
     *,
     kept: JointJacobian,
 ) -> Array:
-    """(more,) decrease of -2 log L by one further parameter each, to second order.
+    """(more,) predicted decrease of -2 log L if one further parameter is added, to second order.
 
     Args:
         problem: the measurements.

@@ -39,13 +39,13 @@ class SpunWheels:
 def spin_wheels(
     push: Array, since: Array, *, scales: Array, held: Array, limit: float = math.inf
 ) -> SpunWheels:
-    """Simulate wheels that a voltage step spins up.
+    """Simulate the speed of wheels after a voltage step, by exact steps of a first-order lag.
 
     Args:
         push: (n,) [m/s or rad/s] the speed at which each voltage would end.
-        since: (n,) [s].
+        since: (n,) [s] time since the step.
         scales: (k,) [s] timescales.
-        held: (k,) [m/s or rad/s] what the tires hold, as a part of ``push``.
+        held: (k,) [m/s or rad/s] largest part of ``push`` that the tires hold without slip.
         limit: [m/s or rad/s] of ``push`` above the speed, where the current is limited.
     """
     wheel, robot = np.zeros(scales.size), np.zeros(scales.size)

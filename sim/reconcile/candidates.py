@@ -167,15 +167,15 @@ def simplify_effect(
 ) -> Estimate | None:
     """An estimate with an effect replaced by its simpler form; None if it has none.
 
-    A search that came far with more parameters is a good start for fewer: if it needs no more, the
-    simpler one must not miss only because its own start was worse.
+    The optimum of the richer effect is a good start for the simpler one: that must not be rejected
+    only because its own search started badly.
 
     Args:
         problem: the measurements.
         point: with the effect.
         names: of effects to choose from.
         evidence: what a log shows.
-        effect: to replace; empty for the last one.
+        effect: to replace; empty for the one that was added last.
     """
     old = EFFECTS[effect or point.structure.effects[-1]]
     name = old.simpler

@@ -54,9 +54,9 @@ def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The local minimum near an estimate, and with less process noise where that matters.
+    """The local minimum near an estimate, also searched from less process noise where that helps.
 
-    A large q bears with anything: it is where a search for gains that are far off comes to rest.
+    Large process noise hides any residual, so a search whose gains are far off tends to stop there.
     """
     found = [_alternate(problem, point)]
     calm = CALM * problem.noise.velocity**2

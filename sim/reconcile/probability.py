@@ -128,7 +128,7 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
 
 
 def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
-    """[1] Score of the best other effect over an effect's own, 0 to 1.
+    """[1] Score of the best other effect divided by this effect's, clamped to 0..1.
 
     Args:
         effect: that was added.

@@ -57,7 +57,7 @@ class Recordings:
 
     @cached_property
     def fitted_runs(self) -> Log:
-        """The log and its validation as one log."""
+        """The runs that the last fit uses: those of the log and of the validation log."""
         return self.log if self.validation is None else join_records(self.log, self.validation)
 
     def make_problem(self) -> PredictionErrorProblem:

@@ -280,7 +280,7 @@ def compute_loop_voltage(ff: ElevatorFeedforward, pid: PIDController, one: LoopI
 
 
 def check_loop(mine: Callable[..., object]) -> CheckedLoop:
-    """Check a learner's loop on one moment of a move; ``...`` is an empty gap.
+    """Check a learner's loop at one time step of a profile; ``...`` is an unfilled blank.
 
     Args:
         mine: feedforward, feedback and what is known in a loop -> [V].

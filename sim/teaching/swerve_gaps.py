@@ -49,7 +49,7 @@ def compute_inertia(mass: float, lever: float, ka_turning: float, ka_straight: f
 
 
 def compute_grip(torque: float, ratio: float, radius: float, mass: float) -> float:
-    """The coefficient of friction of four wheels that begin to slip."""
+    """[1] Friction coefficient of four wheels that begin to slip at a torque [N·m] of each motor."""
     return WHEELS * torque * ratio / (radius * mass * GRAVITY)
 
 

@@ -160,14 +160,14 @@ def make_spelling_problem(kind: str, name: str, *, meant: str, line: int) -> Par
 
 
 def find_call_on_class(method: str, owner: str, *, held: str, line: int) -> Iterator[ParseProblem]:
-    """A test that is asked of the class SysIdRoutine, and not of the routine.
+    """Report a test command that is called on the class SysIdRoutine instead of a routine.
 
-    WPILib's documentation has its Python example so (frc-docs, commit d57699a).
+    The Python example in WPILib's documentation does so (frc-docs, commit d57699a).
 
     Args:
         method: what is called.
         owner: the last name of what it is called on.
-        held: how this language calls a routine that is kept in a field.
+        held: how a routine in a field is written in this language.
         line: line in the source, from 1.
     """
     if owner == "SysIdRoutine" and method in KINDS:

@@ -70,11 +70,11 @@ class TomlTable:
         self.refuse(f"{key} is {_shown(self.content[key])}", advice=advice)
 
     def read_text(self, key: str, *, example: str) -> str:
-        """A text that is not empty.
+        """Read a text that is not empty.
 
         Args:
-            key: whose value it is.
-            example: for the advice.
+            key: that is read.
+            example: a valid value, shown in the message of a refusal.
         """
         if key not in self:
             self.refuse(f"{key} is missing", advice=f"Add, for example: {key} = {_shown(example)}")
@@ -93,7 +93,7 @@ class TomlTable:
         return tuple(one.strip() for one in value)
 
     def read_choices(self, key: str, options: Iterable[str]) -> tuple[str, ...]:
-        """One or several of some names."""
+        """Read one or several of the allowed names, always as a tuple."""
         options = tuple(options)
         chosen = self.read_texts(key, example=options[0] if options else "")
         for one in chosen:

@@ -252,7 +252,7 @@ class Session:
                 one.renew(finished, path)
 
     def choose_place(self, name: str) -> tuple[str, Path]:
-        """A name that any system can write, and a new path for a dropped file of that name."""
+        """A name valid on every system, and an unused path for an uploaded file of that name."""
         plain = re.sub(r"[^\w. ()+-]", "_", Path(name.replace("\\", "/")).name).strip(". ")
         plain = plain[-LONGEST_NAME:] or "log"
         folder = self.folder / str(next(self._numbers))

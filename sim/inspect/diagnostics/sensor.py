@@ -63,7 +63,7 @@ def check_velocity_scale(features: LogFeatures) -> list[Doubt]:
 
 
 def check_plausible_speed(features: LogFeatures) -> list[Doubt]:
-    """Doubts about speeds that no robot reaches."""
+    """Warnings about speeds that no robot reaches."""
     per = find_unit(features.log.units)
     if features.baseline is None or per.angular or FULL / features.baseline.kv <= FASTEST:
         return []

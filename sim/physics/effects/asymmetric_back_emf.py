@@ -12,7 +12,7 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def force(v: float, lean: float) -> float:
-    """[V] additional force: against forward motion, along with reverse motion."""
+    """[V] additional force: it opposes forward motion and assists reverse motion."""
     return lean * abs(v)
 
 

@@ -31,7 +31,7 @@ def stored_energy(x: float, cosine: float, sine: float, turns: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of a given size; size 1 is a fifth of a volt, twelve times along the travel."""
+    """Parameters of a given size; size 1 is 0.2 V, with twelve periods along the travel."""
     turns = 2.0 * math.pi * 12.0 / scale.reach
     return {"cosine": 0.16 * size, "sine": 0.12 * size, "turns": turns}
 

@@ -35,7 +35,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: frequencies that a log can show, for a light motor and half the inertia."""
+    """Start values: resonances that a log can show; the motor has little or half of the inertia."""
     for share in (LIGHT, HALF):
         reduced = share * (1.0 - share) * abs(seen.gains["kA"])
         for number in range(TRIED):

@@ -52,7 +52,7 @@ def make_model_constants(model: Model) -> Array:
 
 
 def make_effect_arrays(model: Model) -> tuple[Array, Array]:
-    """Which effects are on, then which hooks are needed; and the parameters of all effects."""
+    """Two arrays: flags of the effects in use, then of the hooks they need; and all parameters."""
     on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
     parameters = NEUTRAL.copy()
     for part in model.parts:

@@ -130,7 +130,7 @@ def step_one_body(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
     asked: float, off: bool, ka: float, dt: float, plain: bool,
 ) -> float:  # fmt: skip
-    """One step of one body; returns the voltage [V] at the motor in its middle."""
+    """Advance one body by one step; returns the motor voltage [V] at the middle of the step."""
     x, v = state[X], state[V]
     u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     if not plain:

@@ -124,7 +124,10 @@ def make_doubled_table(ways: Array, at: int, to: int) -> None:
 
 
 def apply_row(ways: Array, at: int, d: float, v: float, w: float, b: float, r: float) -> float:
-    """The product of a row of the transition table with the motion and the voltages."""
+    """The product of row ``at`` of the transition table with five numbers.
+
+    They are the distance and the two velocities of the bodies, and the two voltages.
+    """
     return float(
         ways[at] * d + ways[at + 1] * v + ways[at + 2] * w + ways[at + 3] * b + ways[at + 4] * r
     )
