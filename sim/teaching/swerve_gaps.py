@@ -49,7 +49,7 @@ def compute_inertia(mass: float, lever: float, ka_turning: float, ka_straight: f
 
 
 def compute_grip(torque: float, ratio: float, radius: float, mass: float) -> float:
-    """[1] Friction coefficient of four wheels that begin to slip at a torque [N·m] of each motor."""
+    """[1] Friction of four wheels that begin to slip at a torque [N·m] of each motor."""
     return WHEELS * torque * ratio / (radius * mass * GRAVITY)
 
 
