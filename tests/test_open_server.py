@@ -211,7 +211,7 @@ def test_ten_broken_logs_do_not_end_it(tmp_path):
 
 def test_a_mistake_of_ours_is_told_and_does_not_end_it(tmp_path, drive, monkeypatch):
     with served(tmp_path, drive) as server:
-        monkeypatch.setattr(server.session.find(1), "log", lambda _reading: 1 / 0)
+        monkeypatch.setattr(server.session.find(1), "combine_runs", lambda _reading: 1 / 0)
         status, answer = ask_json(server, "logs/1/summary")
         assert ask(server, "")[0] == 200
 
