@@ -56,18 +56,18 @@ class RunInformation:
 
 
 def compute_run_variation_covariance(
-    problem: PredictionErrorProblem, point: Estimate, table: Array, rest: Array
+    problem: PredictionErrorProblem, point: Estimate, jacobian: Array, innovations: Array
 ) -> Array:
     """(searched, searched) covariance of the parameters when gains vary from run to run.
 
     Args:
         problem: the measurements, without frictions of each run's own.
         point: the best estimate.
-        table: (2 n + ..., searched + nuisance) Jacobian of the whitened innovations.
-        rest: (2 n + ...,) whitened innovations.
+        jacobian: (2 n + ..., searched + nuisance) Jacobian of the whitened innovations.
+        innovations: (2 n + ...,) whitened innovations.
     """
     sizes = _sizes(problem, point)
-    runs = _run_information(problem, point, table, rest, sizes)
+    runs = _run_information(problem, point, jacobian, innovations, sizes)
     known = problem.select_priors(point.structure)
     names = point.structure.searched_names
     own = np.array([name not in known for name in names])
@@ -139,7 +139,11 @@ def _along(run: RunInformation, root: Array) -> tuple[Array, Array]:
 
 
 def _run_information(
-    problem: PredictionErrorProblem, point: Estimate, table: Array, rest: Array, sizes: Array
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    jacobian: Array,
+    innovations: Array,
+    sizes: Array,
 ) -> list[RunInformation]:
     """The information of each run that is compared."""
     count, runs = sizes.size, []
@@ -150,18 +154,18 @@ def _run_information(
         zip(problem.run_edges, problem.run_edges[1:], strict=False)
     ):
         rows = slice(2 * int(first), 2 * int(last))
-        columns = table[rows, :count] * sizes
+        columns = jacobian[rows, :count] * sizes
         if not columns.any():
             continue
-        moved = table[rows][:, places + number]
+        moved = jacobian[rows][:, places + number]
         own = np.array([offset[number] for _, offset in nuisance]) * known
         shares = np.linalg.solve(moved.T @ moved + np.diag(known), moved.T @ columns)
         free = columns - moved @ shares
         information = free.T @ columns
-        score = free.T @ rest[rows] - shares.T @ own
+        score = free.T @ innovations[rows] - shares.T @ own
         time = problem.records[number].measurements.time
         starts = 2 * find_interval_starts(time, LASTS)  # two measurements to a sample
-        scores = np.add.reduceat(free.T * rest[rows], starts, axis=1).T
+        scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
         excess = max(_excess(information, scores), 1.0)
         runs.append(RunInformation(information / excess, score / excess))
     return runs
