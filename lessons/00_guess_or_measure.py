@@ -29,7 +29,7 @@
 # code, because this code contains an answer or only draws a picture. Run these cells like the
 # others.
 #
-# <details><summary>You see no buttons or sliders?</summary>
+# <details><summary>Do you see no buttons or sliders?</summary>
 #
 # You can type an answer in a cell, for example `guess_race.value = "the three lines"` for a
 # prediction or `quick.answer("kS")` for a quick check. Below each slider there is a line of code
@@ -440,7 +440,7 @@ Table(
 # > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) The authors of this course could
 # > not check what the two teams do. (*Closed-loop control* means control with feedback.)
 # >
-# > **Try it:** this course lets you make such errors. Each lesson makes one of them on purpose in a
+# > **Try it:** in this course you can make such errors. Each lesson makes one of them on purpose in a
 # > simulation with known gains, so that you learn to recognize the error.
 # </details>
 

@@ -831,7 +831,7 @@ quick
 # start `grade watch exercise1`: it grades each time you save.
 #
 # **On your own robot:** compute its theoretical kV today. Write it into your constants file as a
-# comment, so your team can compare when you measure it.
+# comment, so your team can compare when you measure it again.
 #
 # <details><summary>More, if you like</summary>
 #

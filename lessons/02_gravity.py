@@ -205,7 +205,7 @@ print(guess_hold.reveal("it stays"))
 print(f"{truth['kG'] - 0.15:.2f} V: after 0.4 s the carriage moves at {little_less:.3f} m/s.")
 
 # %% [markdown]
-# The carriage stays. Friction acts against *any* motion, also against falling, so friction helps
+# The carriage stays. Friction acts against *any* motion, even falling, so friction helps
 # you to hold the carriage. The carriage sinks only if your voltage is less than kG − kS. The
 # carriage rises only if your voltage is more than kS above kG.
 #

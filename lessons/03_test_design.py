@@ -561,7 +561,7 @@ Table(
 # > **d ≈ kV·v² / (2·ramp)**
 #
 # So "slow is safe" is wrong if your room is short. With a very slow ramp the robot reaches the end
-# of the room before it is fast. A log with only low speeds contains little about kV. Choose the
+# of the room before it is fast. A log with only low speeds tells you little about kV. Choose the
 # slowest ramp that fits into your room. WPILib recommends "at least 10' of space, ideally closer to
 # 20'" (3 to 6 m). Never run the tests on blocks, with the wheels in the air: then the robot's mass
 # does not move. Look at the row for 0.5 V/s in the table: how far does this drivetrain go in 10 s?

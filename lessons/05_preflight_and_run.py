@@ -329,7 +329,8 @@ morning("2 battery", STEP, moment=1.0)
 # First choose "2 battery" and "step". The step test draws so much current that the battery voltage
 # falls below the dashed line. Then the robot controller turns the motors off to protect itself:
 # this is a *brownout*. The battery recovers, the motors start, and the voltage falls again. The
-# robot hardly moves. (On a real robot, this repeats more slowly.) Then choose other checks.
+# robot hardly moves. (On a real robot, you would see the same, but more slowly.) Then skip other
+# checks.
 #
 # ### Which logs are good?
 #

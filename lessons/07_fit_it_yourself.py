@@ -751,7 +751,8 @@ print(f"SysId's 0.9 would be {1 - (1 - 0.9) ** 2:.2f} in the textbook's formula.
 # > (The docs page calls the acceleration the *independent* variable. In the code it is the
 # > *dependent* variable, on the left side.)
 # >
-# > **Try it:** you computed both scores above. From now on, always say which R² you mean.
+# > **Try it:** compare the two scores that you computed above. From now on, always say
+# > which R² you mean.
 # </details>
 #
 # ### What R² does not show

@@ -1030,7 +1030,7 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # Gains also change during a match. If copper is 50 °C warmer, it has 20 % more resistance. Then the
 # same force needs 20 % more volts: kS, kA and kG grow, and kV hardly changes. If the output of the
-# loop is in volts, an empty battery changes no gain. But an empty battery can give only 10 V. kP
+# loop is in volts, a low battery does not change any gain. But an empty battery can give only 10 V. kP
 # corrects small changes.
 # </details>
 
@@ -1111,7 +1111,7 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# No. 4000 rpm are 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. Without
+# No. 4000 rpm is 66.7 rot/s, so the feedforward gives 0.11 + 0.082 · 66.7 = 5.58 V. Without
 # feedback, an error of 2.5 % is normal. Keep the gains, and check the units. Check also that the
 # motor gets the full voltage: `set(volts / 12)` on an 11.7 V battery causes exactly this error.
 # Then add feedback. kP alone does not remove the whole error.
