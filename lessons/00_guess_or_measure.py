@@ -440,8 +440,8 @@ Table(
 # > 8643](https://github.com/wpilibsuite/allwpilib/issues/8643)) The authors of this course could
 # > not check what the two teams do. (*Closed-loop control* means control with feedback.)
 # >
-# > **Try it:** in this course you can make such errors. Each lesson makes one of them on purpose in a
-# > simulation with known gains, so that you learn to recognize the error.
+# > **Try it:** in this course you can make such errors. Each lesson makes one of them on purpose in
+# > a simulation with known gains, so that you learn to recognize the error.
 # </details>
 
 # %% [markdown]

@@ -1030,8 +1030,8 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # Gains also change during a match. If copper is 50 °C warmer, it has 20 % more resistance. Then the
 # same force needs 20 % more volts: kS, kA and kG grow, and kV hardly changes. If the output of the
-# loop is in volts, a low battery does not change any gain. But an empty battery can give only 10 V. kP
-# corrects small changes.
+# loop is in volts, a low battery does not change any gain. But it can give only 10 V. kP corrects
+# small changes.
 # </details>
 
 # %% [markdown]
