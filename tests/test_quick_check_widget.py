@@ -82,7 +82,7 @@ def test_every_lesson_has_a_quick_check(lesson):
 
 def test_the_first_lesson_says_once_how_to_answer_without_buttons():
     first, *others = [one.read_text(encoding="utf-8") for one in LESSONS]
-    said = first.partition("You see no buttons or sliders?")[2].partition("# %%")[0]
+    said = first.partition("Do you see no buttons or sliders?")[2].partition("# %%")[0]
 
     assert ".answer(" in said
     assert ".value = " in said
