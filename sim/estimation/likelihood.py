@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.kalman import OPEN_LOOP, GainSchedule, KalmanFilter, make_steady_state_filter
-from sim.estimation.measurements import SensorNoise, estimate_noise
+from sim.estimation.measurements import SensorNoise, compute_noise_at_speed, estimate_noise
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.random_friction import compute_friction_prior, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
@@ -207,6 +207,12 @@ class PredictionErrorProblem:
         speeds = np.abs(self.measured[self.informative, 1])
         speeds = speeds[~np.isnan(speeds)]
         return float(np.quantile(speeds, TOP)) if speeds.size else 0.0
+
+    @cached_property
+    def velocity_floor(self) -> float:
+        """[unit/s] root mean square of the velocity's noise, at the speeds that were recorded."""
+        seen = [record.measurements for record in self.records]
+        return compute_noise_at_speed(seen, self.noise)
 
     @cached_property
     def start_sd(self) -> float:

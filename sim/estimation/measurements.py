@@ -36,6 +36,8 @@ TREMBLES = 0.3  # [of that speed] a velocity with more noise at rest cannot tell
 FINE = 3.0  # steps of a sensor between two samples at speed, which then cannot be the same
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
 SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
+SPEED_CLASSES = 8  # classes of speed in which the noise of a velocity is measured
+UNEVEN = 3.0  # [1] noise at the highest speeds over that at the lowest, from which it grows
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,6 +158,35 @@ def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
     columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
     grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
     return SensorNoise(sizes[0], sizes[1], (grain[0], grain[1]))
+
+
+def compute_noise_at_speed(seen: Sequence[RunMeasurements], noise: SensorNoise) -> float:
+    """[unit/s] Root mean square of the velocity's noise, where that noise grows with the speed.
+
+    A velocity that a device computes from the time between two edges of an encoder is off by a
+    share of the speed. The noise is measured in equally large classes of speed, of which each has
+    at least the noise of the slower ones.
+
+    Args:
+        seen: the runs.
+        noise: of all their samples together, returned where the noise does not grow.
+    """
+    every, speeds = [np.zeros(0)], [np.zeros(0)]
+    for run in seen:
+        there = run.moving & ~np.isnan(run.measured[:, 1])
+        velocity = run.measured[there, 1]
+        if velocity.size > 3:  # noqa: PLR2004 - fewer have no third difference
+            every.append(compute_third_differences(run.time[there], velocity))
+            speeds.append(np.abs(velocity[1:-2] + velocity[2:-1]))
+    order = np.argsort(np.concatenate(speeds), kind="stable")
+    classes = np.array_split(np.concatenate(every)[order], SPEED_CLASSES)
+    if not classes[-1].size:
+        return noise.velocity
+    least = noise.resolution[1]
+    sizes = [ROBUST * float(np.median(np.abs(one))) / math.sqrt(THIRD) for one in classes]
+    grown = np.maximum.accumulate(np.maximum(sizes, least))
+    grows = grown[-1] >= UNEVEN * grown[0]
+    return float(np.sqrt(np.mean(np.square(grown)))) if grows else noise.velocity
 
 
 def _smallest_step(values: Sequence[Array]) -> float:

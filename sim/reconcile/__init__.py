@@ -165,7 +165,7 @@ def _exclude_slips(
         runs[number] = runs[number].exclude_interval(ExcludedInterval(number, one.start, one.end))
     mended = replace(problem, records=tuple(runs))
     begin = mended.evaluate(base.structure, base.values, base.nuisance, base.process_noise)
-    return mended, minimize(mended, scan_process_noise(mended, begin)), (found[0][1],)
+    return mended, minimize_fully(mended, scan_process_noise(mended, begin)), (found[0][1],)
 
 
 def _one_per_fault(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval, ...]:
@@ -208,7 +208,7 @@ def _fit_base_model(
 def _missed_share(problem: PredictionErrorProblem, base: Estimate) -> float:
     """[1] of the motion that a point misses."""
     gap = compute_rms_gap(compute_open_loop_errors(problem, base, base.nuisance)).velocity
-    return compute_missed_motion(gap / problem.noise.velocity, problem)
+    return compute_missed_motion(gap, problem)
 
 
 def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:

@@ -24,6 +24,7 @@ from sim.reconcile.local_minimum import (
     compute_total_cost,
     minimize,
     rate_starts,
+    scan_process_noise,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
 from sim.reconcile.two_body_starts import TwoBodyStarts
@@ -111,11 +112,31 @@ def rank_candidates(
         ]
         best = _best_of_each_effect([*gone, *calm])[:KEPT]
         best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
-    ended = [minimize(problem, one) for one in dict.fromkeys(best) if not stop()]
+    ended = [_minimize_nested(problem, point, one) for one in dict.fromkeys(best) if not stop()]
     simpler = [simplify_effect(problem, one, names, evidence) for one in ended if not stop()]
     ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.score)
+
+
+def _minimize_nested(
+    problem: PredictionErrorProblem, point: Estimate, start: Estimate
+) -> Estimate:
+    """The local minimum near the start of a candidate; a failed search is begun anew.
+
+    A candidate contains the model without it, so at its minimum it cannot be less likely. Where it
+    is, the process noise of that model was far too large for it, and is searched first.
+
+    Args:
+        problem: the measurements.
+        point: the best without the candidate.
+        start: with it.
+    """
+    found = minimize(problem, start)
+    if found.cost <= point.cost or _ends_in_two_bodies(start):
+        return found
+    again = minimize(problem, scan_process_noise(problem, start))
+    return min(found, again, key=lambda one: one.cost)
 
 
 def descend_candidate(

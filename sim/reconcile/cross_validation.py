@@ -12,7 +12,7 @@ from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.random_friction import LEAST_KS
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
-from sim.reconcile.thresholds import MOST_VARIED
+from sim.reconcile.thresholds import LEAST_FLOOR, MOST_VARIED
 
 REFIT = 4  # steps
 EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
@@ -184,11 +184,21 @@ def compute_rms_gap(errors: Array) -> Gap:
     return Gap(float(velocity), float(position))
 
 
-def compute_missed_motion(strays: float, problem: PredictionErrorProblem) -> float:
-    """[1] a gap, given in noise floors, as a share of the motion."""
+def count_noise_floors(gap: float, problem: PredictionErrorProblem) -> float:
+    """[1] A gap of the velocity over the noise that any model leaves.
+
+    Args:
+        gap: [unit/s].
+        problem: the measurements.
+    """
+    return gap / max(problem.velocity_floor, LEAST_FLOOR * problem.top_speed)
+
+
+def compute_missed_motion(gap: float, problem: PredictionErrorProblem) -> float:
+    """[1] A gap of the velocity [unit/s] as a share of the motion."""
     speeds = problem.measured[problem.moving, 1]
     size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
-    return strays * problem.noise.velocity / max(size, 1e-300)
+    return gap / max(size, 1e-300)
 
 
 def _select_records(

@@ -13,13 +13,12 @@ from sim.estimation.optimize import append_prior_rows
 from sim.physics.effect import ONSET
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import find_separating_test
-from sim.reconcile.cross_validation import Gap, compute_missed_motion
+from sim.reconcile.cross_validation import Gap, compute_missed_motion, count_noise_floors
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
     Evidence,
     JudgedEffect,
-    compute_log_gap,
     compute_log_ratio,
     compute_log_size,
     compute_probability,
@@ -78,7 +77,8 @@ def make_findings(
     """
     faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
     judged = judge_effects(problem, done, left, damaged=bool(damages))
-    far = done[-1].gap.velocity / problem.noise.velocity > STRAYS or left.has_structure
+    noises = count_noise_floors(done[-1].gap.velocity, problem)
+    far = noises > STRAYS or left.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
     told = {one.effect: one for one in judged if one.probability >= LIKELIER_RIGHT}
     effects = [
@@ -115,8 +115,8 @@ def judge_effects(
         damaged: whether damaged intervals were excluded.
     """
     last = done[-1].candidate.estimate
-    noises = done[-1].gap.velocity / problem.noise.velocity
-    if not compute_missed_motion(noises, problem) <= LOST:  # no number at all is lost, too
+    missed = compute_missed_motion(done[-1].gap.velocity, problem)
+    if not missed <= LOST:  # no number at all is lost, too
         return ()
     found = []
     for before, now in pairwise(done):
@@ -136,17 +136,12 @@ def judge_effects(
             rival=compute_rival_share(
                 name, added, list_rival_scores(before, last.structure.effects, name)
             ),
-            strays=compute_log_gap(noises),
             structure=float(left.has_structure),
             once=float(EFFECTS[name].has_onset),
             damaged=float(damaged and EFFECTS[name].has_onset),
         )
-        found.append((name, now.rivals, evidence))
-    return tuple(
-        JudgedEffect(name, rivals, whole, compute_probability(whole))
-        for name, rivals, one in found
-        for whole in [_compare(one, [other for _, _, other in found if other is not one])]
-    )
+        found.append(JudgedEffect(name, now.rivals, evidence, compute_probability(evidence)))
+    return tuple(found)
 
 
 def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
@@ -161,15 +156,6 @@ def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) ->
     """
     others = {*kept} - {name}
     return {one.effect: one.score for one in before.tried if one.effect not in others}
-
-
-def _compare(one: Evidence, others: Sequence[Evidence]) -> Evidence:
-    """The evidence, with what the other effects of the model have beside it."""
-    return replace(
-        one,
-        behind=min(0.0, one.likelihood - max((other.likelihood for other in others), default=0.0)),
-        leads=float(all(one.gap <= other.gap for other in others)),
-    )
 
 
 def _removal_cost(before: SelectionRound, now: SelectionRound) -> float:

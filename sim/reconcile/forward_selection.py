@@ -9,7 +9,11 @@ from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
-from sim.reconcile.cross_validation import compute_missed_motion, compute_validation_gap
+from sim.reconcile.cross_validation import (
+    compute_missed_motion,
+    compute_validation_gap,
+    count_noise_floors,
+)
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
@@ -110,7 +114,7 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
 def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
     best, problem = done, data.problem
-    if len(done) == 1 or done[-1].gap.velocity <= STRAYS * problem.noise.velocity:
+    if len(done) == 1 or count_noise_floors(done[-1].gap.velocity, problem) <= STRAYS:
         return best
     for place, other in list_alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
         path = [*done[: place + 1], _next_round(done[place], other)]
@@ -226,7 +230,7 @@ def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]
     Nothing would be reported of such a model, and further effects would take minutes to try.
     """
     now = done[-1]
-    share = compute_missed_motion(now.gap.velocity / problem.noise.velocity, problem)
+    share = compute_missed_motion(now.gap.velocity, problem)
     if share <= LOST:
         return False
     values = now.candidate.estimate.values

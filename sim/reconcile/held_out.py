@@ -86,7 +86,7 @@ class HeldOutLog:
         """
         gap = last.gap * find_unit(self.log.units).si
         said = (*self.doubts, *((MESHED,) if _has_backlash(last) else ()))
-        if not self.held_out or gap <= OTHER_MATTER * max(fitted, self.problem.noise.velocity):
+        if not self.held_out or gap <= OTHER_MATTER * max(fitted, self.problem.velocity_floor):
             return said
         far = (
             f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times "
@@ -98,7 +98,7 @@ class HeldOutLog:
     @property
     def noise_floor(self) -> float:
         """[owner's unit/s] noise of its velocity."""
-        return self.problem.noise.velocity / find_unit(self.log.units).si
+        return self.problem.velocity_floor / find_unit(self.log.units).si
 
     @property
     def compared_samples(self) -> tuple[NDArray[np.bool_], ...]:
@@ -107,7 +107,7 @@ class HeldOutLog:
 
     def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
         """Places where the base model's velocity is wrong, the most significant first."""
-        noise = self.problem.noise.velocity
+        noise = self.problem.velocity_floor
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(TOLD, signal="velocity") if found else ()
 

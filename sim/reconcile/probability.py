@@ -1,7 +1,7 @@
 """How likely it is that an effect of the last model is missing in the base model.
 
 A logistic regression (Hastie, Tibshirani and Friedman, The Elements of Statistical Learning,
-section 4.4) of ten features. Its coefficients stand in ``probability.json``, which
+section 4.4) of seven features. Its coefficients stand in ``probability.json``, which
 ``tests/benchmarks/learn_probability.py`` makes from logs in which the truth is known.
 """
 
@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from sim.physics.effects import EFFECTS, find_motion_class
-from sim.reconcile.thresholds import FEWEST_NOISES, MOST_NOISES, NARROWEST, SIZES
+from sim.reconcile.thresholds import NARROWEST, SIZES
 
 FILE = Path(__file__).with_name("probability.json")
 
@@ -29,11 +29,8 @@ class Evidence:
         size: ln of its size over the largest that is everyday.
         rival: score of the best other effect that lasts, over its own, in its round, 0 to 1. What
             is the same wherever the mechanism moves is no other effect.
-        strays: ln of the last model's gap in noise floors of the velocity.
         structure: 1 if the last model leaves more than noise, else 0.
         once: 1 if it begins at a moment, else 0.
-        behind: ``likelihood`` less the largest of the other effects, 0 at most.
-        leads: 1 if no other effect closes more of the gap, else 0.
         damaged: 1 if it begins at a moment and the log is damaged, else 0.
     """
 
@@ -41,12 +38,9 @@ class Evidence:
     gap: float
     size: float
     rival: float
-    strays: float
     structure: float
     once: float
-    behind: float = 0.0
-    leads: float = 1.0
-    damaged: float = 0.0
+    damaged: float
 
     @property
     def features(self) -> tuple[float, ...]:
@@ -90,15 +84,6 @@ def compute_log_ratio(with_: float, without: float) -> float:
     return math.log(min(max(with_ / without, NARROWEST), 1.0 / NARROWEST))
 
 
-def compute_log_gap(noises: float) -> float:
-    """Logarithm of a gap in noise floors, clipped to the range that matters.
-
-    Args:
-        noises: [noise floors of the velocity] the gap.
-    """
-    return math.log(min(max(noises, FEWEST_NOISES), MOST_NOISES))
-
-
 def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
     """Logarithm of an effect's size over the largest ordinary size, clipped to ``SIZES``.
 
@@ -132,10 +117,10 @@ def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -
 
     Args:
         effect: that was added.
-        score: its decrease of -2 log L when it was added.
-        tried: candidate of its round -> the same decrease.
+        score: its decrease of -2 log L when it was added and its search had ended.
+        tried: candidate of its round -> the same decrease, before the end of each search.
     """
-    own = tried.get(effect, score)
+    own = max(tried.get(effect, score), score)
     others = [
         other
         for name, other in tried.items()

@@ -52,10 +52,6 @@ the right names of the logs it was learnt on would not be told."""
 
 NARROWEST = 0.05  # [1] of a gap over another; and its inverse
 SIZES = (-2.0, 3.0)  # ln of an effect's size [everyday sizes]
-FEWEST_NOISES, MOST_NOISES = 0.5, 3.0
-"""[noises of a velocity] of the last model's gap. Logs of real robots leave more, and none of those
-is among what the probability is learnt from: beyond three, one is as far off as another."""
-
 MAJOR = 0.87
 """[1] of the gap before: an effect that shrinks the validation's velocity gap by more is major.
 Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)
@@ -126,6 +122,11 @@ SHAKEN = 7.0
 innovations: beyond it a moment is not explained. A normal deviate among some thousand windows stays
 below 5. Of the given logs, those in which nothing is missing come to 6.2 at most, everyday dirt
 included, and those that hold something unknown to 7.4 and more, unless another test finds it."""
+
+LEAST_FLOOR = 0.003
+"""[1] of the top speed, for which a log's noise counts at least: friction alone differs by more
+from run to run, and a velocity that a device averages has hardly any noise. None of the logs that
+the probability is learnt from has less noise than that."""
 
 STRAYS = 2.5
 """[noises of a velocity] of the gap that the last model leaves on runs it was not fitted to.

@@ -6,7 +6,7 @@ from itertools import permutations
 
 from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
-from sim.reconcile.cross_validation import compute_missed_motion
+from sim.reconcile.cross_validation import compute_missed_motion, count_noise_floors
 from sim.reconcile.model_selection import contains_effect, list_blocked_candidates
 from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidual
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -29,10 +29,9 @@ def reach_verdict(
         cut: [s] time limit that ended the search; inf if it came to its own end.
         per: the owner's unit.
     """
-    strays, before = (
-        gap.velocity / problem.noise.velocity for gap in (done[-1].gap, done[0].gap_before)
-    )
-    share = compute_missed_motion(strays, problem)
+    gap, before = (one.velocity for one in (done[-1].gap, done[0].gap_before))
+    strays = count_noise_floors(gap, problem)
+    share = compute_missed_motion(gap, problem)
     if not share <= LOST:
         remains = (
             f"The last model misses {share:.0%} of the motion on runs it was not fitted to, so "
@@ -47,17 +46,21 @@ def reach_verdict(
     )
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
-    mostly = effects and strays > max(STRAYS, MOSTLY * before)
-    far_off = (
-        strays > FAR_OFF and strays * problem.noise.velocity > FAR_OFF_SPEED * problem.top_speed
-    )
-    if mostly or far_off or (remains and not majors):
+    mostly = effects and strays > STRAYS and gap > MOSTLY * before
+    told = gap if majors else before  # a model with effects that nobody names explains nothing
+    if mostly or (remains and _is_seen(told, problem)):
         return UNEXPLAINED, True, remains
     if not majors:
         return NOTHING_MISSING, bool(remains), remains
     if any(one.ambiguous_with for one in majors):
         return AMBIGUOUS, bool(remains), remains
     return EXPLAINED, bool(remains), remains
+
+
+def _is_seen(gap: float, problem: PredictionErrorProblem) -> bool:
+    """Whether a person sees a gap [unit/s] between two curves, and it is not the noise."""
+    seen = gap > FAR_OFF_SPEED * problem.top_speed
+    return seen and count_noise_floors(gap, problem) > FAR_OFF
 
 
 def _describe_cut(limit: float) -> str:
