@@ -37,7 +37,7 @@ from sim.reconcile.findings import list_remarks, make_findings, select_reported_
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
-from sim.reconcile.local_minimum import minimize, minimize_fully, scan_process_noise
+from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_data import SelectionData
