@@ -9,6 +9,7 @@ from sim.bench.simulate import simulate
 from sim.core.log import Log, Run
 from sim.estimation.measurements import (
     THIRD,
+    compute_noise_at_speed,
     compute_third_differences,
     estimate_noise,
     measure_runs,
@@ -63,6 +64,29 @@ def test_a_sample_that_comes_late_is_no_noise(time):
 
     assert found.position == pytest.approx(NOISE, rel=0.15)
     assert found.velocity == pytest.approx(0.01, rel=0.15)
+
+
+def test_noise_that_grows_with_the_speed_counts_at_the_speeds_of_the_log():
+    # a velocity from the time between two edges of an encoder is off by a share of the speed
+    time = even(4000, 0.005)
+    share = 0.05 * np.random.default_rng(4).standard_normal(time.size)
+    velocity = 0.6 * time * (1.0 + share)
+    run = Run("dynamic-forward", time, np.full(time.size, 4.0), 0.3 * time**2, velocity)
+    seen = measure_runs(Log((run,), units="meters", type="simple"), friction=None)
+    noise = estimate_noise(seen)
+
+    found = compute_noise_at_speed(seen, noise)
+
+    assert found == pytest.approx(float(np.std(0.6 * time * share)), rel=0.1)
+    assert found > 1.1 * noise.velocity
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_that_is_the_same_at_all_speeds_is_that_of_all_samples(seed):
+    seen = measure_runs(moving(even(), seed=seed), friction=None)
+    noise = estimate_noise(seen)
+
+    assert compute_noise_at_speed(seen, noise) == noise.velocity
 
 
 @pytest.mark.parametrize("name", sorted(MECHANISMS))

@@ -37,11 +37,11 @@ LASTS = 1e6  # [s]
 
 @pytest.fixture(scope="module")
 def problem():
-    """Two steps, whose velocities have a noise of 1 mm/s beside meters per second."""
+    """Two steps, whose velocities have a noise of 8 mm/s beside 11 m/s."""
     rng = np.random.default_rng(3)
     model = Model("simple", GAINS)
     runs = [
-        recorded(test, model, step=6.0, state=State.cold_at(0.0), noise=(1e-5, 1e-3), rng=rng)
+        recorded(test, model, step=6.0, state=State.cold_at(0.0), noise=(1e-5, 0.008), rng=rng)
         for test in ("dynamic-forward", "dynamic-reverse")
     ]
     return PredictionErrorProblem.from_records(
@@ -85,11 +85,18 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 
 
 @pytest.mark.parametrize(
-    ("score", "softness", "verdict"), [(1983.0, 0.3, "unexplained"), (90.0, 0.3, "nothing-missing")]
+    ("gap", "score", "verdict", "remainder"),
+    [
+        (20.0, 1983.0, "unexplained", True),
+        (2.0, 1983.0, "nothing-missing", True),
+        (2.0, 90.0, "nothing-missing", False),
+    ],
 )
-def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, softness, verdict):
-    done = rounds(problem, 2.0)
-    values = {"compliance.softness": softness, "compliance.share": 0.2}
+def test_what_would_be_far_likelier_and_is_not_admitted_is_told(
+    problem, gap, score, verdict, remainder
+):
+    done = rounds(problem, gap)
+    values = {"compliance.softness": 0.3, "compliance.share": 0.2}
     point = replace(done[0].candidate.estimate, values=values)
     tried = TriedCandidate("compliance", score, 1.6, admitted=False, why=WIDENS)
     other = WeighedCandidate(
@@ -99,8 +106,8 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(problem, score, 
 
     said = reach_verdict([], done, problem, left=ResidualSummary(), per=METERS)
 
-    assert said[0] == verdict
-    assert ("compliance" in said[2]) is (verdict == "unexplained")
+    assert said[:2] == (verdict, remainder)
+    assert ("compliance" in said[2]) is (remainder and gap < 10.0)
 
 
 @pytest.mark.parametrize(

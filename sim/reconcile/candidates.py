@@ -119,9 +119,7 @@ def rank_candidates(
     return sorted(found, key=lambda one: one.score)
 
 
-def _minimize_nested(
-    problem: PredictionErrorProblem, point: Estimate, start: Estimate
-) -> Estimate:
+def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Estimate) -> Estimate:
     """The local minimum near the start of a candidate; a failed search is begun anew.
 
     A candidate contains the model without it, so at its minimum it cannot be less likely. Where it

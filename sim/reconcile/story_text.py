@@ -147,7 +147,9 @@ def _nothing(story: Story) -> str:
     if last > CLOSE:
         small = f" (a little: {_listed(minor)})" if minor else ""
         return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
-    return f"Nothing{' big' if minor else ''} is missing{little}. {_error(story)}"
+    big = " big" if minor or story.remainder else ""
+    rest = " Something small remains that no known effect explains." if story.remainder else ""
+    return f"Nothing{big} is missing{little}. {_error(story)}{rest}"
 
 
 def _error(story: Story) -> str:
