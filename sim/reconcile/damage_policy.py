@@ -1,11 +1,12 @@
 """Decide which detected damage is cut out and which is only reported."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.thresholds import LONGEST_SLIP, SLIPPED, SPOILT
+from sim.reconcile.thresholds import SLIPPED, SPOILT
 
 FOR_GOOD = ("hard-stop",)
 """Faults after which a run tells nothing more: it leans on a stop."""
@@ -48,7 +49,8 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
     for name, every in damages.items():
         turned = {one.run for one in every if one.fault in WHOLE}
         for one in every:
-            if not _is_damage_to_record(one) or (one.fault in WHOLE and len(turned) > 1):
+            doubtful = one.confidence < OF_THE_RECORD.get(one.fault, math.inf)
+            if doubtful or (one.fault in WHOLE and len(turned) > 1):
                 continue
             if one.run is not None:
                 stretch = ExcludedInterval(one.run, one.start, one.end, one.fault in FOR_GOOD)
@@ -60,10 +62,3 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
 
 def _confidence(one: DamagedInterval | None) -> float:
     return -1.0 if one is None else one.confidence
-
-
-def _is_damage_to_record(one: DamagedInterval) -> bool:
-    """Whether it is damage to the record beyond doubt, and no physics."""
-    if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
-        return False
-    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST_SLIP

@@ -158,29 +158,6 @@ one strays: what resembles two effects at once is far likelier than each of them
 PATHS = 1
 """Other paths that are gone where the first one strays: each takes as long as the first."""
 
-# An encoder that slips (``slip_detection.py``).
-
-SLIP_FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
-SLIP_NEIGHBORHOOD = 0.16  # [s] before and after it that must agree
-SHORT_RUN = 2  # [1] times that, which a run lasts at least
-LONG_RUN = 4  # [1] times that, which tell what is ordinary in a run
-SLIP_REST = 0.2  # [1] of its size that may be left after it, or be otherwise than a slip has it
-# What is over before a mechanism could have answered:
-SLIP_STARTING = 0.3  # [s] of a motion in which a model that lacks something errs by itself
-SLIP_LONGEST = 0.1  # [s] it lasts
-SLIP_SUDDEN = 0.4  # [1] of its size that it comes and goes by from one sample to the next
-SLIP_CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mechanism
-# What is a share of the speed, and comes and goes within a sample:
-SHARP_STARTING = 0.2  # [s] the same: free play is crossed by then
-SHARP_EDGE_EARLY = 0.6  # [1] of it, before which no edge is; one of them is after it
-SHARP_LONGEST = 1.0  # [s] it lasts at most
-SHARP_FEWEST = 3  # samples that it lasts at least, and those after it
-SHARP_SEEN = 4.0  # [robust standard deviations] of its lesser edge
-SHARP_NOISES = 2.0  # [robust standard deviations] of noise at an edge
-SHARP_OTHERS = 4  # [jumps for each slip, its own two among them] with more, something else jumps
-SHARP_SLOW = 1.25  # [1] times a sample must be the time scale of the mechanism then
-"""What pushes brings it to half of its new speed in a sample, and a slip to all of it."""
-
 # Logs that are refused (``input_checks.py``).
 
 FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
@@ -196,11 +173,6 @@ OBEYS_VOLTAGE, LEAST_KS = 0.35, -0.1
 log that is a mechanism's at all: only such a log has a price of a speed that others can be held
 against. Of 512 logs with voltages of other moments none is, of 256 others 254 are."""
 HARDLY_MOVES = 0.03  # [of the first log's top speed] slower than which nothing moves
-
-# Damage that is set aside (``damage_policy.py``).
-
-LONGEST_SLIP = 0.3
-"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
 
 # Voltage drop-outs (``dropout_intervals.py``).
 
