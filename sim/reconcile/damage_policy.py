@@ -1,25 +1,18 @@
 """Decide which detected damage is cut out and which is only reported."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.thresholds import SLIPPED, SPOILT
+from sim.reconcile.thresholds import DAMAGED
 
 FOR_GOOD = ("hard-stop",)
 """Faults after which a run tells nothing more: it leans on a stop."""
 
-OF_THE_RECORD: Mapping[str, float] = {
-    "hard-stop": 0.5,
-    "encoder-slip": SLIPPED,
-    "voltage-dropout": SPOILT,
-    "stuck-sensor": SPOILT,
-    "sign-flip": SPOILT,
-}
-"""Fault -> confidence from which its stretch is cut out before anything is fitted. Others look like
-physics that is missing (a soft joint shakes as a slipping wheel does): the fit decides on them."""
+OF_THE_RECORD = ("encoder-slip", "voltage-dropout", "stuck-sensor", "sign-flip")
+"""Other faults whose intervals are cut out before anything is fitted. What is left looks
+like missing physics (a soft joint shakes as a slipping wheel does), and the fit decides on it."""
 
 WHOLE = ("sign-flip",)
 """Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
@@ -49,8 +42,7 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
     for name, every in damages.items():
         turned = {one.run for one in every if one.fault in WHOLE}
         for one in every:
-            doubtful = one.confidence < OF_THE_RECORD.get(one.fault, math.inf)
-            if doubtful or (one.fault in WHOLE and len(turned) > 1):
+            if not _is_damage_to_record(one) or (one.fault in WHOLE and len(turned) > 1):
                 continue
             if one.run is not None:
                 stretch = ExcludedInterval(one.run, one.start, one.end, one.fault in FOR_GOOD)
@@ -62,3 +54,8 @@ def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDeci
 
 def _confidence(one: DamagedInterval | None) -> float:
     return -1.0 if one is None else one.confidence
+
+
+def _is_damage_to_record(one: DamagedInterval) -> bool:
+    """Whether it is cut out: surely damage, or a stop, beyond which a run says nothing anyway."""
+    return one.fault in FOR_GOOD or (one.fault in OF_THE_RECORD and one.confidence >= DAMAGED)
