@@ -94,8 +94,7 @@ FOUR = "Use a log with the four tests, recorded with another step."
 BESIDE = {
     "of a shooter": (
         replace(session(bench("shooter"), "validation"), units="meters", source="other.csv"),
-        r"other\.csv: a speed takes less than a tenth of the voltage that it takes in drive\.csv\. "
-        + SAME,
+        r"other\.csv: a speed takes none of the voltage that it takes in drive\.csv\. " + SAME,
     ),
     "in an angle": (
         session(bench("turret"), "validation"),

@@ -20,7 +20,7 @@ from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.local_minimum import minimize_fully
 from sim.reconcile.residual_tests.spectrum import (
-    FASTEST_PEAK,
+    FASTEST,
     FEWEST_TURNS,
     SpectralPeak,
     find_spectral_peak,
@@ -89,7 +89,7 @@ def test_a_wave_along_the_way_is_told_as_a_habit_of_places():
 
 def test_runs_that_are_too_short_have_none():
     log = session(seed=4)
-    last = round(0.9 * FEWEST_TURNS / FASTEST_PEAK / 0.02)
+    last = round(0.9 * FEWEST_TURNS / FASTEST / 0.02)
     short = [
         Run(r.test, r.time[:last], r.voltage[:last], r.position[:last], r.velocity[:last])
         for r in log.runs

@@ -23,7 +23,6 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
-from sim.estimation.run_records import ExcludedInterval
 from sim.physics.engine import load_engine
 from sim.reconcile.cross_validation import (
     compute_missed_motion,
@@ -42,7 +41,6 @@ from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.slip_detection import detect_slips
 from sim.reconcile.story import Story
 from sim.reconcile.thresholds import LOST, MAJOR, SEARCH, WANDERS
 from sim.reconcile.verdict import reach_verdict
@@ -100,15 +98,13 @@ def reconcile(
     problem = recordings.make_problem()
     progress("base model", 0.05)
     problem, base = _fit_base_model(problem, recordings)
-    problem, base, slipped = _exclude_slips(problem, base)
     folds = make_folds([one.session for one in problem.records])
     data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
     done = select_effects(data, base)
     cut = time_limit if data.out_of_time() else math.inf
     progress("what remains", 0.9)
     shown = HeldOutLog.choose(recordings)
-    faults = _one_per_fault(slipped, damage.reported)
-    return _make_story(problem, done, shown, faults, cut=cut, per=recordings.unit)
+    return _make_story(problem, done, shown, damage.reported, cut=cut, per=recordings.unit)
 
 
 def _make_story(
@@ -151,29 +147,6 @@ def _make_story(
         compared=shown.compared_samples,
         judged=judged,
     )  # fmt: skip
-
-
-def _exclude_slips(
-    problem: PredictionErrorProblem, base: Estimate
-) -> tuple[PredictionErrorProblem, Estimate, tuple[DamagedInterval, ...]]:
-    """The same without moments at which the encoder slipped, and one of those for the findings."""
-    found = list(detect_slips(problem, base))
-    if not found:
-        return problem, base, ()
-    runs = list(problem.records)
-    for number, one in found:
-        runs[number] = runs[number].exclude_interval(ExcludedInterval(number, one.start, one.end))
-    mended = replace(problem, records=tuple(runs))
-    begin = mended.evaluate(base.structure, base.values, base.nuisance, base.process_noise)
-    return mended, minimize_fully(mended, scan_process_noise(mended, begin)), (found[0][1],)
-
-
-def _one_per_fault(*several: Sequence[DamagedInterval]) -> tuple[DamagedInterval, ...]:
-    """One damage of each fault."""
-    found: dict[str, DamagedInterval] = {}
-    for one in (damage for some in several for damage in some):
-        found.setdefault(one.fault, one)
-    return tuple(found.values())
 
 
 def _fit_base_model(

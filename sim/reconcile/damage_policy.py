@@ -5,20 +5,14 @@ from dataclasses import dataclass, field
 
 from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.thresholds import LONGEST_SLIP, SLIPPED, SPOILT
+from sim.reconcile.thresholds import DAMAGED
 
 FOR_GOOD = ("hard-stop",)
 """Faults after which a run tells nothing more: it leans on a stop."""
 
-OF_THE_RECORD: Mapping[str, float] = {
-    "hard-stop": 0.5,
-    "encoder-slip": SLIPPED,
-    "voltage-dropout": SPOILT,
-    "stuck-sensor": SPOILT,
-    "sign-flip": SPOILT,
-}
-"""Fault -> confidence from which its stretch is cut out before anything is fitted. Others look like
-physics that is missing (a soft joint shakes as a slipping wheel does): the fit decides on them."""
+OF_THE_RECORD = ("encoder-slip", "voltage-dropout", "stuck-sensor", "sign-flip")
+"""Other faults whose intervals are cut out before anything is fitted. What is left looks
+like missing physics (a soft joint shakes as a slipping wheel does), and the fit decides on it."""
 
 WHOLE = ("sign-flip",)
 """Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
@@ -63,7 +57,5 @@ def _confidence(one: DamagedInterval | None) -> float:
 
 
 def _is_damage_to_record(one: DamagedInterval) -> bool:
-    """Whether it is damage to the record beyond doubt, and no physics."""
-    if one.confidence < OF_THE_RECORD.get(one.fault, 2.0):
-        return False
-    return one.fault != "encoder-slip" or one.end - one.start <= LONGEST_SLIP
+    """Whether it is cut out: surely damage, or a stop, beyond which a run says nothing anyway."""
+    return one.fault in FOR_GOOD or (one.fault in OF_THE_RECORD and one.confidence >= DAMAGED)

@@ -12,12 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Run
-from sim.reconcile.thresholds import (
-    DROPOUT_ANSWER,
-    DROPOUT_ANSWERED,
-    DROPOUT_FALLEN,
-    DROPOUT_MEDIAN,
-)
+from sim.reconcile.thresholds import DROPPED, SHORTEST_WINDOW
 
 
 def find_dropout_intervals(
@@ -31,7 +26,7 @@ def find_dropout_intervals(
         end: [s] of the last one's end.
     """
     found = list(_find_falls(run, start=start, end=end))
-    if not found or np.median([_kept_speed(run, *one) for one in found]) > DROPOUT_ANSWERED:
+    if not found or np.median([_kept_speed(run, *one) for one in found]) > DROPPED:
         return ((start, end),)
     return tuple((float(run.time[first]), float(run.time[last])) for first, last in found)
 
@@ -39,7 +34,7 @@ def find_dropout_intervals(
 def _find_falls(run: Run, *, start: float, end: float) -> Iterator[tuple[int, int]]:
     """First and last sample of each fall of the voltage."""
     size = np.abs(run.voltage)
-    low = size < DROPOUT_FALLEN * _running_median(size, float(np.median(np.diff(run.time))))
+    low = size < DROPPED * _running_median(size, float(np.median(np.diff(run.time))))
     places = np.flatnonzero(low & (run.time >= start) & (run.time <= end))
     for group in _join_falls(places):
         yield int(group[0]), int(group[-1])
@@ -47,7 +42,7 @@ def _find_falls(run: Run, *, start: float, end: float) -> Iterator[tuple[int, in
 
 def _running_median(size: Array, period: float) -> Array:
     """(n,) running median."""
-    half = max(round(DROPOUT_MEDIAN / period / 2.0), 2)
+    half = max(round(SHORTEST_WINDOW / period), 2)
     padded = np.pad(size, half, mode="edge")
     return np.asarray(
         np.median(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1), axis=1)
@@ -64,5 +59,5 @@ def _kept_speed(run: Run, first: int, last: int) -> float:
     """[share] of its speed that it has in and after a fall."""
     speed = np.abs(run.velocity)
     before = float(np.median(speed[max(first - 2, 0) : first + 1]))
-    until = int(np.searchsorted(run.time, run.time[last] + DROPOUT_ANSWER)) + 1
+    until = int(np.searchsorted(run.time, run.time[last] + SHORTEST_WINDOW)) + 1
     return float(np.min(speed[first:until])) / before if before > 0.0 else 1.0

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from sim.physics.effects import EFFECTS, find_motion_class
-from sim.reconcile.thresholds import NARROWEST, SIZES
+from sim.reconcile.thresholds import FARTHEST
 
 FILE = Path(__file__).with_name("probability.json")
 
@@ -81,11 +81,12 @@ def compute_log_ratio(with_: float, without: float) -> float:
     """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
-    return math.log(min(max(with_ / without, NARROWEST), 1.0 / NARROWEST))
+    ratio = math.log(with_ / without) if with_ > 0.0 else -FARTHEST
+    return min(max(ratio, -FARTHEST), FARTHEST)
 
 
 def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
-    """Logarithm of an effect's size over the largest ordinary size, clipped to ``SIZES``.
+    """Logarithm of an effect's size over the largest ordinary size, clipped to ``FARTHEST``.
 
     Args:
         effect: its name.
@@ -101,7 +102,7 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
             }
         )
 
-    low, high = SIZES
+    low, high = -FARTHEST, FARTHEST
     if is_ordinary(math.exp(low)):
         return low
     if not is_ordinary(math.exp(high)):

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 from sim.estimation.measurements import RunMeasurements, estimate_noise, measure_runs
+from sim.estimation.run_records import FEWEST
 from sim.gap import GapMap, Residuals, map_gap
-
-FEWEST = 4  # samples of a run that is simulated, as ``make_run_records`` takes them
 
 
 def map_residuals(

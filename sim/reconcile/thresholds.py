@@ -48,10 +48,10 @@ LIKELIER_RIGHT = 0.5
 costs much reads the number. Named only from 5/6 on (a wrong name costs five silences), a quarter of
 the right names of the logs it was learnt on would not be told."""
 
-# What an effect's probability is told by, within bounds beyond which nothing more is told apart.
+FARTHEST = 3.0
+"""[1] Largest logarithm, to both sides, of the ratios from which a probability is computed: a gap
+20 times as wide, or an effect 20 times as large, as another proves no more than that."""
 
-NARROWEST = 0.05  # [1] of a gap over another; and its inverse
-SIZES = (-2.0, 3.0)  # ln of an effect's size [everyday sizes]
 MAJOR = 0.87
 """[1] of the gap before: an effect that shrinks the validation's velocity gap by more is major.
 Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)
@@ -93,9 +93,6 @@ MOST_QUIET = 2
 and shrinks no gap, but what else is there shows better beside it. What comes to less than ``SURER``
 is left out; what is larger than on any robot is added like any other effect."""
 
-SLIPPED = 0.97
-"""[1] confidence above which an encoder's slip is cut out: a start that sticks looks alike."""
-
 LOST = 0.4
 """[1] of the motion on runs it was not fitted to that a model misses: it has not understood the
 log, and what it contains is no finding. The last models of 128 logs with hidden effects miss an
@@ -109,9 +106,6 @@ seconds at most; a heavy flywheel has one."""
 WANDERS = 0.1
 """[top speeds in a second] by which a mechanism is pushed at random at most, where a base model
 would else be nothing but pushes."""
-
-SPOILT = 0.9
-"""[1] the same of other faults of the record."""
 
 TOLD_FIRST = 0.75
 """[1] confidence from which a fault is told before any effect: what seems to lean on a stop (0.7)
@@ -159,78 +153,39 @@ one strays: what resembles two effects at once is far likelier than each of them
 PATHS = 1
 """Other paths that are gone where the first one strays: each takes as long as the first."""
 
-# An encoder that slips (``slip_detection.py``).
+# Of logs and of runs, in all of reconcile.
 
-SLIP_FAR = 10.0  # [robust standard deviations] that a slip's velocity is off at least
-SLIP_NEIGHBORHOOD = 0.16  # [s] before and after it that must agree
-SHORT_RUN = 2  # [1] times that, which a run lasts at least
-LONG_RUN = 4  # [1] times that, which tell what is ordinary in a run
-SLIP_REST = 0.2  # [1] of its size that may be left after it, or be otherwise than a slip has it
-# What is over before a mechanism could have answered:
-SLIP_STARTING = 0.3  # [s] of a motion in which a model that lacks something errs by itself
-SLIP_LONGEST = 0.1  # [s] it lasts
-SLIP_SUDDEN = 0.4  # [1] of its size that it comes and goes by from one sample to the next
-SLIP_CLEARLY = 4.0  # [1] times as long as it lasts must be the time scale of the mechanism
-# What is a share of the speed, and comes and goes within a sample:
-SHARP_STARTING = 0.2  # [s] the same: free play is crossed by then
-SHARP_EDGE_EARLY = 0.6  # [1] of it, before which no edge is; one of them is after it
-SHARP_LONGEST = 1.0  # [s] it lasts at most
-SHARP_FEWEST = 3  # samples that it lasts at least, and those after it
-SHARP_SEEN = 4.0  # [robust standard deviations] of its lesser edge
-SHARP_NOISES = 2.0  # [robust standard deviations] of noise at an edge
-SHARP_OTHERS = 4  # [jumps for each slip, its own two among them] with more, something else jumps
-SHARP_SLOW = 1.25  # [1] times a sample must be the time scale of the mechanism then
-"""What pushes brings it to half of its new speed in a sample, and a slip to all of it."""
+FEWEST_SAMPLES = 20
+"""Fewest samples of a run from which a spread or a rhythm is estimated. A log needs two runs of as
+many: with fewer, every effect of the catalogue fits."""
 
-# Logs that are refused (``input_checks.py``).
+STANDSTILL = 0.02
+"""[of the top speed] A slower mechanism stands, or is about to: static friction holds it as it
+likes, and its speed says nothing about a model."""
 
-FEWEST_RUNS, FEWEST_SAMPLES = 2, 60
-SHORTEST_RUN = 4  # samples of a run that says anything, as ``measure_runs`` takes them
-BEYOND_TRAVEL = 1.1  # [of the travel] that positions may span
-OTHER_VOLTAGES = 1.8
-"""[factor] between what a speed costs in two logs of one mechanism, once the first one's kS, kA and
-gravity are paid. Among 256 pairs it was 0.72 to 1.23, whatever was hidden in them; a foot taken for
-a meter makes it 3.3, a rotation for a radian 6.3."""
-TENTH = 0.1  # [1] a smaller factor is told in words
-OBEYS_VOLTAGE, LEAST_KS = 0.35, -0.1
-"""[of the voltage's size] that a first guess may miss, and [of the largest voltage] friction, of a
-log that is a mechanism's at all: only such a log has a price of a speed that others can be held
-against. Of 512 logs with voltages of other moments none is, of 256 others 254 are."""
-HARDLY_MOVES = 0.03  # [of the first log's top speed] slower than which nothing moves
+CELLS = 24
+"""Parts into which the time of a run, the way, or all speeds are divided. With more, a part holds
+too few samples to stand out of the noise; with fewer, a bump of some centimeters is averaged away.
+"""
 
-# Damage that is set aside (``damage_policy.py``).
+SHORTEST_WINDOW = 0.1
+"""[s] A disturbance that is over sooner is noise or a clock's. Windows of one, two and four times
+this length are searched; a rhythm of which half a turn is shorter is a vibration."""
 
-LONGEST_SLIP = 0.3
-"""[s] of an encoder's slip, which is over in a moment: what takes longer is a start that sticks."""
+OTHER_UNITS = 1.8
+"""[factor] Two logs that differ by more are in different units, or of different mechanisms.
 
-# Voltage drop-outs (``dropout_intervals.py``).
+What a speed costs in volts differs by 0.72 to 1.23 among 256 pairs of logs, whatever effects they
+contain; a foot taken for a meter makes it 3.3, a radian taken for a rotation 6.3."""
 
-DROPOUT_MEDIAN = 0.22  # [s] of voltages whose median is what a sample ought to read
-DROPOUT_FALLEN = 0.75  # [share of that median] below which it has dropped
-DROPOUT_ANSWER = 0.06  # [s] in which a velocity has answered
-DROPOUT_ANSWERED = 0.9  # [share of the speed before] below which it has
+DAMAGED = 0.95
+"""[1] Confidence of an inspection beyond which an interval is damaged and is cut out. On 900
+logs, encoder slips that are true have 0.96 and more, false ones (starts that stick) 0.945 at
+most."""
 
-# Residuals that runs share (``residual_tests/repeatability.py``).
-
-REPEAT_CELLS = 24  # of the way, or of all speeds
-FEWEST_IN_CELL = 2  # samples of a run in a cell
-SHORTEST_ONE_WAY = 20  # samples of a run that goes one way
-HELD_BY_FRICTION = 0.02  # [1] of the top speed, below which friction holds as it likes
-
-# Windows of innovations (``residual_tests/whiteness.py``).
-
-WINDOWS = (0.1, 0.2, 0.4)  # [s]
-STEP_JUMP, SOON_AFTER_STEP = 1.0, 0.15  # [V] of a step, and [s] after it
-FEWEST_WINDOWS = 20  # windows that tell what is ordinary
-LEAST_SPREAD = 1.0  # [1] of what independent innovations add up to
-CLOCK_PART = 0.5  # of a sample, by which a run may be late or early
-
-# Peaks of the spectrum (``residual_tests/spectrum.py``).
-
-FASTEST_PEAK = 5.0  # [Hz] faster is a joint that swings, or a wave along the way
-FEWEST_TURNS = 2.0  # that a run has to last
-PEAK_FINER = 0.5  # [1] of the steps that the longest run can tell apart
-SHORTEST_FOR_PEAK = 20  # samples of a run
+DROPPED = 0.9
+"""[1] A voltage below this share of its median has dropped, and a speed below this share of what it
+was has followed."""
 
 # Earlier effects (``backward_elimination.py``).
 
@@ -243,7 +198,3 @@ SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
 # Prediction of runs (``cross_validation.py``).
 
 MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ
-
-# The held-out log (``held_out.py``).
-
-OTHER_MATTER = 5.0  # [of the gap of fitted runs] from which a held-out log is another matter

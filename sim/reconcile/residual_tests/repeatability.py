@@ -15,14 +15,10 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.reconcile.thresholds import (
-    FEWEST_IN_CELL,
-    HELD_BY_FRICTION,
-    REPEAT_CELLS,
-    SHORTEST_ONE_WAY,
-)
+from sim.reconcile.thresholds import CELLS, FEWEST_SAMPLES, STANDSTILL
 
 POSITION, SPEED = "position", "speed"
+FEWEST_IN_CELL = 2  # samples of a run: one alone may have come there by a moment's noise
 
 
 @dataclass(frozen=True)
@@ -77,7 +73,7 @@ def find_repeated_residual(problem: PredictionErrorProblem, point: Estimate) -> 
     speed, position = track.seen, problem.measured[:, 0]
     position = np.where(np.isnan(position), track.position, position)
     told = ~problem.ignored_readings.all(axis=1)
-    told &= np.abs(speed) > HELD_BY_FRICTION * problem.top_speed
+    told &= np.abs(speed) > STANDSTILL * problem.top_speed
     run = np.repeat(np.arange(len(problem.records)), np.diff(problem.run_edges))
     found = []
     for what, value in ((POSITION, position), (SPEED, speed)):
@@ -105,16 +101,16 @@ def _cells(missed: Array, value: Array, run: NDArray[np.intp]) -> Iterator[_Cell
     What a run misses on the whole is taken off: its own friction is no physics.
     """
     counts = np.bincount(run)
-    long = counts[run] >= SHORTEST_ONE_WAY
+    long = counts[run] >= FEWEST_SAMPLES
     missed, value, run = missed[long], value[long], run[long]
     runs, run = np.unique(run, return_inverse=True)
     if runs.size < 2:  # noqa: PLR2004 - that is a pair
         return
     missed = missed - (np.bincount(run, missed) / np.bincount(run))[run]
-    edges = np.linspace(value.min(), value.max(), REPEAT_CELLS + 1)
-    cell = np.clip(np.searchsorted(edges, value, side="right") - 1, 0, REPEAT_CELLS - 1)
-    shape = (runs.size, REPEAT_CELLS)
-    place, size = run * REPEAT_CELLS + cell, runs.size * REPEAT_CELLS
+    edges = np.linspace(value.min(), value.max(), CELLS + 1)
+    cell = np.clip(np.searchsorted(edges, value, side="right") - 1, 0, CELLS - 1)
+    shape = (runs.size, CELLS)
+    place, size = run * CELLS + cell, runs.size * CELLS
     sums = np.bincount(place, missed, size).reshape(shape)
     samples = np.bincount(place, minlength=size).reshape(shape)
     there = samples >= FEWEST_IN_CELL

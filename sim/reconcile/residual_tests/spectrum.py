@@ -16,7 +16,10 @@ import numpy as np
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import estimate_disturbance
-from sim.reconcile.thresholds import FASTEST_PEAK, FEWEST_TURNS, PEAK_FINER, SHORTEST_FOR_PEAK
+from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW
+
+FEWEST_TURNS = 2.0  # that a run has to last: of fewer, friction of its own makes one
+FASTEST = 0.5 / SHORTEST_WINDOW  # [Hz] faster is a joint that swings, or a wave along the way
 
 
 @dataclass(frozen=True)
@@ -45,7 +48,8 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
         return SpectralPeak()
     mean = squares / sum(push.size for _, push in runs)
     lasts = [float(np.ptp(time)) for time, _ in runs]
-    rates: Array = np.arange(FEWEST_TURNS / max(lasts), FASTEST_PEAK, PEAK_FINER / max(lasts))
+    longest = max(lasts)
+    rates: Array = np.arange(FEWEST_TURNS / longest, FASTEST, 0.5 / longest)
     power, count = np.zeros(rates.size), np.zeros(rates.size)
     for (time, push), lasting in zip(runs, lasts, strict=True):
         told = np.flatnonzero(rates * lasting >= FEWEST_TURNS)
@@ -70,7 +74,7 @@ def _disturbances_by_run(
     ):
         mine = told[first:last]
         push = every[first:last][mine]
-        if push.size >= SHORTEST_FOR_PEAK:
+        if push.size >= FEWEST_SAMPLES:
             yield record.measurements.time[mine], push - np.mean(push)
 
 

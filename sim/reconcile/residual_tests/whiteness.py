@@ -13,15 +13,7 @@ import numpy as np
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
-from sim.estimation.run_records import RunRecord
-from sim.reconcile.thresholds import (
-    CLOCK_PART,
-    FEWEST_WINDOWS,
-    LEAST_SPREAD,
-    SOON_AFTER_STEP,
-    STEP_JUMP,
-    WINDOWS,
-)
+from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW
 
 DELAY, LAG = "delay", "delay.lag"
 
@@ -54,7 +46,7 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
     """
     white = _remove_clock_errors(problem, point)
     moments = []
-    for length in WINDOWS:
+    for length in (SHORTEST_WINDOW, 2.0 * SHORTEST_WINDOW, 4.0 * SHORTEST_WINDOW):
         count = max(round(length / problem.period), 2)
         position, velocity = (_window_sizes(problem, white[:, column], count) for column in (0, 1))
         for record, one in position.items():
@@ -74,14 +66,11 @@ def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> 
     """Which run -> (windows,) their sums, in what is ordinary."""
     sums = {record: one for record, one in _window_sums(problem, white, count) if one.size}
     every = np.concatenate([*sums.values(), np.zeros(0)])
-    if every.size < FEWEST_WINDOWS:
+    if every.size < FEWEST_SAMPLES:
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
-    spread = max(spread, LEAST_SPREAD * count**0.5)
-    return {
-        record: one / (spread * _ordinary_size(problem.records[record])[: one.size])
-        for record, one in sums.items()
-    }
+    spread = max(spread, count**0.5)  # of independent innovations
+    return {record: one / spread for record, one in sums.items()}
 
 
 def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Array:
@@ -93,7 +82,7 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
     delayed = point.structure
     if DELAY not in delayed.effects:
         delayed = delayed + DELAY
-    late = CLOCK_PART * problem.period
+    late = 0.5 * problem.period
     values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
     more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_filter)
     white = point.innovations @ point.whitening.T
@@ -104,19 +93,6 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
         share = -float(column @ rest) / along if along > 0.0 else 0.0
         white[first:last] += min(max(share, -1.0), 1.0) * change[first:last]
     return np.asarray(white)
-
-
-def _ordinary_size(record: RunRecord) -> Array:
-    """(n,) what is ordinary for a window that begins there, in what is ordinary elsewhere.
-
-    Soon after a step of the voltage everything is fast: what happens between two samples, as a
-    battery that gives way and recovers, adds up to twice as much.
-    """
-    time = record.measurements.time
-    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP_JUMP]
-    last = np.searchsorted(jumps, time, side="right") - 1
-    since = time - np.concatenate((jumps, [-np.inf]))[last]
-    return np.where(since <= SOON_AFTER_STEP, 2.0, 1.0)
 
 
 def _window_sums(
