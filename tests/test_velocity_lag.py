@@ -9,8 +9,8 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.log import Run
-from sim.estimation.velocity_lag import estimate_velocity_lag
 from sim.inspect.detect_faults import inspect
+from sim.physics.velocity_lag import estimate_velocity_lag
 
 GENTLE = Routine(ramp=0.5, step=3.5)
 

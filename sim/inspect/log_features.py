@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
-from sim.estimation.velocity_lag import VelocityLag, estimate_velocity_lag
 from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
+from sim.physics.velocity_lag import VelocityLag, estimate_velocity_lag
 
 STANDING = 0.03  # [share of the log's top speed] slower samples stand, as far as gains go
 WHITE, NORMAL = 20.0**0.5, 0.6745  # third differences of white noise; a normal median of |x|

@@ -23,8 +23,8 @@ from sim.reconcile.local_minimum import (
     Begun,
     compute_total_cost,
     minimize,
+    minimize_fully,
     rate_starts,
-    scan_process_noise,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
 from sim.reconcile.two_body_starts import TwoBodyStarts
@@ -123,7 +123,8 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
     """The local minimum near the start of a candidate; a failed search is begun anew.
 
     A candidate contains the model without it, so at its minimum it cannot be less likely. Where it
-    is, the process noise of that model was far too large for it, and is searched first.
+    is, its start had another process noise than that model, and the search begins anew from that
+    of the model.
 
     Args:
         problem: the measurements.
@@ -133,8 +134,8 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
     found = minimize(problem, start)
     if found.cost <= point.cost or _ends_in_two_bodies(start):
         return found
-    again = minimize(problem, scan_process_noise(problem, start))
-    return min(found, again, key=lambda one: one.cost)
+    noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
+    return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
 
 
 def descend_candidate(

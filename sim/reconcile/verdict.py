@@ -47,20 +47,20 @@ def reach_verdict(
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
     mostly = effects and strays > STRAYS and gap > MOSTLY * before
-    seen = gap > FAR_OFF_SPEED * problem.top_speed
-    far_off = strays > FAR_OFF and seen
-    # effects of the last model that are not named explain nothing
-    if (
-        mostly
-        or far_off
-        or (remains and not majors and count_noise_floors(before, problem) > FAR_OFF)
-    ):
+    told = gap if majors else before  # effects of the last model that are not named explain nothing
+    if mostly or (remains and _is_seen(told, problem)):
         return UNEXPLAINED, True, remains
     if not majors:
         return NOTHING_MISSING, bool(remains), remains
     if any(one.ambiguous_with for one in majors):
         return AMBIGUOUS, bool(remains), remains
     return EXPLAINED, bool(remains), remains
+
+
+def _is_seen(gap: float, problem: PredictionErrorProblem) -> bool:
+    """Whether a person sees two curves apart that differ by a gap [unit/s], beside the noise."""
+    wide = gap > FAR_OFF_SPEED * problem.top_speed
+    return wide and count_noise_floors(gap, problem) > FAR_OFF
 
 
 def _describe_cut(limit: float) -> str:

@@ -8,10 +8,9 @@ The position is not filtered, so the two can be compared. Lag: half of the windo
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
 from sim.core.log import Array
 from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.velocity_lag import estimate_velocity_lag
 from sim.physics.voltage_residual import VoltageResidual
 
 
@@ -44,17 +43,10 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the lag of velocity behind the slope of position, and three more."""
-    lags = []
-    for run in seen.log.runs:
-        if len(run) < 8:  # noqa: PLR2004 - too short to compare
-            continue
-        slope = np.gradient(run.position, run.time)
-        change = np.gradient(run.velocity, run.time)
-        if float(change @ change) > 0.0:
-            lags.append(float(change @ (slope - run.velocity)) / float(change @ change))
-    if lags:
-        yield {"window": float(np.clip(2.0 * np.median(lags), 0.01, 0.5))}
+    """Start values: twice the lag of the velocity behind the position, and three more."""
+    found = estimate_velocity_lag(seen.log.runs)
+    if found is not None and found.lag > 0.0:
+        yield {"window": 2.0 * found.lag}
     for window in (0.03, 0.08, 0.2):
         yield {"window": window}
 
