@@ -21,12 +21,10 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.effect import ONSET, UNTIL, Effect
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
+from sim.reconcile.search_effort import HALVINGS
+from sim.reconcile.thresholds import CELLS
 
-PARTS = 24  # moments of a run that are tried
-NEARER, LOOKS = 4, 2  # moments between two of these, and how often they are taken closer
-HALVINGS = 5  # of a sample, in a last look around
-NEXT, ECHO, LONGEST = 1, 3.0, 50  # [samples] about a knock; [timescales], [samples] it is heard
-EARLY = 0.25  # [samples] after the last one before it: a search looks around from there
+ECHO = 50  # [samples] in which a knock is heard
 SHOWN = 2  # moments of each kind that are worth a start
 PROBE = 0.1  # [1] of kA: so little that what it does is in proportion
 LEAST, MOST = -0.8, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
@@ -197,7 +195,7 @@ class _Scan:
         """
         every = range(len(self.problem.records))
         knocks = any(kind.values())
-        shares = [0.0] if knocks else [0.0, *((n + 0.5) / PARTS for n in range(PARTS))]
+        shares = [0.0] if knocks else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
         table = [self._sums(kind, share, every) for share in shares]
         later = _Sums(0.0, 0.0, np.zeros(self.kept.shape[1]))
         for run in reversed(every):
@@ -217,10 +215,10 @@ class _Scan:
 
     def refine(self, one: _Moment) -> _Moment:
         """The same, at the likeliest moment around."""
-        step = 1.0 / PARTS
-        for _ in range(LOOKS if one.share else 0):
-            step /= NEARER
-            shares = (one.share + by * step for by in range(1 - NEARER, NEARER) if by)
+        step = 1.0 / CELLS
+        for _ in range(HALVINGS if one.share else 0):
+            step *= 0.5
+            shares = (one.share - step, one.share + step)
             tried = [
                 replace(one, share=share, here=self._sums(one.kind, share, (one.run,))[0])
                 for share in shares
@@ -252,9 +250,9 @@ class _Scan:
         left = np.minimum(np.arange(len(rest), 0, -1), len(echo))
         lost = -np.asarray(heard) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
         time = self.problem.records[run].measurements.time
-        within = time[:-1] + EARLY * np.diff(time) - time[0]
+        within = 0.5 * (time[:-1] + time[1:]) - time[0]
         place = int(np.argmax(lost[1:]))
-        near = within[max(place - NEXT, 0) : place + NEXT + 1] / self.lasts[run]
+        near = within[max(place - 1, 0) : place + 2] / self.lasts[run]
         return [float(one) for one in near]
 
     @cached_property
@@ -266,7 +264,7 @@ class _Scan:
             np.eye(2) - self.point.kalman_filter.steady
         )
         off, heard = np.array([0.0, 1.0]), []
-        for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
+        for _ in range(ECHO):
             heard.append(off)
             off = step @ off
         return self.problem.whiten(self.point, np.array(heard)).reshape(-1, 2)
