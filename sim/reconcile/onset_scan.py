@@ -18,7 +18,7 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import JointJacobian
 from sim.estimation.run_nuisance import RunNuisance
-from sim.physics.effect import ONSET, UNTIL, Effect
+from sim.physics.effect import LATER, MOMENT, ONSET, UNTIL, Effect
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 from sim.reconcile.search_effort import HALVINGS
@@ -27,11 +27,8 @@ from sim.reconcile.thresholds import CELLS
 ECHO = 50  # [samples] in which a knock is heard
 SHOWN = 2  # moments of each kind that are worth a start
 PROBE = 0.1  # [1] of kA: so little that what it does is in proportion
-LEAST, MOST = -0.8, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
+LEAST, MOST = -0.5, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
 HARDLY = 1e-9  # [1] of what it does is no matter of gains and starts
-CLOCK = 1e4  # [s] at which it happens in every run while moments are tried: longer than any run
-LATER = 1e6  # [s] after any log
-MOMENT = 1e-6  # [s] so that the last sample is in
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,9 +272,10 @@ class _Scan:
     def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
         """What it changes from that share of each of these runs on, to its end."""
         some, nuisance = self._isolate_runs(tuple(runs))
-        clocks = CLOCK - share * np.array([self.lasts[run] for run in runs])
+        moment = max(self.lasts)  # on the clocks of all runs at once
+        clocks = moment - share * np.array([self.lasts[run] for run in runs])
         size = PROBE * self.ka
-        given = {**self._fit_size(size), **kind, ONSET: CLOCK, UNTIL: LATER}
+        given = {**self._fit_size(size), **kind, ONSET: moment, UNTIL: LATER}
         model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
             model += Part(self.effect.name, given)
