@@ -21,6 +21,8 @@ from sim.physics.voltage_residual import VoltageResidual
 
 KINDS = ("term", "path", "sense", "two-body")
 ONSET, UNTIL = "onset", "until"  # parameters of what happens once
+LATER = 1e6  # [s] after any log: until then lasts what never ends
+MOMENT = 1e-6  # [s] after a run, so that its last sample is in
 
 HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     # a term: volts that the motor must pay on top of kS, kV and kA

@@ -39,6 +39,7 @@ from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.search_effort import STEPS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Story
@@ -197,5 +198,5 @@ def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> E
     )
     return minimize_fully(
         problem,
-        scan_process_noise(problem, levenberg_marquardt(problem, begin, steps=8, enough=1.0)),
+        scan_process_noise(problem, levenberg_marquardt(problem, begin, steps=STEPS, enough=1.0)),
     )

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
-from sim.estimation.random_friction import LEAST_KS
+from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
-from sim.reconcile.thresholds import LEAST_FLOOR, MOST_VARIED
+from sim.reconcile.search_effort import STEPS
+from sim.reconcile.thresholds import LEAST_FLOOR
 
-REFIT = 4  # steps
-EASED = (-1.0, -2 / 3, -1 / 3, 0.0, 1 / 3, 2 / 3, 1.0)
-"""[1] of the most that friction varies."""
+EASED = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
+"""[standard deviations] of a run's own friction that are tried."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def compute_validation_gap(
             point.nuisance.select_runs(part.fitted),
             point.process_noise,
         )
-        found = levenberg_marquardt(fitted, begin, steps=REFIT)
+        found = levenberg_marquardt(fitted, begin, steps=STEPS // 2)
         nuisance = point.nuisance.select_runs(part.predicted).with_common_friction
         errors.append(
             compute_open_loop_errors(
@@ -131,19 +131,21 @@ def _with_run_friction(
     and what that changes is in no proportion to it. Between those that are tried, each run's
     likeliest is where a parabola is lowest.
     """
-    most = MOST_VARIED * max(point.values["kS"], LEAST_KS)
+    deviation = get_friction_sd(point.values)
     model, runs = point.structure.model(point.values), len(problem.records)
 
     def missed(rubs: Array) -> Array:
         other = problem.simulate(model, nuisance.add_friction(rubs)) if rubs.any() else track
         return _open_loop_errors(problem, other)
 
-    every = np.stack([missed(np.full(runs, share * most)) for share in EASED])  # (shares, n, 2)
+    every = np.stack(
+        [missed(np.full(runs, share * deviation)) for share in EASED]
+    )  # (shares, n, 2)
     costs = _costs_by_share(problem, every, moves)
     best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     aside = find_parabola_minima(less, here, more)
-    between = missed((np.array(EASED)[best] + (EASED[1] - EASED[0]) * aside) * most)
+    between = missed((np.array(EASED)[best] + aside) * deviation)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs_by_share(problem, every, moves), axis=0)
     return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(moves))])

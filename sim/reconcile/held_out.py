@@ -18,12 +18,12 @@ from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.cross_validation import compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_map import map_residuals
+from sim.reconcile.search_effort import ROUNDS
 from sim.reconcile.selection_round import SelectionRound, choose_reported_estimate
 from sim.reconcile.story import Chapter
 from sim.reconcile.thresholds import FAR_OFF
 
 TOLD = 5  # places
-LOOKS = 3  # at where in its free play a run began, each nearer
 HOW: Mapping[str, str] = {
     "held_out": "The gap is shown on the held-out log, which was not used for any fit.",
     "validation": (
@@ -145,7 +145,7 @@ class HeldOutLog:
         """How its runs begin: where they were first seen, and where in free play they say."""
         seen = RunNuisance.at_first_samples(len(self.problem.records))
         here = self.problem.evaluate(point.structure, point.values, seen, point.process_noise)
-        for _ in range(LOOKS):
+        for _ in range(ROUNDS):
             here = estimate_backlash_phase(self.problem, here)
         return here.nuisance
 

@@ -18,22 +18,17 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import JointJacobian
 from sim.estimation.run_nuisance import RunNuisance
-from sim.physics.effect import ONSET, UNTIL, Effect
+from sim.physics.effect import LATER, MOMENT, ONSET, UNTIL, Effect
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
+from sim.reconcile.search_effort import HALVINGS
+from sim.reconcile.thresholds import CELLS
 
-PARTS = 24  # moments of a run that are tried
-NEARER, LOOKS = 4, 2  # moments between two of these, and how often they are taken closer
-HALVINGS = 5  # of a sample, in a last look around
-NEXT, ECHO, LONGEST = 1, 3.0, 50  # [samples] about a knock; [timescales], [samples] it is heard
-EARLY = 0.25  # [samples] after the last one before it: a search looks around from there
+ECHO = 50  # [samples] in which a knock is heard
 SHOWN = 2  # moments of each kind that are worth a start
 PROBE = 0.1  # [1] of kA: so little that what it does is in proportion
-LEAST, MOST = -0.8, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
+LEAST, MOST = -0.5, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
 HARDLY = 1e-9  # [1] of what it does is no matter of gains and starts
-CLOCK = 1e4  # [s] at which it happens in every run while moments are tried: longer than any run
-LATER = 1e6  # [s] after any log
-MOMENT = 1e-6  # [s] so that the last sample is in
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,7 +192,7 @@ class _Scan:
         """
         every = range(len(self.problem.records))
         knocks = any(kind.values())
-        shares = [0.0] if knocks else [0.0, *((n + 0.5) / PARTS for n in range(PARTS))]
+        shares = [0.0] if knocks else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
         table = [self._sums(kind, share, every) for share in shares]
         later = _Sums(0.0, 0.0, np.zeros(self.kept.shape[1]))
         for run in reversed(every):
@@ -217,10 +212,10 @@ class _Scan:
 
     def refine(self, one: _Moment) -> _Moment:
         """The same, at the likeliest moment around."""
-        step = 1.0 / PARTS
-        for _ in range(LOOKS if one.share else 0):
-            step /= NEARER
-            shares = (one.share + by * step for by in range(1 - NEARER, NEARER) if by)
+        step = 1.0 / CELLS
+        for _ in range(HALVINGS if one.share else 0):
+            step *= 0.5
+            shares = (one.share - step, one.share + step)
             tried = [
                 replace(one, share=share, here=self._sums(one.kind, share, (one.run,))[0])
                 for share in shares
@@ -252,9 +247,9 @@ class _Scan:
         left = np.minimum(np.arange(len(rest), 0, -1), len(echo))
         lost = -np.asarray(heard) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
         time = self.problem.records[run].measurements.time
-        within = time[:-1] + EARLY * np.diff(time) - time[0]
+        within = 0.5 * (time[:-1] + time[1:]) - time[0]
         place = int(np.argmax(lost[1:]))
-        near = within[max(place - NEXT, 0) : place + NEXT + 1] / self.lasts[run]
+        near = within[max(place - 1, 0) : place + 2] / self.lasts[run]
         return [float(one) for one in near]
 
     @cached_property
@@ -266,7 +261,7 @@ class _Scan:
             np.eye(2) - self.point.kalman_filter.steady
         )
         off, heard = np.array([0.0, 1.0]), []
-        for _ in range(min(max(math.ceil(ECHO / (rate * dt)), 4), LONGEST)):
+        for _ in range(ECHO):
             heard.append(off)
             off = step @ off
         return self.problem.whiten(self.point, np.array(heard)).reshape(-1, 2)
@@ -277,9 +272,10 @@ class _Scan:
     def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
         """What it changes from that share of each of these runs on, to its end."""
         some, nuisance = self._isolate_runs(tuple(runs))
-        clocks = CLOCK - share * np.array([self.lasts[run] for run in runs])
+        moment = max(self.lasts)  # on the clocks of all runs at once
+        clocks = moment - share * np.array([self.lasts[run] for run in runs])
         size = PROBE * self.ka
-        given = {**self._fit_size(size), **kind, ONSET: CLOCK, UNTIL: LATER}
+        given = {**self._fit_size(size), **kind, ONSET: moment, UNTIL: LATER}
         model = self.point.structure.model(self.point.values)
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
             model += Part(self.effect.name, given)

@@ -13,13 +13,10 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
+from sim.reconcile.thresholds import NOT_WIDER, PROBABLY, STRAYS
 
-SHRINKS = 0.995  # [of the gap before] a gap after that is no less has not shrunk
-CLOSE = 1.3  # [noise floors] a gap beyond it is not noise alone
 HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` does
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
-PROBABLY = 5.0 / 6.0  # [1] a wrong name costs five silences: what is less likely is told as a guess
-ALMOST_SURE = 0.99  # [1] beyond it no probability is known any better
 
 
 def write_headline(story: Story) -> str:
@@ -62,7 +59,7 @@ def list_effect_names(story: Story, size: str) -> list[str]:
 
 def is_gap_narrower(before: float, after: float) -> bool:
     """Whether a gap is narrower than it was."""
-    return after < SHRINKS * before
+    return NOT_WIDER * after < before
 
 
 def format_gap(gap: float, story: Story) -> str:
@@ -81,9 +78,8 @@ def describe_size(one: Finding) -> str:
     """The size of a finding and its probability: ``major, 93 % likely``."""
     if one.kind == FAULT:
         return "damage to the log"
-    if one.probability > ALMOST_SURE:
-        return f"{one.size}, over 99 % likely"
-    return f"{one.size}, {100.0 * one.probability:.0f} % likely"
+    share = f"{one.probability:.0%}".replace("%", " %")
+    return f"{one.size}, {'over 99 %' if share == '100 %' else share} likely"
 
 
 def describe_parameter(effect: str, parameter: str) -> str:
@@ -101,7 +97,7 @@ def format_estimate(one: ParameterEstimate) -> tuple[str, str]:
         return _minus(f"{one.value:#.5g}".rstrip(".")), f"< {HARDLY:.2%} of it"
     size = max(abs(one.value), one.error)
     digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(one.error))
-    return _minus(f"{one.value:#.{min(max(digits + 1, 2), 6)}g}".rstrip(".")), f"{one.error:.2g}"
+    return _minus(f"{one.value:#.{max(digits + 1, 2)}g}".rstrip(".")), f"{one.error:.2g}"
 
 
 def format_parameter(name: str, one: ParameterEstimate) -> str:
@@ -144,7 +140,7 @@ def _nothing(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
     little = f", only a little {_listed(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
-    if last > CLOSE:
+    if last > STRAYS:
         small = f" (a little: {_listed(minor)})" if minor else ""
         return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
     big = " big" if minor or story.remainder else ""

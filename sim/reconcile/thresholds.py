@@ -48,6 +48,10 @@ LIKELIER_RIGHT = 0.5
 costs much reads the number. Named only from 5/6 on (a wrong name costs five silences), a quarter of
 the right names of the logs it was learnt on would not be told."""
 
+PROBABLY = 0.83
+"""[1] Probability below which a finding is told with "probably": a wrong name costs a user as much
+as five effects that are not named."""
+
 FARTHEST = 3.0
 """[1] Largest logarithm, to both sides, of the ratios from which a probability is computed: a gap
 20 times as wide, or an effect 20 times as large, as another proves no more than that."""
@@ -194,7 +198,3 @@ LOOKED_ALIKE = 0.3  # [of the best score in its round] from which an effect look
 # Repetitions (``forward_selection.py``).
 
 SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
-
-# Prediction of runs (``cross_validation.py``).
-
-MOST_VARIED = 0.12  # [of kS] by which a run's friction may differ

@@ -11,15 +11,13 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from sim.physics.effect import Effect, Parameter, Scale
+from sim.physics.effect import LATER, MOMENT, Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual, list_run_start_times
 
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
 PARTS = 12  # moments of a run that are tried
 SHOWN = 2  # of them that are worth a start
 MOST = 2  # starts of the whole log that are
-MOMENT = 1e-6  # [s] so that the last sample is in
-LATER = 1e6  # [s] after any log
 FEWEST = 20  # samples of a run that tell which change of velocity is usual
 SHARPEST = 4  # of them: breaking away is as sharp
 SHARP, LEFT = 6.0, 0.3  # [robust standard deviations] of a drop beyond it; [1] of the speed left
