@@ -72,7 +72,7 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
         ((2.0, 1.6), [DRAG], "explained", False),  # next to nothing
         ((40.0,), [SLIP], "explained", True),  # damage narrows no gap
         ((40.0, 30.0), [SLIP, DRAG], "unexplained", True),
-        ((40.0,), [], "unexplained", True),
+        ((60.0,), [], "unexplained", True),
     ],
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
@@ -87,7 +87,7 @@ def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, 
 @pytest.mark.parametrize(
     ("gap", "score", "verdict", "remainder"),
     [
-        (20.0, 1983.0, "unexplained", True),
+        (60.0, 1983.0, "unexplained", True),
         (2.0, 1983.0, "nothing-missing", True),
         (2.0, 90.0, "nothing-missing", False),
     ],
