@@ -20,7 +20,7 @@ from sim.reconcile.model_selection import (
 )
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import CLOSE, LOOKED_ALIKE, ONCE, SIMPLER, SURER
+from sim.reconcile.thresholds import CLOSE, HALF, ONCE, SURER
 
 
 def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
@@ -82,7 +82,7 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
         gap = compute_validation_gap(problem, found.estimate, data.folds)
-        as_good = found.score - last.candidate.score <= SIMPLER
+        as_good = found.score - last.candidate.score <= CLOSE
         if as_good and explain_rejection(gap, last.gap, SURER) != WIDENS:
             done = _replace_one(done, place, found, gap)
     return done
@@ -94,7 +94,7 @@ def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
     had = {one.candidate.effect for one in done}
     tried = done[place - 1].tried
     best = max((one.score for one in tried), default=0.0)
-    alike = [one.effect for one in tried if one.score > LOOKED_ALIKE * best]
+    alike = [one.effect for one in tried if one.score > HALF * best]
     return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
 
 

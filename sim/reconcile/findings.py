@@ -30,13 +30,12 @@ from sim.reconcile.story import Chapter, Finding, ParameterEstimate
 from sim.reconcile.thresholds import (
     AFTER,
     FAR_MAJOR,
+    FAR_OFF,
     KNOCK,
     LIKELIER_RIGHT,
     LOST,
     MAJOR,
     NARROWER,
-    SHOWN_WIDER,
-    STRAYS,
     TOLD_FIRST,
 )
 
@@ -78,7 +77,7 @@ def make_findings(
     faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
     judged = judge_effects(problem, done, left, damaged=bool(damages))
     noises = count_noise_floors(done[-1].gap.velocity, problem)
-    far = noises > STRAYS or left.has_structure
+    far = noises > FAR_OFF or left.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
     told = {one.effect: one for one in judged if one.probability >= LIKELIER_RIGHT}
     effects = [
@@ -88,7 +87,7 @@ def make_findings(
     ]
     if not held_out:
         effects = [_demote_unseen(one) for one in effects]
-        effects = [one for one in effects if not one.gap_after > SHOWN_WIDER * one.gap_before]
+        effects = [one for one in effects if not NARROWER * one.gap_after > one.gap_before]
     if any(one.size == "major" for one in effects):
         rounds = {one.candidate.effect: one for one in done[1:]}
         effects = [

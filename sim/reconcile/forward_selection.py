@@ -27,25 +27,22 @@ from sim.reconcile.model_selection import (
     weigh_candidates,
 )
 from sim.reconcile.onset_scan import flip_duration, refine_onset
+from sim.reconcile.search_effort import ROUNDS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.thresholds import (
     CLOSE,
     FAR_MAJOR,
+    FAR_OFF,
+    HALF,
     LOST,
     MAJOR,
     MOST,
     MOST_QUIET,
     NARROWER,
-    NEAR,
-    PART,
-    PATHS,
-    SECOND_THOUGHTS,
-    STRAYS,
     SURE,
     SURER,
     UNDRIVEN,
-    USUAL,
 )
 
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
@@ -70,7 +67,7 @@ def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
 
 def _continue_search(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The same, gone on until nothing is to be added and no earlier effect gives way."""
-    for _ in range(SECOND_THOUGHTS + 1):
+    for _ in range(ROUNDS):
         done = _add_effects(data, done)
         thought = replace_effects(data, done) if len(done) > 2 else done  # noqa: PLR2004 - two effects may have masked another
         if thought is done:
@@ -114,9 +111,9 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
 def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
     best, problem = done, data.problem
-    if len(done) == 1 or count_noise_floors(done[-1].gap.velocity, problem) <= STRAYS:
+    if len(done) == 1 or count_noise_floors(done[-1].gap.velocity, problem) <= FAR_OFF:
         return best
-    for place, other in list_alternative_paths(done, lost=_is_dead_end(problem, done))[:PATHS]:
+    for place, other in list_alternative_paths(done, lost=_is_dead_end(problem, done))[:1]:
         path = [*done[: place + 1], _next_round(done[place], other)]
         path = _continue_search(_on_another_path(data), path)
         likelier = compare_scores(best[-1].candidate, path[-1].candidate) >= CLOSE
@@ -143,7 +140,7 @@ def list_alternative_paths(
         had = {before.candidate.effect for before in done[: place + 1]}
         admitted = [other for other in one.candidates if other.report.admitted]
         top = max((other.report.score for other in admitted), default=0.0)
-        near = [other for other in admitted if other.report.score >= NEAR * top]
+        near = [other for other in admitted if other.report.score >= HALF * top]
         near.sort(key=lambda other: other.report.gap if lost else -other.report.score)
         for other in near:
             names = frozenset({*had, other.candidate.effect})
@@ -164,7 +161,7 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
         admitted, quiet = select_admissible(weighed, most=MOST_QUIET - now.nuisance_effects)
-        if quiet and not any(one.report.score > PART * quiet[0].report.score for one in admitted):
+        if quiet and not any(one.report.score > HALF * quiet[0].report.score for one in admitted):
             one = quiet[0]
             if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
                 done[-1] = _add_nuisance_effect(now, one)
@@ -218,7 +215,7 @@ def select_admissible(
         for one in every
         if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
-    if usual and usual[0].report.score >= USUAL * every[0].report.score:
+    if usual and usual[0].report.score >= HALF * every[0].report.score:
         admitted = [one for one in admitted if one is usual[0]]
         quiet = [one for one in quiet if one is usual[0]]
     return admitted, quiet

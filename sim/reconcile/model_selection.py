@@ -9,18 +9,7 @@ from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
-from sim.reconcile.thresholds import (
-    AS_GOOD,
-    CLOSE,
-    HALF,
-    MUCH_NARROWER,
-    NARROWER,
-    NOT_WIDER,
-    ONCE,
-    SIMPLER,
-    SURE,
-    SURER,
-)
+from sim.reconcile.thresholds import CLOSE, FAR_MAJOR, HALF, NARROWER, ONCE, SURE, SURER
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
@@ -65,7 +54,7 @@ def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
         return WIDENS
     velocity = gap.velocity / max(before.velocity, TINY)
     position = gap.position / max(before.position, TINY)
-    if velocity > NOT_WIDER and (velocity * position) ** 0.5 > NOT_WIDER:
+    if min(velocity, (velocity * position) ** 0.5) * NARROWER > 1.0:
         return WIDENS
     if velocity > NARROWER and ((velocity * position) ** 0.5 > NARROWER or score < SURER):
         return HARDLY
@@ -85,7 +74,7 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
         admitted, best = lasting, lasting[0]
     closer = [one for one in admitted if one.report.score > HALF * best.report.score]
     closest = min(closer, key=lambda one: one.report.gap)
-    if closest.report.gap < MUCH_NARROWER * best.report.gap:
+    if closest.report.gap < FAR_MAJOR * best.report.gap:
         best = closest
     top = best.report.score
     admitted = [one for one in admitted if one.report.score <= top]
@@ -93,8 +82,8 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     near = [
         one
         for one in admitted
-        if top - one.report.score <= SIMPLER
-        or (one.candidate.effect == simpler and one.report.score > AS_GOOD * top)
+        if top - one.report.score <= CLOSE
+        or (one.candidate.effect == simpler and one.report.score > NARROWER * top)
     ]
     fewest = min(one.candidate.estimate.structure.free_count for one in near)
     near = [one for one in near if one.candidate.estimate.structure.free_count == fewest]
@@ -157,4 +146,4 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
 def compare_scores(now: Candidate, other: Candidate) -> float:
     """Decrease of -2 log L from one model to another, fewer parameters counted in."""
     fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
-    return now.score - other.score + (SIMPLER + CLOSE if fewer > 0 else 0.0)
+    return now.score - other.score + (2.0 * CLOSE if fewer > 0 else 0.0)

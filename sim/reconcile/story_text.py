@@ -13,7 +13,7 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
-from sim.reconcile.thresholds import NOT_WIDER, PROBABLY, STRAYS
+from sim.reconcile.thresholds import FAR_OFF, NARROWER, PROBABLY
 
 HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` does
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
@@ -59,7 +59,7 @@ def list_effect_names(story: Story, size: str) -> list[str]:
 
 def is_gap_narrower(before: float, after: float) -> bool:
     """Whether a gap is narrower than it was."""
-    return NOT_WIDER * after < before
+    return after < NARROWER * before
 
 
 def format_gap(gap: float, story: Story) -> str:
@@ -140,7 +140,7 @@ def _nothing(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
     little = f", only a little {_listed(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
-    if last > STRAYS:
+    if last > FAR_OFF:
         small = f" (a little: {_listed(minor)})" if minor else ""
         return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
     big = " big" if minor or story.remainder else ""

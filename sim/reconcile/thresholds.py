@@ -14,10 +14,6 @@ SURER = 60.0
 What is everyday on a robot (a little sag, a little more friction at a start) adds up to half of it
 in disguise, and being silent harms less than a wrong name."""
 
-MUCH_NARROWER = 0.6
-"""[1] of the likeliest effect's gap, from which another one is taken, if it has ``HALF`` of its
-score: what a simulation of other runs says is as good as what the next sample does."""
-
 HALF = 0.5
 """[1] of the likeliest effect's score: with less, what closes the gap resembles what is missing."""
 
@@ -35,13 +31,6 @@ Whether it narrows the gap of runs that know nothing of it is not asked.
 KNOCK, AFTER = 2.0, 0.5
 """[samples], [s] after the moment at which something is said to happen: if what the last model
 explains least begins between them, that was something else."""
-
-NOT_WIDER = 1.005
-"""[1] the same of a gap that must not grow: half a percent is what another start changes."""
-
-SHOWN_WIDER = 1.05
-"""[1] of the shown log's gap without an effect, beyond which it is not named: friction that
-differs from run to run changes that gap by some percent."""
 
 LIKELIER_RIGHT = 0.5
 """[1] probability from which an effect is a finding. Each is told with its own: whom a wrong name
@@ -69,28 +58,12 @@ away."""
 CLOSE = 10.0
 """[of -2 log L] within which another effect explains as much: odds below 150 to one."""
 
-SIMPLER = 8.0
-"""[of -2 log L] within which the effect with fewer parameters is taken."""
-
-AS_GOOD = 0.97
-"""[1] of the score of an effect, with which its simpler sister is taken in its place: the rest is
-what a spring or a cosine makes of drift and of what else is missing."""
-
 SEARCH = 0.7
 """[1] of a time limit after which no further effect is tried: the model so far is refitted without
 each of its effects, to say what each is worth."""
 
 MOST = 4
 """Effects that are added at most: with more, anything can be explained."""
-
-PART = 0.5
-"""[1] of the score of an effect that stays quiet, which an admitted one needs to go before it."""
-
-USUAL = 0.5
-"""[1] of the likeliest one's score, with which an effect of everyday size goes before it.
-
-A limit of the current comes to 491 where a late command does to 357 and a weak battery to 283: with
-the command taken first the battery is 265 ahead of the limit."""
 
 MOST_QUIET = 2
 """Effects that are kept in the model without being named: a delay of 2 ms makes a log much likelier
@@ -126,12 +99,6 @@ LEAST_FLOOR = 0.003
 from run to run, and a velocity that a device averages has hardly any noise. None of the logs that
 the probability is learnt from has less noise than that."""
 
-STRAYS = 2.5
-"""[noises of a velocity] of the gap that the last model leaves on runs it was not fitted to.
-
-A complete model of an arm, whose runs end where small errors of friction have added up, leaves two.
-"""
-
 ALIKE = 6.0
 """[standard deviations of chance] by which runs that go the same way miss alike: beyond it physics
 is missing. Last models of 42 complete logs with everyday dirt in half came to 3.6 at most, of logs
@@ -142,20 +109,9 @@ RHYTHM = 100.0
 here, last models came to 80 at most where nothing swung (complete ones to 45), and to 150 and more
 where something did."""
 
-MOSTLY = 0.5
-"""[1] of the base model's gap: where the last model strays and leaves more than that of it, what
-was named is not what is missing, and the verdict is that nothing explains it."""
-
 FAR_OFF, FAR_OFF_SPEED = 3.0, 0.03
 """[noises of a velocity], [of the top speed] of the gap that the last model leaves: beyond both,
 a person sees the curves apart, and the log is not explained, whatever was named."""
-
-NEAR = 0.25
-"""[1] of the best score of its round, from which an effect may begin another path where the first
-one strays: what resembles two effects at once is far likelier than each of them alone."""
-
-PATHS = 1
-"""Other paths that are gone where the first one strays: each takes as long as the first."""
 
 # Of logs and of runs, in all of reconcile.
 
@@ -190,11 +146,3 @@ most."""
 DROPPED = 0.9
 """[1] A voltage below this share of its median has dropped, and a speed below this share of what it
 was has followed."""
-
-# Earlier effects (``backward_elimination.py``).
-
-LOOKED_ALIKE = 0.3  # [of the best score in its round] from which an effect looked alike
-
-# Repetitions (``forward_selection.py``).
-
-SECOND_THOUGHTS = 2  # times that an earlier effect may give way to another
