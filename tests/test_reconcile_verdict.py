@@ -17,7 +17,7 @@ from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
-from sim.reconcile.cross_validation import Gap
+from sim.reconcile.cross_validation import Gap, count_noise_floors
 from sim.reconcile.findings import judge_effects, list_remarks, make_findings
 from sim.reconcile.model_selection import WIDENS
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
@@ -321,3 +321,15 @@ def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
     assert "inertia-change" in said
     assert ("not named" in said) is told
     assert ("a little inertia-change" in said) is not told
+
+
+@pytest.mark.parametrize(("gap", "told"), [(1.1, False), (30.0, True)])
+def test_a_time_limit_is_told_where_another_effect_could_be_major(problem, gap, told):
+    noises = count_noise_floors(problem.noise.velocity, problem)
+
+    _, remainder, remains = reach_verdict(
+        [], rounds(problem, gap / noises), problem, left=ResidualSummary(), cut=20.0, per=METERS
+    )
+
+    assert remainder is told
+    assert ("time limit of 20 s" in remains) is told

@@ -109,7 +109,7 @@ RHYTHM = 100.0
 here, last models came to 80 at most where nothing swung (complete ones to 45), and to 150 and more
 where something did."""
 
-FAR_OFF, FAR_OFF_SPEED = 3.0, 0.03
+FAR_OFF, FAR_OFF_SPEED = 2.5, 0.03
 """[noises of a velocity], [of the top speed] of the gap that the last model leaves: beyond both,
 a person sees the curves apart, and the log is not explained, whatever was named."""
 

@@ -12,7 +12,7 @@ from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidua
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
-from sim.reconcile.thresholds import FAR_OFF, FAR_OFF_SPEED, HALF, LOST
+from sim.reconcile.thresholds import FAR_OFF, FAR_OFF_SPEED, HALF, LOST, MAJOR
 
 
 def reach_verdict(
@@ -40,7 +40,7 @@ def reach_verdict(
         )
         return UNEXPLAINED, True, remains
     remains = (
-        _describe_cut(cut)
+        _describe_cut(cut, strays)
         or _describe_residual(problem, left, per)
         or _describe_remainder(findings, done, strays=strays)
     )
@@ -63,9 +63,15 @@ def _is_seen(gap: float, problem: PredictionErrorProblem) -> bool:
     return wide and count_noise_floors(gap, problem) > FAR_OFF
 
 
-def _describe_cut(limit: float) -> str:
-    """A sentence about a search that a time limit ended; empty if none did."""
-    if math.isinf(limit):
+def _describe_cut(limit: float, strays: float) -> str:
+    """A sentence about a search that a time limit ended; empty if none did, or nothing is left.
+
+    Args:
+        limit: [s] the time limit.
+        strays: [noise floors] gap of the last model. No effect brings it below one noise floor, so
+            of a gap that is nearly as small, no further effect can be major.
+    """
+    if math.isinf(limit) or MAJOR * strays <= 1.0:
         return ""
     return (
         f"The search stopped at its time limit of {limit:g} s of processor time, so more "
