@@ -660,7 +660,7 @@ print(f"Window of the filter: {window[0]:.0f} ms by hand, {window[1]:.0f} ms by 
 #
 # | verdict | what it means | what you do |
 # |---|---|---|
-# | nothing-missing | the gains alone explain the log | nothing |
+# | nothing-missing | no big effect is missing | nothing |
 # | explained | the named effects explain the log and other runs | look at that part of the robot |
 # | ambiguous | two effects explain it equally well | run the test that it proposes |
 # | unexplained | a gap remains that no known effect explains | look at the robot |
