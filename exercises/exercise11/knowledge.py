@@ -16,8 +16,8 @@ SLIP = Option(
     "The encoder slipped, but only if a second sensor or the current shows that the mechanism "
     "did not jump.",
     (
-        "This answer is accepted, because you ask for a second measurement. Without a second "
-        "measurement, believe the people who saw the mechanism jump"
+        "This answer is accepted, because you want a second sensor to confirm it. Otherwise, "
+        "believe the people who saw the mechanism jump"
     ),
     share=1.0,
 )

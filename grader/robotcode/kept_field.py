@@ -1,4 +1,4 @@
-"""Whether an object still holds what one of its fields was given."""
+"""Whether a field of an object still holds the value that the constructor stored in it."""
 
 from collections.abc import Iterator
 

@@ -70,7 +70,7 @@ class Routine:
         return tuple(f"{kind}-{way}" for kind in self.kinds for way in DIRECTIONS)
 
     def find_longest_duration(self, _test: str, /) -> float:
-        """[s] until a test ends, unless it reaches an end of the travel first."""
+        """[s] duration of a test that no end of the travel cuts short."""
         return self.timeout
 
     def command_voltage(self, test: str, time: float) -> float:

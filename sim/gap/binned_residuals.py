@@ -69,11 +69,11 @@ class BinnedResiduals:
         return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
 
     def describe_bin(self, row: int, part: slice) -> str:
-        """Where a range of bins is, in words.
+        """The place of neighboring bins in words, such as ``forward, 40 to 60% of the top speed``.
 
         Args:
-            row: which.
-            part: of its columns.
+            row: the row of the bins.
+            part: the range of their columns.
         """
         edges = self.edges[row]
         low, high = float(edges[part.start]), float(edges[part.stop])

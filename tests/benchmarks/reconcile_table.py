@@ -114,7 +114,8 @@ def lines(scored: Sequence[Scored], verdicts: Counter[str]) -> Iterator[str]:
     yield f"gap for right names, median: {before} noise floors before, {after} after"
     clock = [one.seconds for one in scored]
     busy = [one.busy for one in scored if one.busy is not None]
-    yield f"seconds by the clock: median {_number(_median(clock))}, most {_number(max(clock))}"
+    if clock:
+        yield f"seconds by the clock: median {_number(_median(clock))}, most {_number(max(clock))}"
     if busy:
         yield f"seconds of one core: median {_number(_median(busy))}, most {_number(max(busy))}"
     yield ""

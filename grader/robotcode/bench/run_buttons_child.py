@@ -58,7 +58,7 @@ class Panel:
         return log_state
 
     def observe(self) -> dict[str, object]:
-        """Press every button; the facts about those that started a test."""
+        """Press every button, and report the buttons that started a test."""
         presses = []
         for testing in (True, False):
             self.named(self.sim, "setTest")(testing)
@@ -72,7 +72,7 @@ class Panel:
         return {"presses": presses}
 
     def _buttons(self, port: int) -> Iterator[tuple[str, Callable[[bool], None]]]:
-        """Name -> presses it, or lets it go."""
+        """The name of each button of a port, with a function that presses or releases it."""
         for number in range(1, BUTTONS + 1):
             yield str(number), partial(self._button, port, number)
         for angle in HATS:

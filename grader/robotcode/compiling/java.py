@@ -183,7 +183,7 @@ class _JavaFile:
                 yield ParseProblem(f"{said} Did you mean {new}?", line, new)
 
     def _name_of_2027(self, node: Member, scope: Scope) -> str:
-        """What a member of an older WPILib is called in 2027; empty if it is no such member."""
+        """The 2027 name of a member of an older WPILib; empty if the member is another one."""
         if node.name in BEFORE_2027:
             type_ = get_simple_type_name(infer_type(node.owner, scope, self.names))
             own = self.names.find_by_name(type_, scope) is not None
@@ -192,7 +192,7 @@ class _JavaFile:
         return DIRECTIONS_BEFORE_2027.get(node.name, "") if of_direction else ""
 
     def _file_name(self) -> Iterator[ParseProblem]:
-        """A public class whose name is nearly its file's: Java wants both to be the same."""
+        """A public class with a typing error in its name, which Java wants to be the file's."""
         stem = self.names.main.path.stem
         for node in self.names.main.body:
             public = isinstance(node, Class) and node.place.text.startswith("public")
@@ -201,7 +201,7 @@ class _JavaFile:
                 yield ParseProblem(f"{said}give both the same name", node.place.line)
 
     def _runs_of_v3(self) -> Iterator[ParseProblem]:
-        """``run`` of a Mechanism of Commands v3 with a lambda that takes no coroutine."""
+        """Calls of ``run`` in a Mechanism of Commands v3 whose lambda takes no coroutine."""
         if not any(one.path.startswith(COMMANDS_V3) for one in self.imports):
             return
         for node, scope in self.each(Call):

@@ -52,7 +52,7 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),
 }
 DELAY_HOOKS = frozenset({"command_delay", "transform_velocity"})
-"""The hooks that a model with an exact solution may have."""
+"""Hooks that leave a model linear, so that its motion is still computed exactly."""
 HEAD = re.compile(r'"""[\s\S]*?"""\n(\n|import .*\n|from .* import (\([^)]*\)|.*)\n)*')
 """A module's first lines: its docstring and its imports."""
 SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects remember

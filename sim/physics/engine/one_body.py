@@ -38,7 +38,7 @@ def bound_travel(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
 
 
 def compute_sliding_friction(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
-    """[V] dry friction against motion toward ``way``, never negative."""
+    """[V] size of the dry friction while it moves in direction ``way`` (1 or -1), at least 0."""
     return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
 
 

@@ -71,7 +71,10 @@ def prepare_series(
 
 
 def make_table(ways: Array, at: int, dt: float, level: int) -> int:
-    """Index of the table of one part of a step; computed if it is missing."""
+    """Index of the transition table of one part of a time step, computed if it is missing.
+
+    The series converges for short times only, so a long part is halved and then doubled again.
+    """
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
@@ -87,7 +90,7 @@ def make_table(ways: Array, at: int, dt: float, level: int) -> int:
 
 
 def make_table_from_half(ways: Array, at: int, dt: float, level: int) -> int:
-    """Index of the table of one part of a step, doubled from the table of its half."""
+    """Index of the transition table of one part of a time step, from that of half the part."""
     step = at + FIRST + level * (1 + TABLE)
     if abs(ways[step] - dt) < SAME:
         return step + 1
@@ -97,7 +100,7 @@ def make_table_from_half(ways: Array, at: int, dt: float, level: int) -> int:
 
 
 def sum_series(ways: Array, powers: int, moment: float, to: int) -> None:
-    """Make the table of a time step by summing the terms of the series."""
+    """Compute the transition table of a short time from the terms of its power series."""
     last = powers + TERMS * TABLE
     for i in range(TABLE):
         ways[to + i] = ways[last + i]
