@@ -410,15 +410,17 @@ class PredictionErrorProblem:
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         starts = self.predict_errors(model, moved, point.kalman_filter)
         starts = (starts - point.innovations) / self.noise.position
-        parts = [
-            self.compute_parameter_jacobian(point, names),
-            self._one_column_per_run(self.whiten(point, starts)),
-        ]
+        changes = [self.whiten(point, starts)]
         if self.varying_friction:
-            parts.append(self.compute_friction_jacobian(point))
+            changes.append(self._compute_friction_change(point))
         if self.lag_sd:
-            parts.append(self.compute_lag_jacobian(point))
-        return np.concatenate([part.T for part in parts]).T
+            changes.append(self._compute_lag_change(point))
+        runs, count = len(self.records), len(names)
+        table = np.zeros((count + runs * len(changes), point.innovations.size))
+        self._fill_parameter_rows(table[:count], point, names)
+        for place, change in enumerate(changes):
+            self._fill_run_rows(table[count + place * runs :], change)
+        return table.T
 
     def extend_jacobian(self, point: Estimate, known: Array) -> None:
         """Store the Jacobian of an estimate with absent effects, extended from that without them.
@@ -450,40 +452,56 @@ class PredictionErrorProblem:
             known: (2 n, names or more) these derivatives from one side, of which the mean with
                 those from the other side is returned.
         """
+        rows = np.empty((len(names), point.innovations.size))
+        self._fill_parameter_rows(rows, point, names, known=known)
+        return rows.T
+
+    def _fill_parameter_rows(
+        self, rows: Array, point: Estimate, names: Sequence[str], *, known: Array | None = None
+    ) -> None:
+        """Write the columns of ``compute_parameter_jacobian`` into ``rows`` (names, 2 n)."""
         sides = [self._difference_point(point, name, back=known is not None) for name in names]
         tried = [
             (point.structure.model({**point.values, name: value}), point.nuisance)
             for name, value in zip(names, sides, strict=True)
             if value is not None
         ]
-        columns = np.empty((len(names), point.innovations.size))
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
             results = iter(self._simulate_in_parallel(tried, point.kalman_filter))
             for place, (name, value) in enumerate(zip(names, sides, strict=True)):
                 if value is not None:
-                    change = (next(results) - point.innovations) / (value - point.values[name])
-                    columns[place] = self.whiten(point, change)
+                    change = next(results)
+                    change -= point.innovations
+                    change /= value - point.values[name]
+                    rows[place] = self.whiten(point, change)
                 if known is not None:
                     one = known[:, place]
-                    columns[place] = one if value is None else 0.5 * (one + columns[place])
-        return columns.T
+                    rows[place] = one if value is None else 0.5 * (one + rows[place])
+
+    def compute_lag_jacobian(self, point: Estimate) -> Array:
+        """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
+        return self._one_column_per_run(self._compute_lag_change(point))
 
     def compute_friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
+        return self._one_column_per_run(self._compute_friction_change(point))
+
+    def _compute_friction_change(self, point: Estimate) -> Array:
+        """(2 n,) derivative of the whitened innovations by a friction that all runs have."""
         by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
             [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
         )
-        return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
+        return self.whiten(point, (more - less) / (2.0 * by[0]))
 
-    def compute_lag_jacobian(self, point: Estimate) -> Array:
-        """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
+    def _compute_lag_change(self, point: Estimate) -> Array:
+        """(2 n,) derivative of the whitened innovations by a lag that all runs have."""
         by = LAG_STEP * self.lag_sd
         later = point.nuisance.add_lag(np.full(len(self.records), by))
         model = point.structure.model(point.values)
         moved = self.predict_errors(model, later, point.kalman_filter)
-        return self._one_column_per_run(self.whiten(point, (moved - point.innovations) / by))
+        return self.whiten(point, (moved - point.innovations) / by)
 
     def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
         """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
@@ -522,14 +540,19 @@ class PredictionErrorProblem:
         return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
 
     def _one_column_per_run(self, change: Array) -> Array:
-        """(2 n, runs): all runs are moved at once, and each has a column of its own.
-
-        A run is not moved without those before it, which may have heated what it found warm.
-        """
+        """(2 n, runs): changes (2 n,), a column for each run."""
         table = np.zeros((len(self.records), change.size))
-        for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
-            table[number, first:last] = change[first:last]
+        self._fill_run_rows(table, change)
         return table.T
+
+    def _fill_run_rows(self, rows: Array, change: Array) -> None:
+        """Write (2 n,) changes into ``rows``, which are zero: a row for each run.
+
+        All runs are moved at once, because a run is not moved without those before it, which may
+        have heated what it found warm.
+        """
+        for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
+            rows[number, first:last] = change[first:last]
 
 
 @cache
