@@ -229,27 +229,29 @@ def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimat
     return np.asarray(inverse[:count, :count])
 
 
-def invert_information(table: Array, *, weak: NDArray[np.bool_] | None = None) -> Array:
-    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), with huge errors where it is singular.
+def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), and how parameters move together.
 
     Args:
         table: (n, k) the Jacobian, its prior rows included.
-        weak: (k,) columns that a prior alone tells from others. They are eliminated first, so that
-            a weak prior is not lost beside much information.
+        weak: (k,) columns that a prior alone tells from others. The others are eliminated first,
+            so that a weak prior is not lost beside much information.
+
+    Returns:
+        The inverse, with huge errors where it is singular; and (k, weak) by how much all parameters
+        move together with each of the weak ones.
     """
-    if weak is None or not weak.any():
-        return invert_square(table.T @ table)
-    inverse = np.empty((table.shape[1], table.shape[1]))
     strong = ~weak
-    kept, others = table.T[strong].T, table.T[weak].T
-    alone = invert_information(kept)
-    shift = alone @ (kept.T @ others)
-    own = invert_information(others - kept @ shift)
-    inverse[np.ix_(weak, weak)] = own
-    inverse[np.ix_(strong, weak)] = -shift @ own
-    inverse[np.ix_(weak, strong)] = -(shift @ own).T
-    inverse[np.ix_(strong, strong)] = alone + shift @ own @ shift.T
-    return inverse
+    square = table.T @ table
+    alone = invert_square(square[np.ix_(strong, strong)])
+    shift = alone @ square[np.ix_(strong, weak)]
+    together = np.zeros((weak.size, shift.shape[1]))
+    together[strong], together[weak] = -shift, np.eye(shift.shape[1])
+    free = table @ together
+    own = invert_square(free.T @ free)
+    inverse = together @ own @ together.T
+    inverse[np.ix_(strong, strong)] += alone
+    return inverse, together
 
 
 def invert_square(square: Array) -> Array:
