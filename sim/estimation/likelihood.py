@@ -360,17 +360,19 @@ class PredictionErrorProblem:
             self.sample_count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
         )
 
-    def whiten(self, point: Estimate, table: Array) -> Array:
+    def whiten(self, point: Estimate, table: Array, out: Array | None = None) -> Array:
         """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
 
-        What flies off is large, and its squares can still be summed.
+        What flies off is large, and its squares can still be summed. ``out`` (2 n,) is where the
+        result is written, if wanted.
         """
+        into = None if out is None else out.reshape(table.shape)
         with np.errstate(over="ignore", invalid="ignore"):
-            white = np.asarray((table @ point.whitening.T).ravel())
+            white = np.matmul(table, point.whitening.T, out=into).ravel()
             if math.isfinite(float(white @ white)):
-                return white
+                return np.asarray(white)
         near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
-        return np.asarray((near @ point.whitening.T).ravel())
+        return np.asarray(np.matmul(near, point.whitening.T, out=into).ravel())
 
     def compute_jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
         """(2 n, searched + nuisance) derivatives of the whitened innovations.
@@ -403,9 +405,11 @@ class PredictionErrorProblem:
     def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
         names = point.structure.searched_names
         if fine:
-            table = self.compute_jacobian(point).copy(order="F")
-            table[:, : len(names)] = self.compute_parameter_jacobian(point, names, known=table)
-            return table
+            known = self.compute_jacobian(point)
+            table = np.empty(known.shape[::-1])
+            table[len(names) :] = known.T[len(names) :]
+            self._fill_parameter_rows(table[: len(names)], point, names, known=known)
+            return table.T
         model = point.structure.model(point.values)
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         starts = self.predict_errors(model, moved, point.kalman_filter)
@@ -473,10 +477,12 @@ class PredictionErrorProblem:
                     change = next(results)
                     change -= point.innovations
                     change /= value - point.values[name]
-                    rows[place] = self.whiten(point, change)
-                if known is not None:
-                    one = known[:, place]
-                    rows[place] = one if value is None else 0.5 * (one + rows[place])
+                    self.whiten(point, change, out=rows[place])
+                if known is not None and value is None:
+                    rows[place] = known[:, place]
+                elif known is not None:
+                    rows[place] += known[:, place]
+                    rows[place] *= 0.5
 
     def compute_lag_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
