@@ -13,7 +13,7 @@ offset x from its first reading, its friction may differ by δ from that of the 
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
@@ -440,9 +440,7 @@ class PredictionErrorProblem:
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
         table = np.zeros((len(every) + nuisance, len(known)))
         table[:others], table[len(every) :] = known.T[:others], known.T[others:]
-        table[[every.index(name) for name in sizes]] = self.compute_parameter_jacobian(
-            point, sizes
-        ).T
+        self._fill_parameter_rows([table[every.index(name)] for name in sizes], point, sizes)
         self._keep_jacobian(point, {True: table.T})
 
     def compute_parameter_jacobian(
@@ -461,9 +459,10 @@ class PredictionErrorProblem:
         return rows.T
 
     def _fill_parameter_rows(
-        self, rows: Array, point: Estimate, names: Sequence[str], *, known: Array | None = None
-    ) -> None:
-        """Write the columns of ``compute_parameter_jacobian`` into ``rows`` (names, 2 n)."""
+        self, rows: Sequence[Array] | Array, point: Estimate, names: Sequence[str], *,
+        known: Array | None = None,
+    ) -> None:  # fmt: skip
+        """Write the columns of ``compute_parameter_jacobian`` into ``rows``, (2 n,) each."""
         sides = [self._difference_point(point, name, back=known is not None) for name in names]
         tried = [
             (point.structure.model({**point.values, name: value}), point.nuisance)
@@ -471,18 +470,16 @@ class PredictionErrorProblem:
             if value is not None
         ]
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
-            results = iter(self._simulate_in_parallel(tried, point.kalman_filter))
-            for place, (name, value) in enumerate(zip(names, sides, strict=True)):
+            results = self._simulate_in_parallel(tried, point.kalman_filter)
+            for place, (row, name, value) in enumerate(zip(rows, names, sides, strict=True)):
                 if value is not None:
                     change = next(results)
                     change -= point.innovations
                     change /= value - point.values[name]
-                    self.whiten(point, change, out=rows[place])
-                if known is not None and value is None:
-                    rows[place] = known[:, place]
-                elif known is not None:
-                    rows[place] += known[:, place]
-                    rows[place] *= 0.5
+                    self.whiten(point, change, out=row)
+                if known is not None:
+                    column = known[:, place]
+                    row[:] = column if value is None else 0.5 * (column + row)
 
     def compute_lag_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
@@ -537,13 +534,13 @@ class PredictionErrorProblem:
 
     def _simulate_in_parallel(
         self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
-    ) -> list[Array]:
+    ) -> Iterator[Array]:
         """The innovations of several simulations; compiled code runs beside other."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
             return self.predict_errors(*each, kalman_filter)
 
-        return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
+        return (_threads().map if len(self.measured) > PARALLEL else map)(one, tried)
 
     def _one_column_per_run(self, change: Array) -> Array:
         """(2 n, runs): changes (2 n,), a column for each run."""

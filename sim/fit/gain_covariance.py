@@ -51,6 +51,7 @@ def compute_gain_covariances(
     if followed.has_misfit or lacks:
         yield wide, _sandwich(extended, table, rest, noise)[:count, :count]
     if lacks and not followed.has_misfit:
+        del table, rest, noise  # large for a long log, and so are their successors
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
         if not problem.priors:
