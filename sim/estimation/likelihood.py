@@ -13,7 +13,7 @@ offset x from its first reading, its friction may differ by δ from that of the 
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import pairwise
@@ -366,17 +366,19 @@ class PredictionErrorProblem:
             self.sample_count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
         )
 
-    def whiten(self, point: Estimate, table: Array) -> Array:
+    def whiten(self, point: Estimate, table: Array, out: Array | None = None) -> Array:
         """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
 
-        What flies off is large, and its squares can still be summed.
+        What flies off is large, and its squares can still be summed. ``out`` (2 n,) is where the
+        result is written, if wanted.
         """
+        into = None if out is None else out.reshape(table.shape)
         with np.errstate(over="ignore", invalid="ignore"):
-            white = np.asarray((table @ point.whitening.T).ravel())
+            white = np.matmul(table, point.whitening.T, out=into).ravel()
             if math.isfinite(float(white @ white)):
-                return white
+                return np.asarray(white)
         near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
-        return np.asarray((near @ point.whitening.T).ravel())
+        return np.asarray(np.matmul(near, point.whitening.T, out=into).ravel())
 
     def compute_jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
         """(2 n, searched + nuisance) derivatives of the whitened innovations.
@@ -409,22 +411,26 @@ class PredictionErrorProblem:
     def _compute_jacobian(self, point: Estimate, *, fine: bool) -> Array:
         names = point.structure.searched_names
         if fine:
-            table = self.compute_jacobian(point).copy(order="F")
-            table[:, : len(names)] = self.compute_parameter_jacobian(point, names, known=table)
-            return table
+            known = self.compute_jacobian(point)
+            table = np.empty(known.shape[::-1])
+            table[len(names) :] = known.T[len(names) :]
+            self._fill_parameter_rows(table[: len(names)], point, names, known=known)
+            return table.T
         model = point.structure.model(point.values)
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         starts = self.predict_errors(model, moved, point.kalman_filter)
         starts = (starts - point.innovations) / self.noise.position
-        parts = [
-            self.compute_parameter_jacobian(point, names),
-            self._one_column_per_run(self.whiten(point, starts)),
-        ]
+        changes = [self.whiten(point, starts)]
         if self.varying_friction:
-            parts.append(self.compute_friction_jacobian(point))
+            changes.append(self._compute_friction_change(point))
         if self.lag_sd:
-            parts.append(self.compute_lag_jacobian(point))
-        return np.concatenate([part.T for part in parts]).T
+            changes.append(self._compute_lag_change(point))
+        runs, count = len(self.records), len(names)
+        table = np.zeros((count + runs * len(changes), point.innovations.size))
+        self._fill_parameter_rows(table[:count], point, names)
+        for place, change in enumerate(changes):
+            self._fill_run_rows(table[count + place * runs :], change)
+        return table.T
 
     def extend_jacobian(self, point: Estimate, known: Array) -> None:
         """Store the Jacobian of an estimate with absent effects, extended from that without them.
@@ -440,9 +446,7 @@ class PredictionErrorProblem:
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
         table = np.zeros((len(every) + nuisance, len(known)))
         table[:others], table[len(every) :] = known.T[:others], known.T[others:]
-        table[[every.index(name) for name in sizes]] = self.compute_parameter_jacobian(
-            point, sizes
-        ).T
+        self._fill_parameter_rows([table[every.index(name)] for name in sizes], point, sizes)
         self._keep_jacobian(point, {True: table.T})
 
     def compute_parameter_jacobian(
@@ -456,40 +460,57 @@ class PredictionErrorProblem:
             known: (2 n, names or more) these derivatives from one side, of which the mean with
                 those from the other side is returned.
         """
+        rows = np.empty((len(names), point.innovations.size))
+        self._fill_parameter_rows(rows, point, names, known=known)
+        return rows.T
+
+    def _fill_parameter_rows(
+        self, rows: Sequence[Array] | Array, point: Estimate, names: Sequence[str], *,
+        known: Array | None = None,
+    ) -> None:  # fmt: skip
+        """Write the columns of ``compute_parameter_jacobian`` into ``rows``, (2 n,) each."""
         sides = [self._difference_point(point, name, back=known is not None) for name in names]
         tried = [
             (point.structure.model({**point.values, name: value}), point.nuisance)
             for name, value in zip(names, sides, strict=True)
             if value is not None
         ]
-        columns = np.empty((len(names), point.innovations.size))
         with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
-            results = iter(self._simulate_in_parallel(tried, point.kalman_filter))
-            for place, (name, value) in enumerate(zip(names, sides, strict=True)):
+            results = self._simulate_in_parallel(tried, point.kalman_filter)
+            for place, (row, name, value) in enumerate(zip(rows, names, sides, strict=True)):
                 if value is not None:
-                    change = (next(results) - point.innovations) / (value - point.values[name])
-                    columns[place] = self.whiten(point, change)
+                    change = next(results)
+                    change -= point.innovations
+                    change /= value - point.values[name]
+                    self.whiten(point, change, out=row)
                 if known is not None:
-                    one = known[:, place]
-                    columns[place] = one if value is None else 0.5 * (one + columns[place])
-        return columns.T
+                    column = known[:, place]
+                    row[:] = column if value is None else 0.5 * (column + row)
+
+    def compute_lag_jacobian(self, point: Estimate) -> Array:
+        """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
+        return self._one_column_per_run(self._compute_lag_change(point))
 
     def compute_friction_jacobian(self, point: Estimate) -> Array:
         """(2 n, runs) derivatives of the whitened innovations by each run's own friction."""
+        return self._one_column_per_run(self._compute_friction_change(point))
+
+    def _compute_friction_change(self, point: Estimate) -> Array:
+        """(2 n,) derivative of the whitened innovations by a friction that all runs have."""
         by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
             [(model, point.nuisance.add_friction(one)) for one in (by, -by)], point.kalman_filter
         )
-        return self._one_column_per_run(self.whiten(point, (more - less) / (2.0 * by[0])))
+        return self.whiten(point, (more - less) / (2.0 * by[0]))
 
-    def compute_lag_jacobian(self, point: Estimate) -> Array:
-        """(2 n, runs) derivatives of the whitened innovations by each run's own lag."""
+    def _compute_lag_change(self, point: Estimate) -> Array:
+        """(2 n,) derivative of the whitened innovations by a lag that all runs have."""
         by = LAG_STEP * self.lag_sd
         later = point.nuisance.add_lag(np.full(len(self.records), by))
         model = point.structure.model(point.values)
         moved = self.predict_errors(model, later, point.kalman_filter)
-        return self._one_column_per_run(self.whiten(point, (moved - point.innovations) / by))
+        return self.whiten(point, (moved - point.innovations) / by)
 
     def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
         """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
@@ -519,23 +540,28 @@ class PredictionErrorProblem:
 
     def _simulate_in_parallel(
         self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
-    ) -> list[Array]:
+    ) -> Iterator[Array]:
         """The innovations of several simulations; compiled code runs beside other."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
             return self.predict_errors(*each, kalman_filter)
 
-        return list((_threads().map if len(self.measured) > PARALLEL else map)(one, tried))
+        return (_threads().map if len(self.measured) > PARALLEL else map)(one, tried)
 
     def _one_column_per_run(self, change: Array) -> Array:
-        """(2 n, runs): all runs are moved at once, and each has a column of its own.
-
-        A run is not moved without those before it, which may have heated what it found warm.
-        """
+        """(2 n, runs): changes (2 n,), a column for each run."""
         table = np.zeros((len(self.records), change.size))
-        for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
-            table[number, first:last] = change[first:last]
+        self._fill_run_rows(table, change)
         return table.T
+
+    def _fill_run_rows(self, rows: Array, change: Array) -> None:
+        """Write (2 n,) changes into ``rows``, which are zero: a row for each run.
+
+        All runs are moved at once, because a run is not moved without those before it, which may
+        have heated what it found warm.
+        """
+        for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
+            rows[number, first:last] = change[first:last]
 
 
 @cache

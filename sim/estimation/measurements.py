@@ -102,14 +102,20 @@ def measure_runs(
     top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
     step = _smallest_step([run.position for run in runs])
-    seen = tuple(_measure_run(run, top=top, step=step, friction=friction) for run in runs)
+    fresh = [_select_fresh_readings(run, step=step) for run in runs]
+
+    def measure(noise: SensorNoise | None = None) -> tuple[RunMeasurements, ...]:
+        return tuple(
+            _measure_run(run, one, top=top, step=step, friction=friction, noise=noise)
+            for run, one in zip(runs, fresh, strict=True)
+        )
+
+    seen = measure()
     noise = estimate_noise(seen) if seen and rest_by_position else None
     speed = MOVING * top
     if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= TREMBLES * speed:
         return seen
-    return tuple(
-        _measure_run(run, top=top, step=step, friction=friction, noise=noise) for run in runs
-    )
+    return measure(noise)
 
 
 def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
@@ -220,17 +226,12 @@ def compute_third_differences(time: Array, values: Array) -> Array:
     return np.asarray(summed / size)
 
 
-def _measure_run(
-    run: Run, *, top: float, step: float, friction: float | None, noise: SensorNoise | None = None
-) -> RunMeasurements:
-    """The measurements of a run.
+def _select_fresh_readings(run: Run, *, step: float) -> Array:
+    """(n, 2) position and velocity of a run, nan where they are not fresh.
 
     Args:
         run: one of a log's.
-        top: [unit/s] the log's top speed.
         step: [unit] between two different positions of the log.
-        friction: as of ``measure_runs``.
-        noise: of a velocity which trembles at rest.
     """
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
@@ -239,6 +240,23 @@ def _measure_run(
         measured[~_find_fresh_readings(measured[:, column], fast=fast), column] = np.nan
     if not np.isnan(measured).any():
         measured[doubtful] = np.nan
+    return measured
+
+
+def _measure_run(
+    run: Run, measured: Array, *, top: float, step: float, friction: float | None,
+    noise: SensorNoise | None,
+) -> RunMeasurements:  # fmt: skip
+    """The measurements of a run.
+
+    Args:
+        run: one of a log's.
+        measured: (n, 2) its fresh readings.
+        top: [unit/s] the log's top speed.
+        step: [unit] between two different positions of the log.
+        friction: as of ``measure_runs``.
+        noise: of a velocity which trembles at rest.
+    """
     moving = np.abs(run.velocity) > MOVING * top
     least = MOVING * top
     if noise is not None:

@@ -72,10 +72,11 @@ def make_joint_jacobian(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> JointJacobian:
     """The joint Jacobian at an estimate; ``fine`` takes central differences."""
-    table, rest = append_prior_rows(problem, point, fine=fine)
-    size = 2 * len(problem.measured)
-    root = np.linalg.pinv(np.linalg.qr(table, mode="r"))
-    return JointJacobian(table[:size], root, root.T @ (table[size:].T @ rest[size:]))
+    table = problem.compute_jacobian(point, fine=fine)
+    rows, own = make_prior_rows(problem, point)
+    triangle = np.linalg.qr(np.vstack([np.linalg.qr(table, mode="r"), rows]), mode="r")
+    root = np.linalg.pinv(triangle)
+    return JointJacobian(table, root, root.T @ (rows.T @ own))
 
 
 def append_prior_rows(
@@ -119,7 +120,7 @@ def levenberg_marquardt(
         return point
     damping = FIRST_DAMPING
     for _ in range(steps):
-        slope, square = _gradient_and_information(problem, point)
+        slope, square = compute_gradient_and_information(problem, point)
         size = np.sqrt(np.diag(square))
         size[size == 0.0] = 1.0
         slope /= size
@@ -143,11 +144,12 @@ def levenberg_marquardt(
     return point
 
 
-def _gradient_and_information(
-    problem: PredictionErrorProblem, point: Estimate
+def compute_gradient_and_information(
+    problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> tuple[Array, Array]:
     """(k,) half the gradient of -2 log L by all parameters, and (k, k) their information JᵀJ."""
-    table, rest = problem.compute_jacobian(point), problem.whiten(point, point.innovations)
+    table = problem.compute_jacobian(point, fine=fine)
+    rest = problem.whiten(point, point.innovations)
     rows, own = make_prior_rows(problem, point)
     with np.errstate(over="ignore"):  # a value that nothing bears to be moved
         return table.T @ rest + rows.T @ own, table.T @ table + rows.T @ rows
@@ -221,34 +223,40 @@ def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimat
         problem: the measurements.
         point: the best estimate.
     """
-    table, _ = append_prior_rows(problem, point, fine=True)
-    inverse = invert_information(table)
+    _, square = compute_gradient_and_information(problem, point, fine=True)
+    inverse = invert_square(square)
     count = len(point.structure.searched_names)
     return np.asarray(inverse[:count, :count])
 
 
-def invert_information(table: Array, *, weak: NDArray[np.bool_] | None = None) -> Array:
-    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), with huge errors where it is singular.
+def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), and how parameters move together.
 
     Args:
         table: (n, k) the Jacobian, its prior rows included.
-        weak: (k,) columns that a prior alone tells from others. They are eliminated first, so that
-            a weak prior is not lost beside much information.
+        weak: (k,) columns that a prior alone tells from others. The others are eliminated first,
+            so that a weak prior is not lost beside much information.
+
+    Returns:
+        The inverse, with huge errors where it is singular; and (k, weak) by how much all parameters
+        move together with each of the weak ones.
     """
-    if weak is None or not weak.any():
-        square = table.T @ table
-        size = np.sqrt(np.maximum(np.diag(square), 1e-100))
-        told, ways = np.linalg.eigh(square / np.outer(size, size))
-        share = np.where(told > UNKNOWN, told, NO_INFORMATION)
-        return np.asarray((ways / share) @ ways.T / np.outer(size, size))
-    inverse = np.empty((table.shape[1], table.shape[1]))
     strong = ~weak
-    kept, others = table.T[strong].T, table.T[weak].T
-    alone = invert_information(kept)
-    shift = alone @ (kept.T @ others)
-    own = invert_information(others - kept @ shift)
-    inverse[np.ix_(weak, weak)] = own
-    inverse[np.ix_(strong, weak)] = -shift @ own
-    inverse[np.ix_(weak, strong)] = -(shift @ own).T
-    inverse[np.ix_(strong, strong)] = alone + shift @ own @ shift.T
-    return inverse
+    square = table.T @ table
+    alone = invert_square(square[np.ix_(strong, strong)])
+    shift = alone @ square[np.ix_(strong, weak)]
+    together = np.zeros((weak.size, shift.shape[1]))
+    together[strong], together[weak] = -shift, np.eye(shift.shape[1])
+    free = table @ together
+    own = invert_square(free.T @ free)
+    inverse = together @ own @ together.T
+    inverse[np.ix_(strong, strong)] += alone
+    return inverse, together
+
+
+def invert_square(square: Array) -> Array:
+    """(k, k) inverse of an information matrix, with huge errors where it is singular."""
+    size = np.sqrt(np.maximum(np.diag(square), 1e-100))
+    told, ways = np.linalg.eigh(square / np.outer(size, size))
+    share = np.where(told > UNKNOWN, told, NO_INFORMATION)
+    return np.asarray((ways / share) @ ways.T / np.outer(size, size))

@@ -15,7 +15,11 @@ from dataclasses import replace
 from weakref import WeakKeyDictionary
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import append_prior_rows, invert_information, levenberg_marquardt
+from sim.estimation.optimize import (
+    compute_gradient_and_information,
+    invert_square,
+    levenberg_marquardt,
+)
 from sim.fit.search import ROUGHLY, STEPS, TRACKING, fit_open_loop
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
@@ -120,9 +124,8 @@ def predict_step_improvement(problem: PredictionErrorProblem, point: Estimate) -
         problem: the measurements.
         point: an estimate whose small effects are absent.
     """
-    table, rest = append_prior_rows(problem, point, fine=True)
-    slope = table.T @ rest
-    return float(slope @ invert_information(table) @ slope)
+    slope, square = compute_gradient_and_information(problem, point, fine=True)
+    return float(slope @ invert_square(square) @ slope)
 
 
 def remove_everyday_effects(point: Estimate) -> Estimate:

@@ -44,26 +44,25 @@ def compute_gain_covariances(
     known = extended.select_priors(wide.structure)
     weak = np.zeros(table.shape[1], dtype=bool)
     weak[:count] = [name in known for name in wide.structure.searched_names]
-    noise = invert_information(table, weak=weak)
-    yield wide, noise[:count, :count] + _form_covariance(wide, table, weak)
+    noise, together = invert_information(table, weak=weak)
+    yield wide, noise[:count, :count] + _form_covariance(wide, together[:count], weak[:count])
     yield wide, compute_run_variation_covariance(extended, wide, table, rest)
     lacks = point.process_noise > EXACT * problem.noise.velocity**2
     if followed.has_misfit or lacks:
         yield wide, _sandwich(extended, table, rest, noise)[:count, :count]
     if lacks and not followed.has_misfit:
+        del table, rest, noise  # large for a long log, and so are their successors
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
         if not problem.priors:
             same = problem.evaluate(point.structure, point.values, point.nuisance, q)
             extended.extend_jacobian(left, problem.compute_jacobian(same, fine=True))
         table, rest = append_prior_rows(extended, left, fine=True)
-        yield (
-            left,
-            _sandwich(extended, table, rest, invert_information(table, weak=weak))[:count, :count],
-        )
+        noise, _ = invert_information(table, weak=weak)
+        yield left, _sandwich(extended, table, rest, noise)[:count, :count]
 
 
-def _form_covariance(point: Estimate, table: Array, effects: NDArray[np.bool_]) -> Array:
+def _form_covariance(point: Estimate, together: Array, effects: NDArray[np.bool_]) -> Array:
     """(searched, searched) covariance from small effects whose form is only about right.
 
     Friction at a crawl is no exact exponential, and drag no exact square. Each fitted size is
@@ -71,20 +70,12 @@ def _form_covariance(point: Estimate, table: Array, effects: NDArray[np.bool_]) 
 
     Args:
         point: the best estimate.
-        table: (2 n + ..., searched + runs) Jacobian of the whitened innovations and priors.
-        effects: (searched + runs,) columns of the small effects.
+        together: (searched, effects) by how much all parameters move with each small effect.
+        effects: (searched,) which parameters are those of small effects.
     """
-    names = point.structure.searched_names
-    kept = table.T[~effects].T
-    inverse = invert_information(kept)
-    total = np.zeros((len(names), len(names)))
-    for place in np.flatnonzero(effects):
-        shift = np.zeros(table.shape[1])
-        shift[~effects] = -inverse @ (kept.T @ table[:, place])
-        shift[place] = 1.0
-        shift = shift[: len(names)] * FORM * point.values[names[place]]
-        total += np.outer(shift, shift)
-    return total
+    values = np.array([point.values[name] for name in point.structure.searched_names])
+    shift = FORM * values[effects] * together
+    return np.asarray(shift @ shift.T)
 
 
 def _sandwich(problem: PredictionErrorProblem, table: Array, rest: Array, bread: Array) -> Array:

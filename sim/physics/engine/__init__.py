@@ -237,8 +237,12 @@ def filter_runs(
     simple = model.type != "arm" and all(map(is_pure_delay, model.parts))
     longest = EXACT if simple else compute_search_step_limits(model)
     begin = batch.position + position_offset
-    load = begin - 0.5 * sum_backlash(model) * _backlash_position(model, begin, backlash_phase)
-    bodies = np.column_stack([begin, batch.velocity, load, batch.velocity, np.zeros(begin.size)])
+    load = begin
+    if play := sum_backlash(model):
+        load = begin - 0.5 * play * _backlash_position(model, begin, backlash_phase)
+    bodies = np.zeros((begin.size, 5))
+    bodies[:, 0], bodies[:, 2] = begin, load
+    bodies[:, 1] = bodies[:, 3] = batch.velocity
     aside = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
     measured = batch.measured if errors is not None or kalman_gain.any() else UNSEEN

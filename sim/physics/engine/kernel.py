@@ -75,7 +75,7 @@ class Kernel:
         each = low.size, high.size, rubs.size, run_lags.size, sessions.size
         if {len(bodies), *each, edges.size - 1} != {count}:
             raise TypeError("there is one of everything for each run")
-        if count and not (edges[0] == 0 and edges[-1] == n and np.all(np.diff(edges) >= 0)):
+        if count and not (edges[0] == 0 and edges[-1] == n and (edges[1:] >= edges[:-1]).all()):
             raise TypeError("runs lie one behind the other")
         self._call(
             count, n, rows, len(trust), _place(edges), _place(time), _place(asked), _place(slides),
