@@ -95,9 +95,7 @@ def test_a_second_look_is_nearer():
     off = PredictionErrorProblem.from_records(
         make_run_records(session(1, step=3.0, seed=2))
     )  # -1, 0, 1 and -0.5
-    began = RunNuisance.at_first_samples(4).with_backlash_phase(
-        np.array([-0.75, 0.25, 0.75, -0.75])
-    )
+    began = RunNuisance.at_first_samples(4).with_backlash_phase(np.array([-0.8, 0.2, 0.8, -0.7]))
 
     seen = estimate_backlash_phase(off, at(off, nuisance=began))
 

@@ -15,7 +15,7 @@ from sim.estimation.run_records import make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.two_body_starts import KEPT, SAME, VALLEYS, TwoBodyStarts, _best_of_each
+from sim.reconcile.two_body_starts import MOST, SAME, VALLEYS, TwoBodyStarts, _best_of_each
 
 BASE = ModelStructure("simple")
 SLACK = 0.02  # [rad]
@@ -88,7 +88,7 @@ def test_the_start_nearest_to_what_is_there_need_not_promise_most():
     kept = _best_of_each([*((90.0, heavy) for _ in range(9)), (-5.0, light)], "compliance")
 
     assert light in kept
-    assert kept.count(heavy) == KEPT
+    assert kept.count(heavy) == MOST
 
 
 def test_what_makes_the_lively_runs_less_likely_is_not_tried_on_all():

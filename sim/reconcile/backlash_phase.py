@@ -12,9 +12,9 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 
 PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play
-FINER = 0.5 * (PLACES[1] - PLACES[0])  # to both sides of the place that was the best one
-ASIDE = 2.0 * math.log(3.0)  # [of -2 log L] teeth that rested on this side, on the other, or meshed
-BETWEEN = 2.0 * ASIDE  # the same, between the sides, where only friction holds them
+FINER = 0.2  # [1] to both sides of the place that was the best one
+ASIDE = 2.0 * math.log(3.0)  # [of -2 log L] of telling that teeth rested on one side
+BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only friction holds them
 
 # Slack that a run crosses from its edge, and twice as much from its middle, push the load at the
 # same moment: the prices say which is the usual one.

@@ -27,13 +27,13 @@ from sim.reconcile.local_minimum import (
     rate_starts,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
-from sim.reconcile.search_effort import KEPT, ROUNDS, STEPS
 from sim.reconcile.two_body_starts import TwoBodyStarts
 
-TRIED = 2 * KEPT  # candidates that go downhill a little
+TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
-FURTHER = 2 * ROUNDS  # steps from each valley of what shakes, which are to be compared
-TRIED_CALM = ROUNDS  # more candidates, where a large q hides what the base model lacks
+FURTHER = 6  # steps from each valley of what shakes, which are to be compared
+TRIED_CALM = 3  # more, where a large q hides what the base model lacks
+STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 OWN: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
     "arm": ("gravity-cosine", "wheel-slip"),
@@ -265,5 +265,5 @@ def _steps_below(
     names = [f"{effect.name}.{name}" for name in effect.names if name in STEPWISE]
     if names and starts:
         least = min(starts, key=lambda one: one[names[0]])
-        for part in range(STEPS, 0, -1):
-            yield {**least, **{name: least[name] * part / (STEPS + 1) for name in names}}
+        for power in range(1, STEPS_BELOW + 1):
+            yield {**least, **{name: least[name] * STEP_BELOW**power for name in names}}

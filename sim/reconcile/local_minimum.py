@@ -21,12 +21,17 @@ from sim.reconcile.backlash_phase import (
     estimate_backlash_phase,
     halve_backlash,
 )
-from sim.reconcile.search_effort import HALVINGS, ROUNDS, STEPS
 from sim.reconcile.thresholds import CLOSE
 
-LARGEST_PART = 30.0  # [1] of a start's size, and its inverse, between which another is tried, too
-CALM = 1.0  # [noises of a velocity, squared, per second] of a small process noise
-AGITATED = 2.0 * FACTOR  # [1] times that, of a large one
+SCANNED = (-12, -9, -6, -4, -2)  # powers of it: the process noise is first thought too large
+SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size between which a part of it is tried, too
+LARGEST_PART = 30.0  # [1] the same, the other way
+SURELY_MORE = 10.0  # [of -2 log L]
+HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
+ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
+AGAIN = 6  # times that a point is settled at most
+CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
+HALVED = 6  # times at most that play is halved
 Begun = tuple[float, Estimate]  # predicted improvement of a start, and the start
 
 
@@ -35,7 +40,7 @@ def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
     Values go first: far from the best ones a large q is the likeliest, and hides what they miss.
     """
-    point = levenberg_marquardt(problem, point, steps=ROUNDS)
+    point = levenberg_marquardt(problem, point, steps=FIRST_STEPS)
     for _ in range(ROUNDS):
         before = point.cost
         point = levenberg_marquardt(
@@ -65,7 +70,7 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The least play of those about as likely: what no run crosses may be of any size."""
     best = point
-    for _ in range(HALVINGS):
+    for _ in range(HALVED):
         less = minimize(problem, halve_backlash(problem, point))
         if not compute_total_cost(less) < compute_total_cost(best) + CLOSE:
             break
@@ -81,10 +86,10 @@ def compute_total_cost(point: Estimate) -> float:
 
 def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The same, settled until that gains no more."""
-    for _ in range(2 * ROUNDS):
+    for _ in range(AGAIN):
         before = point.cost
         point = minimize(problem, point)
-        if not before - point.cost > CLOSE:
+        if not before - point.cost > SURELY_MORE:
             break
     return point
 
@@ -134,7 +139,7 @@ def rate_starts(
         found.append((gained, other))
         if as_given or not _is_other_size_worthwhile(structure, part):
             continue
-        if part**2 * size > gained + CLOSE:
+        if part**2 * size > gained + SURELY_MORE:
             found.append(begun(_scale_start(structure, one, part)))
     if found and not as_given:
         found += _halve_start(structure, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
@@ -157,10 +162,10 @@ def _halve_start(
 def _is_other_size_worthwhile(structure: ModelStructure, part: float) -> bool:
     """Whether a part of a start's size is worth a look: a smaller one, or one the other way."""
     if part > 0.0:
-        return 1.0 / LARGEST_PART < part < 1.0
+        return SMALL_PART < part < LARGE_PART
     sizes = _size_parameters(structure)
     signed = bool(sizes) and all(structure.parameters[name].least < 0.0 for name in sizes)
-    return signed and 1.0 / LARGEST_PART < -part < LARGEST_PART
+    return signed and SMALL_PART < -part < LARGEST_PART
 
 
 def _size_parameters(structure: ModelStructure) -> list[str]:
@@ -190,6 +195,6 @@ def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
         problem.evaluate(
             point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power
         )
-        for power in range(-STEPS, 0)
+        for power in SCANNED
     ]
     return min([point, *tried], key=lambda one: one.cost)

@@ -14,14 +14,15 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
 from sim.reconcile.local_minimum import Begun, compute_total_cost, rate_starts
-from sim.reconcile.search_effort import KEPT, ROUNDS
 from sim.reconcile.thresholds import SURE
 
 SLOW = "quasistatic"  # tests that say little of them
+MOST = 4  # starts of each kind that go a step downhill on the lively runs
+GO_ON = (4, 4)  # of them that go a second step, and a third
 VALLEYS = 2  # that are tried on all runs
 SAME = 0.2  # [1] by which the parameters of two valleys differ at least
 NEAR = 0.5  # [1] of the best one's gain that another valley gains, to be tried on all runs, too
-HEAVIER = 2.0  # [1] times the kA of one body, which goes by how its lighter motor begins to move
+HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 
 
 class TwoBodyStarts:
@@ -67,8 +68,8 @@ class TwoBodyStarts:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
         begun = rate_starts(self.problem, self.point, structure, tried, kept=self.kept)
         gone = self._find_step(_best_of_each(begun, effect))
-        for _ in range(ROUNDS - 1):
-            gone = self._find_step(_one_per_valley(gone, names)[:KEPT])
+        for most in GO_ON:
+            gone = self._find_step(_one_per_valley(gone, names)[:most])
         best = _one_per_valley(gone, names)
         if not best:
             return []
@@ -89,7 +90,7 @@ def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
     fixed = [f"{effect}.{one.name}" for one in EFFECTS[effect].parameters if one.neutral]
     for _, point in sorted(begun, key=lambda one: -one[0]):
         kinds.setdefault(tuple(point.values[name] for name in fixed), []).append(point)
-    return [one for kind in kinds.values() for one in kind[:KEPT]]
+    return [one for kind in kinds.values() for one in kind[:MOST]]
 
 
 def _one_per_valley(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:

@@ -13,9 +13,12 @@ import numpy as np
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
+from sim.estimation.run_records import RunRecord
 from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW
 
 DELAY, LAG = "delay", "delay.lag"
+STEP = 1.0  # [V] a ramp never changes by as much from one sample to the next
+SOON = 2.0 * SHORTEST_WINDOW  # [s] after a step, in which everything is fast
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,10 @@ def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> 
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
     spread = max(spread, count**0.5)  # of independent innovations
-    return {record: one / spread for record, one in sums.items()}
+    return {
+        record: one / (spread * _ordinary_size(problem.records[record])[: one.size])
+        for record, one in sums.items()
+    }
 
 
 def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Array:
@@ -93,6 +99,19 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
         share = -float(column @ rest) / along if along > 0.0 else 0.0
         white[first:last] += min(max(share, -1.0), 1.0) * change[first:last]
     return np.asarray(white)
+
+
+def _ordinary_size(record: RunRecord) -> Array:
+    """(n,) ordinary size of a window that begins there, relative to windows elsewhere.
+
+    Soon after a step of the voltage everything is fast: what happens between two samples, as a
+    battery that gives way and recovers, adds up to twice as much.
+    """
+    time = record.measurements.time
+    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP]
+    last = np.searchsorted(jumps, time, side="right") - 1
+    since = time - np.concatenate((jumps, [-np.inf]))[last]
+    return np.where(since <= SOON, 2.0, 1.0)
 
 
 def _window_sums(
