@@ -18,7 +18,7 @@ from sim.reconcile.local_minimum import minimize
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import ALIKE
+from sim.reconcile.thresholds import REPEATED
 from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
@@ -52,7 +52,7 @@ def found(log):
 def test_a_friction_and_shakes_of_each_runs_own_are_no_habit(seed):
     _, alike = found(session(seed=seed))
 
-    assert alike.size < ALIKE
+    assert alike.size < REPEATED
 
 
 def test_a_wave_along_the_way_is_a_habit_of_places():
@@ -60,7 +60,7 @@ def test_a_wave_along_the_way_is_a_habit_of_places():
 
     _, alike = found(session(wave, seed=2))
 
-    assert alike.size > ALIKE
+    assert alike.size > REPEATED
     assert alike.what == "position"
 
 
@@ -73,7 +73,7 @@ def test_a_bump_is_found_where_it_is():
 
     problem, alike = found(replace(log, runs=tuple(bumpy)))
 
-    assert alike.size > ALIKE
+    assert alike.size > REPEATED
     assert (alike.what, alike.way) == ("position", 1)
     assert alike.high > 1.6
     assert alike.low < 2.4
@@ -83,7 +83,7 @@ def test_a_bump_is_found_where_it_is():
 def test_friction_that_fades_with_speed_is_a_habit_of_speeds():
     _, alike = found(session(Part("stribeck", {"extra": 0.6, "slow": 0.6}), seed=4))
 
-    assert alike.size > ALIKE
+    assert alike.size > REPEATED
     assert alike.what == "speed"
 
 

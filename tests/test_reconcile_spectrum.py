@@ -27,7 +27,7 @@ from sim.reconcile.residual_tests.spectrum import (
 )
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import RHYTHM
+from sim.reconcile.thresholds import PERIODIC
 from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.3, "kV": 0.5, "kA": 0.05}
@@ -64,7 +64,7 @@ def found(log):
 def test_shakes_have_no_rhythm(seed):
     _, _, rhythm = found(session(seed=seed))
 
-    assert rhythm.size < 0.2 * RHYTHM
+    assert rhythm.size < 0.2 * PERIODIC
 
 
 @settings(max_examples=12, deadline=None)
@@ -72,7 +72,7 @@ def test_shakes_have_no_rhythm(seed):
 def test_a_swing_is_found_at_its_rate_though_it_passes_for_pushes_at_random(seed, swings):
     problem, point, rhythm = found(session(seed=seed, swings=swings))
 
-    assert rhythm.size > RHYTHM
+    assert rhythm.size > PERIODIC
     assert rhythm.rate == pytest.approx(swings, abs=0.15)
     assert point.process_noise > problem.noise.velocity**2
     assert ResidualSummary.summarize(problem, point).is_periodic

@@ -26,7 +26,7 @@ from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.residual_tests.whiteness import WorstWindow
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
-from sim.reconcile.thresholds import LIKELIER_RIGHT
+from sim.reconcile.thresholds import LEAST_PROBABILITY
 from sim.reconcile.verdict import reach_verdict
 
 GAINS = {"kS": 0.2, "kV": 0.5, "kA": 0.05}
@@ -302,7 +302,7 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     (judged,) = judge_effects(problem, done, ResidualSummary(), damaged=False)
     found = find_effects(problem, done, left=ResidualSummary())
 
-    assert (judged.probability >= LIKELIER_RIGHT) is named
+    assert (judged.probability >= LEAST_PROBABILITY) is named
     assert [each.probability for each in found] == [judged.probability] * named
 
 

@@ -119,9 +119,11 @@ def test_names_of_the_architecture_page_are_in_the_code():
 
 SEARCHES = {  # how far and how finely they go decides on time, not on what is reported
     "backlash_phase.py", "candidates.py", "cross_validation.py", "forward_selection.py",
-    "held_out.py", "local_minimum.py", "onset_scan.py", "two_body_starts.py",
+    "held_out.py", "local_minimum.py", "onset_scan.py", "search_effort.py", "two_body_starts.py",
 }  # fmt: skip
 SHOWING = {"story_text.py", "model_selection.py", "residual_map.py"}
+HARMLESS = {0, 0.5, 1, 2}  # halves, doubles and counts
+MOST_THRESHOLDS = 40
 
 
 def test_numbers_that_decide_in_reconcile_stand_in_one_file():
@@ -131,10 +133,31 @@ def test_numbers_that_decide_in_reconcile_stand_in_one_file():
         for node in ast.parse(path.read_text(encoding="utf-8")).body
         if isinstance(node, ast.Assign)
         and any(
-            isinstance(part, ast.Constant) and type(part.value) in {int, float}
+            isinstance(part, ast.Constant)
+            and type(part.value) in {int, float}
+            and part.value not in HARMLESS
             for part in ast.walk(node.value)
         )
         and not any(isinstance(part, ast.Call) for part in ast.walk(node.value))
     }
 
     assert found - SEARCHES - SHOWING <= {"thresholds.py", "damage_policy.py"}
+
+
+def test_few_numbers_decide_in_reconcile_and_each_has_its_reason():
+    text = (ROOT / "sim/reconcile/thresholds.py").read_text(encoding="utf-8")
+    body = ast.parse(text).body[1:]
+    numbers = [
+        part
+        for node in body
+        if isinstance(node, ast.Assign)
+        for part in ast.walk(node.value)
+        if isinstance(part, ast.Constant)
+    ]
+
+    assert 0 < len(numbers) <= MOST_THRESHOLDS
+    assert all(
+        isinstance(reason, ast.Expr) and isinstance(reason.value, ast.Constant)
+        for value, reason in zip(body[::2], body[1::2], strict=True)
+        if isinstance(value, ast.Assign)
+    )

@@ -43,7 +43,7 @@ from sim.reconcile.search_effort import STEPS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Story
-from sim.reconcile.thresholds import LOST, MAJOR, SEARCH, WANDERS
+from sim.reconcile.thresholds import LOST, MAJOR, MOST_WANDERING, SEARCH_SHARE
 from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
@@ -72,7 +72,7 @@ def reconcile(
         travel: [owner's unit] from stop to stop, if known.
         damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
         time_limit: [s] of processor time after which the best model so far is taken, and the
-            verdict says so. The search ends at ``SEARCH`` of it; the rest is for the findings.
+            verdict says so. The search ends at ``SEARCH_SHARE`` of it; the findings take the rest.
         progress: called with a step's description and the share done [1].
 
     Raises:
@@ -92,7 +92,7 @@ def reconcile(
         'velocity-filter'
     """
     load_engine()  # the first time it is compiled, which is no part of the search
-    deadline = time.process_time() + SEARCH * time_limit
+    deadline = time.process_time() + SEARCH_SHARE * time_limit
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)
@@ -170,7 +170,7 @@ def _fit_base_model(
         )
     if _missed_share(problem, base) < LOST:
         return problem, base
-    bound = replace(problem, max_process_noise=(WANDERS * problem.top_speed) ** 2)
+    bound = replace(problem, max_process_noise=(MOST_WANDERING * problem.top_speed) ** 2)
     other = _fit_structure(bound, recordings)
     if math.isfinite(other.cost) and _missed_share(bound, other) < MAJOR * _missed_share(
         problem, base

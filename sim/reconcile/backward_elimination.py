@@ -20,7 +20,7 @@ from sim.reconcile.model_selection import (
 )
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import CLOSE, HALF, ONCE, SURER
+from sim.reconcile.thresholds import COMPARABLE, EQUAL_SCORE, LEAST_SCORE_ONCE, LEAST_SCORE_UNSEEN
 
 
 def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
@@ -51,7 +51,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
         ):
             continue
         gap = compute_validation_gap(problem, found[0].estimate, data.folds)
-        if explain_rejection(gap, last.gap, SURER) == WIDENS:
+        if explain_rejection(gap, last.gap, LEAST_SCORE_UNSEEN) == WIDENS:
             continue
         return _replace_one(done, place, found[0], gap)
     return done
@@ -60,7 +60,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
 def _required_advantage(effect: str, other: str) -> float:
     """[of -2 log L] by which another effect must be likelier to take the place of one."""
     passing = EFFECTS[other].has_onset and not EFFECTS[effect].has_onset
-    return ONCE if passing else CLOSE
+    return LEAST_SCORE_ONCE if passing else EQUAL_SCORE
 
 
 def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
@@ -82,8 +82,8 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
         gap = compute_validation_gap(problem, found.estimate, data.folds)
-        as_good = found.score - last.candidate.score <= CLOSE
-        if as_good and explain_rejection(gap, last.gap, SURER) != WIDENS:
+        as_good = found.score - last.candidate.score <= EQUAL_SCORE
+        if as_good and explain_rejection(gap, last.gap, LEAST_SCORE_UNSEEN) != WIDENS:
             done = _replace_one(done, place, found, gap)
     return done
 
@@ -94,7 +94,7 @@ def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
     had = {one.candidate.effect for one in done}
     tried = done[place - 1].tried
     best = max((one.score for one in tried), default=0.0)
-    alike = [one.effect for one in tried if one.score > HALF * best]
+    alike = [one.effect for one in tried if one.score > COMPARABLE * best]
     return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
 
 

@@ -28,15 +28,15 @@ from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Chapter, Finding, ParameterEstimate
 from sim.reconcile.thresholds import (
-    AFTER,
-    FAR_MAJOR,
-    FAR_OFF,
-    KNOCK,
-    LIKELIER_RIGHT,
+    LATEST,
+    LEAST_PROBABILITY,
     LOST,
     MAJOR,
+    MAJOR_UNEXPLAINED,
     NARROWER,
-    TOLD_FIRST,
+    SOONEST,
+    SURE_FAULT,
+    VISIBLE_FLOORS,
 )
 
 TURNLESS = (
@@ -77,9 +77,9 @@ def make_findings(
     faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
     judged = judge_effects(problem, done, left, damaged=bool(damages))
     noises = count_noise_floors(done[-1].gap.velocity, problem)
-    far = noises > FAR_OFF or left.has_structure
+    far = noises > VISIBLE_FLOORS or left.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
-    told = {one.effect: one for one in judged if one.probability >= LIKELIER_RIGHT}
+    told = {one.effect: one for one in judged if one.probability >= LEAST_PROBABILITY}
     effects = [
         replace(one, probability=told[one.effect].probability)
         for one in _classify_size(problem, done, gaps, far=far, per=per)
@@ -198,7 +198,7 @@ def _classify_size(
     Of effects that stand in for one another none is missed alone: if together they closed the gap,
     the one that closed most of it is major.
     """
-    least = FAR_MAJOR if far else MAJOR
+    least = MAJOR_UNEXPLAINED if far else MAJOR
     errors = compute_standard_errors(problem, done[-1].candidate.estimate)
     found = [
         _make_effect_finding(
@@ -266,7 +266,7 @@ def is_contradicted(
         return False
     record = problem.records[moment.record]
     onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])
-    return onset + KNOCK * problem.period < moment.start < onset + AFTER
+    return onset + SOONEST * problem.period < moment.start < onset + LATEST
 
 
 def select_reported_rounds(
@@ -322,7 +322,7 @@ def _reverses_within_run(problem: PredictionErrorProblem) -> bool:
 
 
 def _make_fault_finding(one: DamagedInterval, gap: float) -> Finding:
-    size = "major" if one.confidence >= TOLD_FIRST else "minor"
+    size = "major" if one.confidence >= SURE_FAULT else "minor"
     return Finding(
         effect=one.fault, kind="fault", size=size, ambiguous_with=(), parameters={},
         gap_before=gap, gap_after=gap, score=math.inf, sentence=one.sentence, inspect=one.advice,

@@ -31,18 +31,18 @@ from sim.reconcile.search_effort import ROUNDS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.thresholds import (
-    CLOSE,
-    FAR_MAJOR,
-    FAR_OFF,
-    HALF,
+    COMPARABLE,
+    EQUAL_SCORE,
+    LEAST_SCORE,
+    LEAST_SCORE_UNSEEN,
     LOST,
     MAJOR,
-    MOST,
-    MOST_QUIET,
+    MAJOR_UNEXPLAINED,
+    MOST_EFFECTS,
+    MOST_NUISANCE,
     NARROWER,
-    SURE,
-    SURER,
     UNDRIVEN,
+    VISIBLE_FLOORS,
 )
 
 BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
@@ -99,11 +99,11 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
     """
     now = done[-1]
     found = list_blocked_candidates(now.candidates)
-    if not found or len(done) >= MOST or not math.isfinite(found[0].gap.velocity):
+    if not found or len(done) >= MOST_EFFECTS or not math.isfinite(found[0].gap.velocity):
         return done
     path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
-    narrows = closes and explain_rejection(path[-1].gap, now.gap, SURER) != WIDENS
+    narrows = closes and explain_rejection(path[-1].gap, now.gap, LEAST_SCORE_UNSEEN) != WIDENS
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
@@ -111,13 +111,13 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
 def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """Try alternative paths where the greedy one led astray; the best is returned."""
     best, problem = done, data.problem
-    if len(done) == 1 or count_noise_floors(done[-1].gap.velocity, problem) <= FAR_OFF:
+    if len(done) == 1 or count_noise_floors(done[-1].gap.velocity, problem) <= VISIBLE_FLOORS:
         return best
     for place, other in list_alternative_paths(done, lost=_is_dead_end(problem, done))[:1]:
         path = [*done[: place + 1], _next_round(done[place], other)]
         path = _continue_search(_on_another_path(data), path)
-        likelier = compare_scores(best[-1].candidate, path[-1].candidate) >= CLOSE
-        if likelier and explain_rejection(path[-1].gap, best[-1].gap, SURER) != WIDENS:
+        likelier = compare_scores(best[-1].candidate, path[-1].candidate) >= EQUAL_SCORE
+        if likelier and explain_rejection(path[-1].gap, best[-1].gap, LEAST_SCORE_UNSEEN) != WIDENS:
             best = path
     return best
 
@@ -140,7 +140,7 @@ def list_alternative_paths(
         had = {before.candidate.effect for before in done[: place + 1]}
         admitted = [other for other in one.candidates if other.report.admitted]
         top = max((other.report.score for other in admitted), default=0.0)
-        near = [other for other in admitted if other.report.score >= HALF * top]
+        near = [other for other in admitted if other.report.score >= COMPARABLE * top]
         near.sort(key=lambda other: other.report.gap if lost else -other.report.score)
         for other in near:
             names = frozenset({*had, other.candidate.effect})
@@ -153,15 +153,19 @@ def list_alternative_paths(
 def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The rounds, with one more for each effect that narrows the gap."""
     done = list(done)
-    while len(done) <= MOST and not _is_dead_end(data.problem, done):
-        data.progress(f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST + 1))
+    while len(done) <= MOST_EFFECTS and not _is_dead_end(data.problem, done):
+        data.progress(
+            f"round {len(done)}: every suspect", 0.1 + 0.7 * len(done) / (MOST_EFFECTS + 1)
+        )
         now = done[-1]
         weighed = weigh_candidates(data, now)
         tried = tuple(one.report for one in weighed)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
-        admitted, quiet = select_admissible(weighed, most=MOST_QUIET - now.nuisance_effects)
-        if quiet and not any(one.report.score > HALF * quiet[0].report.score for one in admitted):
+        admitted, quiet = select_admissible(weighed, most=MOST_NUISANCE - now.nuisance_effects)
+        if quiet and not any(
+            one.report.score > COMPARABLE * quiet[0].report.score for one in admitted
+        ):
             one = quiet[0]
             if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
                 done[-1] = _add_nuisance_effect(now, one)
@@ -206,16 +210,18 @@ def select_admissible(
         most: how many may be added without a name.
     """
     admitted = [one for one in weighed if one.report.admitted]
-    quiet = [one for one in weighed if one.report.why == HARDLY and one.report.score >= SURER][
-        :most
-    ]
+    quiet = [
+        one
+        for one in weighed
+        if one.report.why == HARDLY and one.report.score >= LEAST_SCORE_UNSEEN
+    ][:most]
     every = sorted([*admitted, *quiet], key=lambda one: -one.report.score)
     usual = [
         one
         for one in every
         if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
-    if usual and usual[0].report.score >= HALF * every[0].report.score:
+    if usual and usual[0].report.score >= COMPARABLE * every[0].report.score:
         admitted = [one for one in admitted if one is usual[0]]
         quiet = [one for one in quiet if one is usual[0]]
     return admitted, quiet
@@ -233,7 +239,7 @@ def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]
     values = now.candidate.estimate.values
     if len(done) == 1:
         return values["kA"] > UNDRIVEN * values["kV"]
-    return not now.gap.velocity <= FAR_MAJOR * now.gap_before.velocity
+    return not now.gap.velocity <= MAJOR_UNEXPLAINED * now.gap_before.velocity
 
 
 def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandidate:
@@ -242,7 +248,7 @@ def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandid
     point = minimize_fully(problem, candidate.estimate)
     for other in flip_duration(problem, point):
         settled = minimize(problem, other)
-        if settled.cost < point.cost - CLOSE:
+        if settled.cost < point.cost - EQUAL_SCORE:
             point = settled
     near = refine_onset(problem, point)
     if near is not point:
@@ -250,20 +256,20 @@ def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandid
     if abs(candidate.estimate.cost - point.cost) < ENOUGH:
         return best
     gap = compute_validation_gap(problem, point, data.folds)
-    if explain_rejection(gap, best.gap, SURER) == WIDENS:
+    if explain_rejection(gap, best.gap, LEAST_SCORE_UNSEEN) == WIDENS:
         return best
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
 
 
 def _is_close(other: WeighedCandidate, best: WeighedCandidate) -> bool:
-    return other.candidate.score - best.candidate.score <= CLOSE
+    return other.candidate.score - best.candidate.score <= EQUAL_SCORE
 
 
 def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
     """What the candidates' parameters are, of those that explain something."""
     found = {}
     for one in weighed:
-        if one.report.score >= SURE:
+        if one.report.score >= LEAST_SCORE:
             name, values = one.candidate.effect, one.candidate.estimate.values
             found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
     return found

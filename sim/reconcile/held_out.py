@@ -21,7 +21,7 @@ from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.search_effort import ROUNDS
 from sim.reconcile.selection_round import SelectionRound, choose_reported_estimate
 from sim.reconcile.story import Chapter
-from sim.reconcile.thresholds import FAR_OFF
+from sim.reconcile.thresholds import VISIBLE_FLOORS
 
 TOLD = 5  # places
 HOW: Mapping[str, str] = {
@@ -86,7 +86,7 @@ class HeldOutLog:
         """
         gap = last.gap * find_unit(self.log.units).si
         said = (*self.doubts, *((MESHED,) if _has_backlash(last) else ()))
-        if not self.held_out or gap <= FAR_OFF * max(fitted, self.problem.velocity_floor):
+        if not self.held_out or gap <= VISIBLE_FLOORS * max(fitted, self.problem.velocity_floor):
             return said
         far = (
             f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times "

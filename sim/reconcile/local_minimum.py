@@ -21,7 +21,7 @@ from sim.reconcile.backlash_phase import (
     estimate_backlash_phase,
     halve_backlash,
 )
-from sim.reconcile.thresholds import CLOSE
+from sim.reconcile.thresholds import EQUAL_SCORE
 
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: the process noise is first thought too large
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size between which a part of it is tried, too
@@ -72,7 +72,7 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
     best = point
     for _ in range(HALVED):
         less = minimize(problem, halve_backlash(problem, point))
-        if not compute_total_cost(less) < compute_total_cost(best) + CLOSE:
+        if not compute_total_cost(less) < compute_total_cost(best) + EQUAL_SCORE:
             break
         point = less
         best = min(best, point, key=compute_total_cost)

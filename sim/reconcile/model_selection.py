@@ -9,7 +9,15 @@ from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
-from sim.reconcile.thresholds import CLOSE, FAR_MAJOR, HALF, NARROWER, ONCE, SURE, SURER
+from sim.reconcile.thresholds import (
+    COMPARABLE,
+    EQUAL_SCORE,
+    LEAST_SCORE,
+    LEAST_SCORE_ONCE,
+    LEAST_SCORE_UNSEEN,
+    MAJOR_UNEXPLAINED,
+    NARROWER,
+)
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
 TINY = 1e-300  # no gap at all
@@ -45,7 +53,7 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
 
 def find_required_improvement(effect: str) -> float:
     """Least decrease of -2 log L for which a candidate is added."""
-    return ONCE if EFFECTS[effect].has_onset else SURE
+    return LEAST_SCORE_ONCE if EFFECTS[effect].has_onset else LEAST_SCORE
 
 
 def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
@@ -56,7 +64,9 @@ def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
     position = gap.position / max(before.position, TINY)
     if min(velocity, (velocity * position) ** 0.5) * NARROWER > 1.0:
         return WIDENS
-    if velocity > NARROWER and ((velocity * position) ** 0.5 > NARROWER or score < SURER):
+    if velocity > NARROWER and (
+        (velocity * position) ** 0.5 > NARROWER or score < LEAST_SCORE_UNSEEN
+    ):
         return HARDLY
     return ""
 
@@ -70,11 +80,15 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     """
     best = admitted[0]
     lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].has_onset]
-    if lasting and best is not lasting[0] and best.report.score - lasting[0].report.score < ONCE:
+    if (
+        lasting
+        and best is not lasting[0]
+        and best.report.score - lasting[0].report.score < LEAST_SCORE_ONCE
+    ):
         admitted, best = lasting, lasting[0]
-    closer = [one for one in admitted if one.report.score > HALF * best.report.score]
+    closer = [one for one in admitted if one.report.score > COMPARABLE * best.report.score]
     closest = min(closer, key=lambda one: one.report.gap)
-    if closest.report.gap < FAR_MAJOR * best.report.gap:
+    if closest.report.gap < MAJOR_UNEXPLAINED * best.report.gap:
         best = closest
     top = best.report.score
     admitted = [one for one in admitted if one.report.score <= top]
@@ -82,7 +96,7 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     near = [
         one
         for one in admitted
-        if top - one.report.score <= CLOSE
+        if top - one.report.score <= EQUAL_SCORE
         or (one.candidate.effect == simpler and one.report.score > NARROWER * top)
     ]
     fewest = min(one.candidate.estimate.structure.free_count for one in near)
@@ -106,7 +120,7 @@ def list_rivals(
         for one in weighed
         if one is not best
         and one.report.admitted
-        and best.report.score - one.report.score <= CLOSE
+        and best.report.score - one.report.score <= EQUAL_SCORE
         and not (
             one.report.score <= best.report.score and contains_effect(one.candidate.effect, chosen)
         )
@@ -131,7 +145,7 @@ def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[Weighed
         one
         for one in weighed
         if one.report.why == WIDENS
-        and one.report.score >= ONCE
+        and one.report.score >= LEAST_SCORE_ONCE
         and not EFFECTS[one.candidate.effect].has_onset
         and not is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
@@ -146,4 +160,4 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
 def compare_scores(now: Candidate, other: Candidate) -> float:
     """Decrease of -2 log L from one model to another, fewer parameters counted in."""
     fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
-    return now.score - other.score + (2.0 * CLOSE if fewer > 0 else 0.0)
+    return now.score - other.score + (2.0 * EQUAL_SCORE if fewer > 0 else 0.0)

@@ -13,7 +13,7 @@ from sim.reconcile.story import (
     ParameterEstimate,
     Story,
 )
-from sim.reconcile.thresholds import FAR_OFF, NARROWER, PROBABLY
+from sim.reconcile.thresholds import NARROWER, PROBABLE, VISIBLE_FLOORS
 
 HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` does
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
@@ -32,7 +32,7 @@ def write_headline(story: Story) -> str:
     elif majors:
         missing = _listed([_either(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
-        guess = "" if all(one.probability >= PROBABLY for one in majors) else "probably "
+        guess = "" if all(one.probability >= PROBABLE for one in majors) else "probably "
         said = [f"The model is {guess}missing {missing}{doubt}.", _gap(story)]
     elif story.verdict == NOTHING_MISSING or not faults:
         return _nothing(story)
@@ -140,7 +140,7 @@ def _nothing(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
     little = f", only a little {_listed(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
-    if last > FAR_OFF:
+    if last > VISIBLE_FLOORS:
         small = f" (a little: {_listed(minor)})" if minor else ""
         return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
     big = " big" if minor or story.remainder else ""

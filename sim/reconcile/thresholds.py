@@ -1,117 +1,126 @@
-"""Decision thresholds of reconcile, with their reasons."""
+"""Decision thresholds of reconcile, with their reasons.
 
-SURE = 20.0
-"""[of -2 log L] by which an effect must make the model likelier, prices paid: odds of e¹⁰, about
-twenty thousand to one, because some twenty candidates are asked several times."""
-
-NARROWER = 0.985
-"""[1] of the gap before: the validation's gap, geometric mean of velocity's and position's, must
-shrink by more than a refit by chance does."""
-
-SURER = 60.0
-"""[of -2 log L] the same as ``SURE``, of an effect that hardly narrows the gap of velocities.
-
-What is everyday on a robot (a little sag, a little more friction at a start) adds up to half of it
-in disguise, and being silent harms less than a wrong name."""
-
-HALF = 0.5
-"""[1] of the likeliest effect's score: with less, what closes the gap resembles what is missing."""
-
-ONCE = 130.0
-"""[of -2 log L] the same of an effect that begins at a moment.
-
-It may happen in a single run, and then no other run has a say: a snag or a push looks a little like
-it. On 430 logs, where no encoder slipped and no moment remained, inertia changes that were none
-came to 106 at most, but for 142, 147 and, beside free play, 230 and 344; true ones to 245 and more,
-but for seven that hardly show (below 0 to 170). By as much it has to be likelier than an effect
-that lasts, or that one is added first: a motor that warms up is not a load that joined once.
-Whether it narrows the gap of runs that know nothing of it is not asked.
+Three kinds of evidence are compared: the decrease of -2 log L that an effect brings, less a price
+for each of its parameters (its score); the gap, which is the velocity error of a simulation of runs
+to which the model was not fitted; and the residual tests of what the last model leaves.
 """
 
-KNOCK, AFTER = 2.0, 0.5
-"""[samples], [s] after the moment at which something is said to happen: if what the last model
-explains least begins between them, that was something else."""
+# Scores: decreases of -2 log L.
 
-LIKELIER_RIGHT = 0.5
-"""[1] probability from which an effect is a finding. Each is told with its own: whom a wrong name
-costs much reads the number. Named only from 5/6 on (a wrong name costs five silences), a quarter of
-the right names of the logs it was learnt on would not be told."""
+LEAST_SCORE = 20.0
+"""Least score of an effect that is added to the model. It means odds of e¹⁰, twenty thousand to
+one, because some twenty candidates are tried in each round."""
 
-PROBABLY = 0.83
-"""[1] Probability below which a finding is told with "probably": a wrong name costs a user as much
-as five effects that are not named."""
+LEAST_SCORE_UNSEEN = 60.0
+"""Least score of an effect that hardly narrows the gap. Small everyday effects (a little battery
+sag, a little more friction at the start) together reach half of it in the disguise of another
+effect, and a wrong name does more harm than none."""
 
-FARTHEST = 3.0
-"""[1] Largest logarithm, to both sides, of the ratios from which a probability is computed: a gap
-20 times as wide, or an effect 20 times as large, as another proves no more than that."""
+LEAST_SCORE_ONCE = 130.0
+"""Least score of an effect that begins at a moment, and by how much it must beat an effect that
+lasts. It may act in a single run, so other runs cannot confirm it, and a snag or a push resembles
+it. On 430 logs false ones reached 106, but for four of 142 to 344; true ones reached 245 and more,
+but for seven that hardly show in their log."""
+
+EQUAL_SCORE = 10.0
+"""Difference of scores below which two effects explain a log equally well: odds below 150 to one.
+The one with fewer parameters is then taken, and the other is told as a possible explanation."""
+
+COMPARABLE = 0.5
+"""Share of the best score, or of a gap, from which the other effect or gap is comparable: it may be
+taken first if it closes far more of the gap or is of everyday size, and it may begin another path
+of the search."""
+
+# Gaps: velocity errors on runs to which the model was not fitted.
+
+NARROWER = 0.985
+"""Ratio of two gaps above which the gap has not become narrower, and below whose inverse it has not
+become wider: refitting a model changes a gap by as much."""
 
 MAJOR = 0.87
-"""[1] of the gap before: an effect that shrinks the validation's velocity gap by more is major.
-Everyday effects that nobody has to name (50 mV of Stribeck friction, 8 % of sag, 4 ms of delay)
-shrink it by up to a tenth."""
+"""Ratio of the gap with an effect to the gap without it below which the effect is major. Everyday
+effects (50 mV of Stribeck friction, 8 % of battery sag, 4 ms of delay) narrow it by up to a tenth.
+"""
 
-FAR_MAJOR = 0.6
-"""[1] the same while something remains (``STRAYS``, ``ALIKE``, ``SHAKEN``): what nobody has named
-looks a little like many things, and none of them is worth a name that does not take much of it
-away."""
-
-CLOSE = 10.0
-"""[of -2 log L] within which another effect explains as much: odds below 150 to one."""
-
-SEARCH = 0.7
-"""[1] of a time limit after which no further effect is tried: the model so far is refitted without
-each of its effects, to say what each is worth."""
-
-MOST = 4
-"""Effects that are added at most: with more, anything can be explained."""
-
-MOST_QUIET = 2
-"""Effects that are kept in the model without being named: a delay of 2 ms makes a log much likelier
-and shrinks no gap, but what else is there shows better beside it. What comes to less than ``SURER``
-is left out; what is larger than on any robot is added like any other effect."""
-
-LOST = 0.4
-"""[1] of the motion on runs it was not fitted to that a model misses: it has not understood the
-log, and what it contains is no finding. The last models of 128 logs with hidden effects miss an
-eighth at most."""
-
-UNDRIVEN = 100.0
-"""[s] kA/kV of a base model that is lost, beyond which voltage drives nothing in it, and no effect
-is tried on top. Shuffled voltages make it a day and more, a hidden bound of the voltage five
-seconds at most; a heavy flywheel has one."""
-
-WANDERS = 0.1
-"""[top speeds in a second] by which a mechanism is pushed at random at most, where a base model
-would else be nothing but pushes."""
-
-TOLD_FIRST = 0.75
-"""[1] confidence from which a fault is told before any effect: what seems to lean on a stop (0.7)
-may be a chain or an arm that gives, and is left out of the fit in either case."""
-
-SHAKEN = 7.0
-"""[robust standard deviations] of the largest windowed innovation, at least those of independent
-innovations: beyond it a moment is not explained. A normal deviate among some thousand windows stays
-below 5. Of the given logs, those in which nothing is missing come to 6.2 at most, everyday dirt
-included, and those that hold something unknown to 7.4 and more, unless another test finds it."""
+MAJOR_UNEXPLAINED = 0.6
+"""The same ratio where the last model leaves more than noise, and of an effect that is taken in
+place of the likeliest one. What has no name resembles many effects a little."""
 
 LEAST_FLOOR = 0.003
-"""[1] of the top speed, for which a log's noise counts at least: friction alone differs by more
-from run to run, and a velocity that a device averages has hardly any noise. None of the logs that
-the probability is learnt from has less noise than that."""
+"""Least noise floor, as a share of the top speed. Friction differs by more between runs, and a
+velocity that a device averages has next to no noise. No log from which the probability was learnt
+has less noise."""
 
-ALIKE = 6.0
-"""[standard deviations of chance] by which runs that go the same way miss alike: beyond it physics
-is missing. Last models of 42 complete logs with everyday dirt in half came to 3.6 at most, of logs
-with a bump, a brake or a band of friction that no effect has to 3 to 15, two of three beyond 6."""
+VISIBLE_FLOORS, VISIBLE_SPEED = 2.5, 0.03
+"""Noise floors, and share of the top speed, beyond which a person sees that a simulation misses the
+log. Beyond both, the log is not explained, whatever was named."""
 
-RHYTHM = 100.0
-"""[1] -log of the odds that noise has such a line in its spectrum. On 210 logs, given and made
-here, last models came to 80 at most where nothing swung (complete ones to 45), and to 150 and more
-where something did."""
+LOST = 0.4
+"""Share of the motion that a model may miss. A model that misses more has not understood the log,
+and its effects are no findings. The last models of 128 logs with hidden effects miss at most an
+eighth."""
 
-FAR_OFF, FAR_OFF_SPEED = 2.5, 0.03
-"""[noises of a velocity], [of the top speed] of the gap that the last model leaves: beyond both,
-a person sees the curves apart, and the log is not explained, whatever was named."""
+# Findings.
+
+LEAST_PROBABILITY = 0.5
+"""Least probability of a finding. Each finding is told with its probability. If only those above
+5/6 were told, a quarter of the right names of the logs it was learnt on would be lost."""
+
+PROBABLE = 0.83
+"""Probability below which a finding is told with "probably": a wrong name costs a user as much as
+five effects that are not named."""
+
+FARTHEST = 3.0
+"""Largest logarithm, to both sides, of the ratios from which a probability is computed: a gap
+20 times as wide, or an effect 20 times as large, as another proves no more than that."""
+
+SOONEST, LATEST = 2.0, 0.5
+"""Samples, and seconds, after the onset of an effect. If the residual that the last model explains
+least begins between the two, something else happened at that moment."""
+
+SURE_FAULT = 0.75
+"""Confidence from which a fault of the log is told before all effects. A mechanism that seems to
+lean on a stop (confidence 0.7) may be a chain or an arm that gives. Either way those samples are
+left out of the fit."""
+
+# The search.
+
+SEARCH_SHARE = 0.7
+"""Share of a time limit after which no further effect is tried. In the rest, the last model is
+refitted without each of its effects."""
+
+MOST_EFFECTS = 4
+"""Most effects that are added to a model: with more, any log can be explained."""
+
+MOST_NUISANCE = 2
+"""Most effects that are kept in a model without being named. A delay of 2 ms makes a log much
+likelier and narrows no gap, but other effects are seen better beside it."""
+
+UNDRIVEN = 100.0
+"""Time scale kA/kV [s] of a lost base model beyond which the voltage drives nothing in it, so that
+no effect is tried. Shuffled voltages lead to a day and more, a hidden voltage limit to five seconds
+at most, a heavy flywheel to one second."""
+
+MOST_WANDERING = 0.1
+"""Top speeds per √s of random acceleration that a base model may have where it would otherwise
+explain a log by nothing else."""
+
+# Residual tests of what the last model leaves.
+
+UNLIKELY_WINDOW = 7.0
+"""Robust standard deviations of the largest windowed innovation beyond which a moment is not
+explained. Among some thousand windows, normal noise stays below 5. Of the 128 given logs, complete
+ones reach 6.2 at most, and those with an unknown effect 7.4 and more, unless another test finds it.
+"""
+
+REPEATED = 6.0
+"""Standard deviations of chance by which runs in the same direction miss alike beyond which physics
+is missing. The last models of 42 complete logs reach 3.6 at most. Of logs with a bump, a brake or a
+band of friction, two of three go beyond 6."""
+
+PERIODIC = 100.0
+"""-log of the odds that noise has such a spectral peak, beyond which something swings. On 210 logs,
+last models reach 80 at most where nothing swings, and 150 and more where something does."""
 
 # Of logs and of runs, in all of reconcile.
 
@@ -146,3 +155,6 @@ most."""
 DROPPED = 0.9
 """[1] A voltage below this share of its median has dropped, and a speed below this share of what it
 was has followed."""
+
+STEP_VOLTAGE = 1.0
+"""[V] A larger change of the voltage between two samples is a step: a ramp changes by less."""

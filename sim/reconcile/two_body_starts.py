@@ -14,7 +14,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
 from sim.reconcile.local_minimum import Begun, compute_total_cost, rate_starts
-from sim.reconcile.thresholds import SURE
+from sim.reconcile.thresholds import LEAST_SCORE
 
 SLOW = "quasistatic"  # tests that say little of them
 MOST = 4  # starts of each kind that go a step downhill on the lively runs
@@ -53,8 +53,8 @@ class TwoBodyStarts:
     ) -> list[dict[str, float]]:
         """The starts that are worth a look at all runs.
 
-        None where none makes the lively runs likelier by as much as an effect must (``SURE``):
-        these are the runs in which a joint shows, and a look at all of them takes longest.
+        None where no start makes the lively runs likelier by ``LEAST_SCORE``: these are the runs
+        in which a joint shows, and a look at all runs takes longest.
 
         Args:
             structure: with the effect that shakes as its last one.
@@ -73,7 +73,7 @@ class TwoBodyStarts:
         best = _one_per_valley(gone, names)
         if not best:
             return []
-        least = max(NEAR * self._gain(best[0]), SURE)
+        least = max(NEAR * self._gain(best[0]), LEAST_SCORE)
         found = [one for one in best if self._gain(one) > least][:VALLEYS]
         return [{name: one.values[name] for name in names} for one in found]
 

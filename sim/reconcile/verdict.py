@@ -12,7 +12,7 @@ from sim.reconcile.residual_tests.repeatability import POSITION, RepeatedResidua
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import AMBIGUOUS, EXPLAINED, NOTHING_MISSING, UNEXPLAINED, Finding
-from sim.reconcile.thresholds import FAR_OFF, FAR_OFF_SPEED, HALF, LOST, MAJOR
+from sim.reconcile.thresholds import COMPARABLE, LOST, MAJOR, VISIBLE_FLOORS, VISIBLE_SPEED
 
 
 def reach_verdict(
@@ -46,7 +46,7 @@ def reach_verdict(
     )
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
-    mostly = effects and strays > FAR_OFF and gap > HALF * before
+    mostly = effects and strays > VISIBLE_FLOORS and gap > COMPARABLE * before
     told = gap if majors else before  # effects of the last model that are not named explain nothing
     if mostly or (remains and _is_seen(told, problem)):
         return UNEXPLAINED, True, remains
@@ -59,8 +59,8 @@ def reach_verdict(
 
 def _is_seen(gap: float, problem: PredictionErrorProblem) -> bool:
     """Whether a person sees two curves apart that differ by a gap [unit/s], beside the noise."""
-    wide = gap > FAR_OFF_SPEED * problem.top_speed
-    return wide and count_noise_floors(gap, problem) > FAR_OFF
+    wide = gap > VISIBLE_SPEED * problem.top_speed
+    return wide and count_noise_floors(gap, problem) > VISIBLE_FLOORS
 
 
 def _describe_cut(limit: float, strays: float) -> str:
@@ -83,7 +83,7 @@ def _describe_remainder(
     findings: Sequence[Finding], done: Sequence[SelectionRound], *, strays: float
 ) -> str:
     """A sentence about how far the last model still is, or why it may be another; or nothing."""
-    if strays > FAR_OFF:
+    if strays > VISIBLE_FLOORS:
         return (
             f"The last model misses the log by {strays:.1f} times the noise of the velocity, "
             "and no effect in the catalogue makes that smaller."

@@ -6,7 +6,7 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual, find_repeated_residual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak, find_spectral_peak
 from sim.reconcile.residual_tests.whiteness import CALM, WorstWindow, find_worst_window
-from sim.reconcile.thresholds import ALIKE, RHYTHM, SHAKEN
+from sim.reconcile.thresholds import PERIODIC, REPEATED, UNLIKELY_WINDOW
 
 
 @dataclass(frozen=True)
@@ -26,17 +26,17 @@ class ResidualSummary:
     @property
     def has_unlikely_window(self) -> bool:
         """Whether the whiteness test found an unlikely window of innovations."""
-        return self.worst_window.size > SHAKEN
+        return self.worst_window.size > UNLIKELY_WINDOW
 
     @property
     def is_periodic(self) -> bool:
         """Whether the residual is periodic in time."""
-        return self.peak.size > RHYTHM
+        return self.peak.size > PERIODIC
 
     @property
     def is_repeated(self) -> bool:
         """Whether runs have the same residuals at the same positions or speeds."""
-        return self.repeated.size > ALIKE
+        return self.repeated.size > REPEATED
 
     @property
     def has_structure(self) -> bool:

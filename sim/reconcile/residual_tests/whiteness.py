@@ -14,10 +14,9 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord
-from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW
+from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW, STEP_VOLTAGE
 
 DELAY, LAG = "delay", "delay.lag"
-STEP = 1.0  # [V] a ramp never changes by as much from one sample to the next
 SOON = 2.0 * SHORTEST_WINDOW  # [s] after a step, in which everything is fast
 
 
@@ -108,7 +107,7 @@ def _ordinary_size(record: RunRecord) -> Array:
     battery that gives way and recovers, adds up to twice as much.
     """
     time = record.measurements.time
-    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP]
+    jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP_VOLTAGE]
     last = np.searchsorted(jumps, time, side="right") - 1
     since = time - np.concatenate((jumps, [-np.inf]))[last]
     return np.where(since <= SOON, 2.0, 1.0)
