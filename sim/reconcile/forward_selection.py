@@ -140,7 +140,8 @@ def list_alternative_paths(
         had = {before.candidate.effect for before in done[: place + 1]}
         admitted = [other for other in one.candidates if other.report.admitted]
         top = max((other.report.score for other in admitted), default=0.0)
-        near = [other for other in admitted if other.report.score >= COMPARABLE * top]
+        # an effect that resembles two others at once scores as much as both of them together
+        near = [other for other in admitted if other.report.score >= COMPARABLE**2 * top]
         near.sort(key=lambda other: other.report.gap if lost else -other.report.score)
         for other in near:
             names = frozenset({*had, other.candidate.effect})
