@@ -137,6 +137,18 @@ def test_nothing_is_admitted_that_widens_the_gap(name):
         assert effect not in [one.effect for one in chapter.tried if one.why == "widens the gap"]
 
 
+@pytest.mark.parametrize("window", [0.08, 0.26, 0.36])  # [s]; the second is a NEO's own encoder
+def test_a_slow_velocity_filter_is_found_by_the_lag_that_inspect_measures(window):
+    usual = EFFECTS["velocity-filter"].parameters[0].name
+    robot = MECHANISMS["drivetrain"].hide("velocity-filter", window / 0.08)
+    log = simulate(robot, Routine(ramp=1.0, step=5.0, timeout=3.0), rng=np.random.default_rng(0))
+
+    (found,) = reconcile(log, type="simple").findings
+
+    assert (found.effect, found.size) == ("velocity-filter", "major")
+    assert found.parameters[usual].value == pytest.approx(window, rel=0.02)
+
+
 def test_what_the_validation_does_not_confirm_is_not_named():
     # a weight in the log alone: runs without it have to be predicted
     clean = session(bench("elevator", simple=True), "validation")
