@@ -116,7 +116,7 @@ def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tup
 
     Args:
         found: the fit, in the unit that the gains count in.
-        tried: what ``trials`` gave of it.
+        tried: its trials, from ``try_feedback_gains``.
     """
     return tuple(
         _doubt(found, trial) for trial in tried if trial.owner == SUGGESTED and not trial.is_good
