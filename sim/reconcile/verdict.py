@@ -47,20 +47,17 @@ def reach_verdict(
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
     mostly = effects and strays > VISIBLE_FLOORS and gap > COMPARABLE * before
-    told = gap if majors else before  # effects of the last model that are not named explain nothing
-    if mostly or (remains and _is_seen(told, problem)):
+    if majors:
+        unexplained = gap > VISIBLE_SPEED * problem.top_speed and strays > VISIBLE_FLOORS
+    else:  # effects of the last model that are not named explain nothing
+        unexplained = count_noise_floors(before, problem) > VISIBLE_FLOORS
+    if mostly or (remains and unexplained):
         return UNEXPLAINED, True, remains
     if not majors:
         return NOTHING_MISSING, bool(remains), remains
     if any(one.ambiguous_with for one in majors):
         return AMBIGUOUS, bool(remains), remains
     return EXPLAINED, bool(remains), remains
-
-
-def _is_seen(gap: float, problem: PredictionErrorProblem) -> bool:
-    """Whether a person sees two curves apart that differ by a gap [unit/s], beside the noise."""
-    wide = gap > VISIBLE_SPEED * problem.top_speed
-    return wide and count_noise_floors(gap, problem) > VISIBLE_FLOORS
 
 
 def _describe_cut(limit: float, strays: float) -> str:
