@@ -555,7 +555,7 @@ class PredictionErrorProblem:
         return table.T
 
     def _fill_run_rows(self, rows: Array, change: Array) -> None:
-        """Write (2 n,) changes into ``rows``, which are zero: a row for each run.
+        """Copy each run's part of (2 n,) changes into its own row of ``rows``, zero before.
 
         All runs are moved at once, because a run is not moved without those before it, which may
         have heated what it found warm.

@@ -37,7 +37,7 @@ FINE = 3.0  # steps of a sensor between two samples at speed, which then cannot 
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
 SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
 SPEED_CLASSES = 8  # classes of speed in which the noise of a velocity is measured
-UNEVEN = 3.0  # [1] noise at the highest speeds over that at the lowest, from which it grows
+UNEVEN = 3.0  # [1] ratio of the noise at high and low speed from which noise depends on the speed
 
 
 @dataclass(frozen=True, eq=False)

@@ -224,7 +224,7 @@ def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimat
         point: the best estimate.
     """
     _, square = compute_gradient_and_information(problem, point, fine=True)
-    inverse = invert_square(square)
+    inverse = invert_symmetric(square)
     count = len(point.structure.searched_names)
     return np.asarray(inverse[:count, :count])
 
@@ -243,18 +243,18 @@ def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array,
     """
     strong = ~weak
     square = table.T @ table
-    alone = invert_square(square[np.ix_(strong, strong)])
+    alone = invert_symmetric(square[np.ix_(strong, strong)])
     shift = alone @ square[np.ix_(strong, weak)]
     together = np.zeros((weak.size, shift.shape[1]))
     together[strong], together[weak] = -shift, np.eye(shift.shape[1])
     free = table @ together
-    own = invert_square(free.T @ free)
+    own = invert_symmetric(free.T @ free)
     inverse = together @ own @ together.T
     inverse[np.ix_(strong, strong)] += alone
     return inverse, together
 
 
-def invert_square(square: Array) -> Array:
+def invert_symmetric(square: Array) -> Array:
     """(k, k) inverse of an information matrix, with huge errors where it is singular."""
     size = np.sqrt(np.maximum(np.diag(square), 1e-100))
     told, ways = np.linalg.eigh(square / np.outer(size, size))

@@ -17,7 +17,7 @@ from weakref import WeakKeyDictionary
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import (
     compute_gradient_and_information,
-    invert_square,
+    invert_symmetric,
     levenberg_marquardt,
 )
 from sim.fit.search import ROUGHLY, STEPS, TRACKING, fit_open_loop
@@ -125,7 +125,7 @@ def predict_step_improvement(problem: PredictionErrorProblem, point: Estimate) -
         point: an estimate whose small effects are absent.
     """
     slope, square = compute_gradient_and_information(problem, point, fine=True)
-    return float(slope @ invert_square(square) @ slope)
+    return float(slope @ invert_symmetric(square) @ slope)
 
 
 def remove_everyday_effects(point: Estimate) -> Estimate:

@@ -21,8 +21,8 @@ from sim.physics.voltage_residual import VoltageResidual
 
 KINDS = ("term", "path", "sense", "two-body")
 ONSET, UNTIL = "onset", "until"  # parameters of what happens once
-LATER = 1e6  # [s] after any log: until then lasts what never ends
-MOMENT = 1e-6  # [s] after a run, so that its last sample is in
+LATER = 1e6  # [s] end of an effect that lasts for good: later than any log
+MOMENT = 1e-6  # [s] by how much an effect outlasts a run, so that it acts on the last sample, too
 
 HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     # a term: volts that the motor must pay on top of kS, kV and kA

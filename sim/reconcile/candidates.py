@@ -120,7 +120,7 @@ def rank_candidates(
 
 
 def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Estimate) -> Estimate:
-    """The local minimum near the start of a candidate; a failed search is begun anew.
+    """The local minimum near the start of a candidate, searched twice if the first search fails.
 
     A candidate contains the model without it, so at its minimum it cannot be less likely. Where it
     is, its start had another process noise than that model, and the search begins anew from that

@@ -197,7 +197,7 @@ def count_noise_floors(gap: float, problem: PredictionErrorProblem) -> float:
 
 
 def compute_missed_motion(gap: float, problem: PredictionErrorProblem) -> float:
-    """[1] A gap of the velocity [unit/s] as a share of the motion."""
+    """[1] A velocity gap [unit/s] over the root mean square of the velocities in motion."""
     speeds = problem.measured[problem.moving, 1]
     size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
     return gap / max(size, 1e-300)

@@ -122,15 +122,15 @@ PERIODIC = 100.0
 """-log of the odds that noise has such a spectral peak, beyond which something swings. On 210 logs,
 last models reach 80 at most where nothing swings, and 150 and more where something does."""
 
-# Of logs and of runs, in all of reconcile.
+# Limits for logs and runs.
 
 FEWEST_SAMPLES = 20
 """Fewest samples of a run from which a spread or a rhythm is estimated. A log needs two runs of as
 many: with fewer, every effect of the catalogue fits."""
 
 STANDSTILL = 0.02
-"""[of the top speed] A slower mechanism stands, or is about to: static friction holds it as it
-likes, and its speed says nothing about a model."""
+"""Share of the top speed below which a mechanism counts as standing: static friction then decides
+its speed, which says nothing about a model."""
 
 CELLS = 24
 """Parts into which the time of a run, the way, or all speeds are divided. With more, a part holds
@@ -142,10 +142,10 @@ SHORTEST_WINDOW = 0.1
 this length are searched; a rhythm of which half a turn is shorter is a vibration."""
 
 OTHER_UNITS = 1.8
-"""[factor] Two logs that differ by more are in different units, or of different mechanisms.
+"""[1] Ratio of the volts per speed of two logs beyond which their units or mechanisms differ.
 
-What a speed costs in volts differs by 0.72 to 1.23 among 256 pairs of logs, whatever effects they
-contain; a foot taken for a meter makes it 3.3, a radian taken for a rotation 6.3."""
+It is 0.72 to 1.23 among 256 pairs of logs, whatever effects they contain. A foot taken for a
+meter makes it 3.3, a radian taken for a rotation 6.3."""
 
 DAMAGED = 0.95
 """[1] Confidence of an inspection beyond which an interval is damaged and is cut out. On 900
