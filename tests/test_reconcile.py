@@ -15,8 +15,9 @@ from sim.inspect.contaminate import contaminate
 from sim.physics.effects import EFFECTS
 from sim.reconcile import reconcile
 from sim.reconcile.damage import DamagedInterval
+from sim.reconcile.recordings import Recordings
 from sim.reconcile.story_text import list_remarks, write_headline
-from sim.reconcile.thresholds import NARROWER
+from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING, NARROWER
 
 HIDDEN = {
     "drag": ("drivetrain", "drag", False),
@@ -135,6 +136,22 @@ def test_nothing_is_admitted_that_widens_the_gap(name):
     added = [chapter.added for chapter in story.chapters[1:]]
     for chapter, effect in zip(story.chapters, added, strict=False):
         assert effect not in [one.effect for one in chapter.tried if one.why == "widens the gap"]
+
+
+def test_a_smooth_velocity_has_some_noise_and_no_model_is_pushed_wherever_it_goes():
+    log = simulate(MECHANISMS["drivetrain"], Routine(), rng=np.random.default_rng(0))
+    wide = np.ones(31) / 31.0
+    runs = tuple(
+        replace(run, velocity=np.convolve(run.velocity, wide, mode="same")) for run in log.runs
+    )
+    recordings = Recordings(replace(log, runs=runs), None, None, type="simple")
+
+    problem = recordings.make_problem()
+
+    assert problem.noise.velocity == pytest.approx(LEAST_FLOOR * problem.top_speed)
+    assert problem.max_process_noise == pytest.approx((MOST_WANDERING * problem.top_speed) ** 2)
+    rough = Recordings(log, None, None, type="simple").make_problem()
+    assert rough.noise.velocity > 1.5 * LEAST_FLOOR * rough.top_speed
 
 
 @pytest.mark.parametrize("window", [0.08, 0.26, 0.36])  # [s]; the second is a NEO's own encoder

@@ -212,7 +212,7 @@ class PredictionErrorProblem:
     def velocity_floor(self) -> float:
         """[unit/s] root mean square of the velocity's noise, at the speeds that were recorded."""
         seen = [record.measurements for record in self.records]
-        return compute_noise_at_speed(seen, self.noise)
+        return max(compute_noise_at_speed(seen, self.noise), self.noise.velocity)
 
     @cached_property
     def start_sd(self) -> float:

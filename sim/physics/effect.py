@@ -129,7 +129,8 @@ class Effect:
         inspect: what to look at on the robot.
         apart: look-alike -> the test that tells the two apart.
         example: parameters of an ordinary case of a given size; 1 is ordinary, more is stronger.
-        start_values: where to begin a search, from what a log shows; the best guess first.
+        start_values: where to begin a search, from what a log shows; the best guess first. A start
+            may set gains of the base model, too.
         hooks: hook -> function; the hooks and what they may ask for are in ``HOOK_ARGUMENTS``.
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
         stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a

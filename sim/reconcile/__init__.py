@@ -13,7 +13,6 @@ physical effects in place of a regression's library.
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
@@ -24,12 +23,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import load_engine
-from sim.reconcile.cross_validation import (
-    compute_missed_motion,
-    compute_open_loop_errors,
-    compute_rms_gap,
-    make_folds,
-)
+from sim.reconcile.cross_validation import make_folds
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import judge_damage
 from sim.reconcile.findings import list_remarks, make_findings, select_reported_rounds
@@ -43,7 +37,7 @@ from sim.reconcile.search_effort import STEPS
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Story
-from sim.reconcile.thresholds import LOST, MAJOR, MOST_WANDERING, SEARCH_SHARE
+from sim.reconcile.thresholds import SEARCH_SHARE
 from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
@@ -98,7 +92,7 @@ def reconcile(
     check_logs(recordings, travel=travel)
     problem = recordings.make_problem()
     progress("base model", 0.05)
-    problem, base = _fit_base_model(problem, recordings)
+    base = _fit_base_model(problem, recordings)
     folds = make_folds([one.session for one in problem.records])
     data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
     done = select_effects(data, base)
@@ -150,43 +144,12 @@ def _make_story(
     )  # fmt: skip
 
 
-def _fit_base_model(
-    problem: PredictionErrorProblem, recordings: Recordings
-) -> tuple[PredictionErrorProblem, Estimate]:
-    """The best point without effects, and the problem in which it was found.
-
-    Where much is missing, "it goes on as it did, and is pushed wherever it goes" may follow a
-    smooth log better than any physics: then pushes are bounded.
+def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
+    """The best estimate without effects.
 
     Raises:
         NotIdentifiable: no gains follow the log.
     """
-    base = _fit_structure(problem, recordings)
-    if not math.isfinite(base.cost):
-        raise NotIdentifiable(
-            "without its damaged parts, no gains fit this log",
-            where=recordings.log.source,
-            advice="Inspect the log, and record it again.",
-        )
-    if _missed_share(problem, base) < LOST:
-        return problem, base
-    bound = replace(problem, max_process_noise=(MOST_WANDERING * problem.top_speed) ** 2)
-    other = _fit_structure(bound, recordings)
-    if math.isfinite(other.cost) and _missed_share(bound, other) < MAJOR * _missed_share(
-        problem, base
-    ):
-        return bound, other
-    return problem, base
-
-
-def _missed_share(problem: PredictionErrorProblem, base: Estimate) -> float:
-    """[1] of the motion that a point misses."""
-    gap = compute_rms_gap(compute_open_loop_errors(problem, base, base.nuisance)).velocity
-    return compute_missed_motion(gap, problem)
-
-
-def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
-    """Fit the base model, without effects."""
     guess = clamp_to_physical(recordings.initial_gains)
     structure = ModelStructure(recordings.type)
     values = {name: guess[name] for name in structure.names}
@@ -196,7 +159,14 @@ def _fit_structure(problem: PredictionErrorProblem, recordings: Recordings) -> E
         RunNuisance.at_first_samples(len(problem.records)),
         problem.noise.velocity**2,
     )
-    return minimize_fully(
+    base = minimize_fully(
         problem,
         scan_process_noise(problem, levenberg_marquardt(problem, begin, steps=STEPS, enough=1.0)),
     )
+    if not math.isfinite(base.cost):
+        raise NotIdentifiable(
+            "without its damaged parts, no gains fit this log",
+            where=recordings.log.source,
+            advice="Inspect the log, and record it again.",
+        )
+    return base

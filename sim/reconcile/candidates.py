@@ -235,7 +235,8 @@ def _best_starts(
     for effect in effects:
         structure = point.structure + effect.name
         more = [
-            {
+            {name: start[name] for name in structure.names if name in start}
+            | {
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
                 for one in effect.parameters
             }

@@ -13,7 +13,6 @@ from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import Track
 from sim.reconcile.search_effort import STEPS
-from sim.reconcile.thresholds import LEAST_FLOOR
 
 EASED = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
 """[standard deviations] of a run's own friction that are tried."""
@@ -193,7 +192,7 @@ def count_noise_floors(gap: float, problem: PredictionErrorProblem) -> float:
         gap: [unit/s].
         problem: the measurements.
     """
-    return gap / max(problem.velocity_floor, LEAST_FLOOR * problem.top_speed)
+    return gap / problem.velocity_floor
 
 
 def compute_missed_motion(gap: float, problem: PredictionErrorProblem) -> float:

@@ -1,7 +1,8 @@
 """The intervals to exclude within a stretch of voltage dropouts.
 
 An inspection tells a series of drop-outs as one stretch. Where the motor really lost its voltage,
-the log between them is as good as any, and there may be no other: only the moments are damage.
+the log between them is as good as any, and there may be no other: only the moments are damage, up
+to where the speed is back.
 Where the record alone lost it, an open loop over the rest would lack those volts, and the stretch
 is.
 """
@@ -28,7 +29,24 @@ def find_dropout_intervals(
     found = list(_find_falls(run, start=start, end=end))
     if not found or np.median([_kept_speed(run, *one) for one in found]) > DROPPED:
         return ((start, end),)
-    return tuple((float(run.time[first]), float(run.time[last])) for first, last in found)
+    return tuple(
+        (float(run.time[first]), float(run.time[_find_return(run, first, last)]))
+        for first, last in found
+    )
+
+
+def _find_return(run: Run, first: int, last: int) -> int:
+    """The first sample after a fall at which the speed is back from its slowest moment."""
+    speed = np.abs(run.velocity)
+    usual = _running_median(speed, float(np.median(np.diff(run.time))))
+    slowest = first + int(np.argmin(speed[first : _find_end_of_answer(run, last)]))
+    back = np.flatnonzero(speed[slowest:] >= DROPPED * usual[slowest:])
+    return max(last, slowest + int(back[0])) if back.size else last
+
+
+def _find_end_of_answer(run: Run, last: int) -> int:
+    """The sample behind those in which a speed would have answered a fall."""
+    return int(np.searchsorted(run.time, run.time[last] + SHORTEST_WINDOW)) + 1
 
 
 def _find_falls(run: Run, *, start: float, end: float) -> Iterator[tuple[int, int]]:
@@ -59,5 +77,5 @@ def _kept_speed(run: Run, first: int, last: int) -> float:
     """[share] of its speed that it has in and after a fall."""
     speed = np.abs(run.velocity)
     before = float(np.median(speed[max(first - 2, 0) : first + 1]))
-    until = int(np.searchsorted(run.time, run.time[last] + SHORTEST_WINDOW)) + 1
-    return float(np.min(speed[first:until])) / before if before > 0.0 else 1.0
+    slowest = float(np.min(speed[first : _find_end_of_answer(run, last)]))
+    return slowest / before if before > 0.0 else 1.0

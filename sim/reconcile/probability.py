@@ -74,7 +74,7 @@ def compute_probability(evidence: Evidence) -> float:
     odds = weights["intercept"] + sum(
         weights[name] * value for name, value in zip(FEATURES, evidence.features, strict=True)
     )
-    return 1.0 / (1.0 + math.exp(-odds))
+    return 0.5 * (1.0 + math.tanh(0.5 * odds))  # the logistic function, which cannot overflow
 
 
 def compute_log_ratio(with_: float, without: float) -> float:

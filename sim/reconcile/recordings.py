@@ -1,7 +1,7 @@
 """The logs that a comparison is given, and what they say before anything is fitted."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +17,7 @@ from sim.estimation.run_records import (
     make_run_records,
 )
 from sim.reconcile.damage_policy import DamageDecision
+from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING
 
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
 
@@ -63,13 +64,13 @@ class Recordings:
     def make_problem(self) -> PredictionErrorProblem:
         """The problem of all runs that may be fitted, without what is damaged."""
         fitted = [name for name in self.logs_by_name if name != "held_out"]
-        return PredictionErrorProblem.from_records(
+        return _make_problem(
             [one for n, name in enumerate(fitted) for one in self._records(name, session=n)]
         )
 
     def make_shown_problem(self, name: str) -> PredictionErrorProblem:
         """The problem of one log alone, on which a gap can be shown."""
-        return PredictionErrorProblem.from_records(self._records(name))
+        return _make_problem(self._records(name))
 
     def count_repeated_runs(self, name: str) -> int:
         """Number of a log's runs that also are in an earlier log, sample by sample."""
@@ -94,6 +95,18 @@ class Recordings:
             since=compute_session_length(*self._before(name)),
             aside=self.damage.list_excluded(name),
         )
+
+
+def _make_problem(records: Sequence[RunRecord]) -> PredictionErrorProblem:
+    """The problem of some runs, its velocity's noise and its process noise kept within bounds.
+
+    A velocity that a device averages is so smooth that the noise seen in it is next to none. With
+    that noise, the likeliest model would be one that is pushed wherever the log goes.
+    """
+    problem = PredictionErrorProblem.from_records(records)
+    top = problem.top_speed
+    noise = replace(problem.noise, velocity=max(problem.noise.velocity, LEAST_FLOOR * top))
+    return replace(problem, noise=noise, max_process_noise=(MOST_WANDERING * top) ** 2)
 
 
 def _is_same_run(one: Run, other: Run) -> bool:

@@ -102,8 +102,8 @@ no effect is tried. Shuffled voltages lead to a day and more, a hidden voltage l
 at most, a heavy flywheel to one second."""
 
 MOST_WANDERING = 0.1
-"""Top speeds per √s of random acceleration that a base model may have where it would otherwise
-explain a log by nothing else."""
+"""Top speeds per √s of random acceleration that a model may have: a tenth of the top speed within
+a second. With more, a smooth log is explained by pushes alone."""
 
 # Residual tests of what the last model leaves.
 

@@ -8,7 +8,8 @@ gains of these robots, so each table asks something that needs no truth:
 * every log is fitted or refused: in how much processor time, and with which warnings;
 * recordings of one mechanism on one day should agree within their stated errors;
 * three runs are fitted and predict the fourth, open loop, by our method and by SysId's recipe;
-* with ``--reconcile``: how much of the base model's simulation error do the named effects explain,
+* with ``--reconcile``, inspected first as the command does: how much of the base model's simulation
+  error do the named effects explain,
   compared with a black box that knows no physics (gradient boosting over the simulated motion and
   past voltages, each run predicted by the others; needs scikit-learn), and does a second recording
   of the same mechanism confirm it?
@@ -32,6 +33,7 @@ from pathlib import Path
 import numpy as np
 
 import sim
+from sim.cli.reconcile import inspect_damage
 from sim.core.errors import Refusal
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
@@ -336,15 +338,17 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     name = one.path.name[-60:]
     started = time.process_time()
     try:
-        story = reconcile(one.log, type=one.fit.type, time_limit=limit)
+        story = reconcile(
+            one.log, type=one.fit.type, damages={"log": inspect_damage(one.log)}, time_limit=limit
+        )
     except Refusal as refused:
         print(f"{name:60} refused: {str(refused).splitlines()[0]}", flush=True)
         return None
     seconds = time.process_time() - started
     share = find_explained_share(story)
     held_out = math.nan
-    if other is not None and other.log is not None:
-        held_out = error_of(story, -1, other.log) / error_of(story, 0, other.log)
+    if other is not None:
+        held_out = confirm(one, other, limit=limit)
     named = ", ".join(
         f"{found.effect} ({found.size}, {found.gap_before:.3g} -> {found.gap_after:.3g})"
         for found in story.findings
@@ -359,11 +363,23 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     return Reconciled(story.verdict, seconds, held_out, share)
 
 
-def error_of(story: Story, chapter: int, log: Log) -> float:
-    """[SI] RMS velocity error of a chapter's model on another log."""
-    tracks = replay_log(story.chapters[chapter].model, log)
-    errors = [one.seen - run.velocity for one, run in zip(tracks, log.runs, strict=True)]
-    return float(np.sqrt(np.mean(np.square(np.concatenate(errors)))))
+def confirm(one: FittedLog, other: FittedLog, *, limit: float) -> float:
+    """[1] Error of the last model on a second recording, over that of the base model.
+
+    The recording decides nothing; it is compared where an inspection finds no damage in it. The
+    result is nan where no effect was added, or where the mechanism was changed in between.
+    """
+    assert one.fit is not None
+    assert one.log is not None
+    assert other.log is not None
+    damages = {"log": inspect_damage(one.log), "held_out": inspect_damage(other.log)}
+    try:
+        story = reconcile(
+            one.log, held_out=other.log, type=one.fit.type, damages=damages, time_limit=limit
+        )
+    except Refusal:
+        return math.nan
+    return story.gap_after / story.gap_before if len(story.chapters) > 1 else math.nan
 
 
 def find_explained_share(story: Story) -> float:
