@@ -129,8 +129,9 @@ class Effect:
         inspect: what to look at on the robot.
         apart: look-alike -> the test that tells the two apart.
         example: parameters of an ordinary case of a given size; 1 is ordinary, more is stronger.
-        start_values: where to begin a search, from what a log shows; the best guess first. A start
-            may set gains of the base model, too.
+        start_values: where to begin a search, from what a log shows; the best guess first.
+        inertia_shares: [1] of kA, with which the first start is tried, too: a model without the
+            effect takes it for inertia.
         hooks: hook -> function; the hooks and what they may ask for are in ``HOOK_ARGUMENTS``.
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
         stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a
@@ -167,6 +168,7 @@ class Effect:
     narrowest_speed: Callable[[Mapping[str, float]], float] | None = None
     order: int = 0
     reason_against: Callable[[Scale], str] = field(default=lambda _: "")
+    inertia_shares: tuple[float, ...] = ()
     simpler: str = ""
     same_in_motion: str = ""
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(

@@ -235,8 +235,7 @@ def _best_starts(
     for effect in effects:
         structure = point.structure + effect.name
         more = [
-            {name: start[name] for name in structure.names if name in start}
-            | {
+            {
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
                 for one in effect.parameters
             }
@@ -247,6 +246,7 @@ def _best_starts(
             lively = lively or TwoBodyStarts(problem, point)
             if shakes := lively.there:
                 more = lively.list_starts(structure, more, heavy=heavy)
+        more += [{**more[0], "kA": share * point.values["kA"]} for share in effect.inertia_shares]
         more += _steps_below(effect, more)
         if effect.has_onset:
             more += scan_onsets(problem, point, effect, kept=kept)

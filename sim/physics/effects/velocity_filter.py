@@ -13,8 +13,6 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.velocity_lag import estimate_velocity_lag
 from sim.physics.voltage_residual import VoltageResidual
 
-INERTIAS = (1.0, 0.3, 0.1)  # [of kA without the filter] at its first starts
-
 
 def transform_velocity(
     seen: float, now: int, time: Array, position: Array, velocity: Array, window: float
@@ -45,14 +43,10 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: twice the lag of the velocity behind the position, and three more.
-
-    A model without the filter takes its lag for inertia, so there may be much less of that.
-    """
+    """Start values: twice the lag of the velocity behind the position, and three more."""
     found = estimate_velocity_lag(seen.log.runs)
     if found is not None and found.lag > 0.0:
-        for share in INERTIAS:
-            yield {"window": 2.0 * found.lag, "kA": share * seen.gains["kA"]}
+        yield {"window": 2.0 * found.lag}
     for window in (0.03, 0.08, 0.2):
         yield {"window": window}
 
@@ -74,6 +68,7 @@ EFFECT = Effect(
     },
     example=ordinary_parameters,
     start_values=find_start_values,
+    inertia_shares=(0.3, 0.1),
     hooks={"transform_velocity": transform_velocity},
     order=1,
 )
