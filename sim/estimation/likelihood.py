@@ -555,7 +555,7 @@ class PredictionErrorProblem:
         return table.T
 
     def _fill_run_rows(self, rows: Array, change: Array) -> None:
-        """Copy each run's part of (2 n,) changes into its own row of ``rows``, zero before.
+        """Copy each run's part of the changes (2 n,) into that run's row; its rest stays zero.
 
         All runs are moved at once, because a run is not moved without those before it, which may
         have heated what it found warm.

@@ -130,8 +130,8 @@ class Effect:
         apart: look-alike -> the test that tells the two apart.
         example: parameters of an ordinary case of a given size; 1 is ordinary, more is stronger.
         start_values: where to begin a search, from what a log shows; the best guess first.
-        inertia_shares: [1] of kA, with which the first start is tried, too: a model without the
-            effect takes it for inertia.
+        inertia_shares: [1] shares of kA with which the first start is tried as well, for an effect
+            whose delay a model without it mistakes for inertia.
         hooks: hook -> function; the hooks and what they may ask for are in ``HOOK_ARGUMENTS``.
         symmetric: mirrored volts give mirrored motion, whatever the parameters.
         stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a

@@ -1,10 +1,9 @@
 """The intervals to exclude within a stretch of voltage dropouts.
 
 An inspection tells a series of drop-outs as one stretch. Where the motor really lost its voltage,
-the log between them is as good as any, and there may be no other: only the moments are damage, up
-to where the speed is back.
-Where the record alone lost it, an open loop over the rest would lack those volts, and the stretch
-is.
+the log between them is as good as any, and there may be no other: only those moments are left out,
+until the speed has recovered. Where the record alone lost it, an open loop over the rest would lack
+those volts, and the whole stretch is left out.
 """
 
 from collections.abc import Iterator
@@ -36,7 +35,7 @@ def find_dropout_intervals(
 
 
 def _find_return(run: Run, first: int, last: int) -> int:
-    """The first sample after a fall at which the speed is back from its slowest moment."""
+    """Index of the first sample after a voltage drop at which the speed has recovered."""
     speed = np.abs(run.velocity)
     usual = _running_median(speed, float(np.median(np.diff(run.time))))
     slowest = first + int(np.argmin(speed[first : _find_end_of_answer(run, last)]))
@@ -45,7 +44,7 @@ def _find_return(run: Run, first: int, last: int) -> int:
 
 
 def _find_end_of_answer(run: Run, last: int) -> int:
-    """The sample behind those in which a speed would have answered a fall."""
+    """Index after the samples in which the speed would react to a voltage drop."""
     return int(np.searchsorted(run.time, run.time[last] + SHORTEST_WINDOW)) + 1
 
 

@@ -98,10 +98,10 @@ class Recordings:
 
 
 def _make_problem(records: Sequence[RunRecord]) -> PredictionErrorProblem:
-    """The problem of some runs, its velocity's noise and its process noise kept within bounds.
+    """The estimation problem of some runs, with a least velocity noise and most process noise.
 
-    A velocity that a device averages is so smooth that the noise seen in it is next to none. With
-    that noise, the likeliest model would be one that is pushed wherever the log goes.
+    A velocity that a device averages is so smooth that hardly any noise is measured in it. With so
+    little noise, random acceleration would explain the motion better than the voltage does.
     """
     problem = PredictionErrorProblem.from_records(records)
     top = problem.top_speed

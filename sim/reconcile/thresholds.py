@@ -47,9 +47,9 @@ MAJOR_UNEXPLAINED = 0.6
 place of the likeliest one. What has no name resembles many effects a little."""
 
 LEAST_FLOOR = 0.003
-"""Least noise floor, as a share of the top speed. Friction differs by more between runs, and a
-velocity that a device averages has next to no noise. No log from which the probability was learnt
-has less noise."""
+"""Least noise of a velocity, as a share of the top speed. Friction differs by more between runs,
+and a velocity that a device averages has hardly any noise. Of 216 logs from which the probability
+was learnt, 12 have less noise, and none has less than two thirds of it."""
 
 VISIBLE_FLOORS, VISIBLE_SPEED = 2.5, 0.03
 """Noise floors, and share of the top speed, beyond which a person sees that a simulation misses the
@@ -102,8 +102,8 @@ no effect is tried. Shuffled voltages lead to a day and more, a hidden voltage l
 at most, a heavy flywheel to one second."""
 
 MOST_WANDERING = 0.1
-"""Top speeds per √s of random acceleration that a model may have: a tenth of the top speed within
-a second. With more, a smooth log is explained by pushes alone."""
+"""Largest random acceleration of a model, in top speeds per √s: it changes the speed by a tenth of
+the top speed within a second. With more, it would explain a smooth log without the voltage."""
 
 # Residual tests of what the last model leaves.
 

@@ -348,7 +348,7 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     share = find_explained_share(story)
     held_out = math.nan
     if other is not None:
-        held_out = confirm(one, other, limit=limit)
+        held_out = compare_second_recording(one, other, limit=limit)
     named = ", ".join(
         f"{found.effect} ({found.size}, {found.gap_before:.3g} -> {found.gap_after:.3g})"
         for found in story.findings
@@ -363,8 +363,8 @@ def reconcile_log(one: FittedLog, other: FittedLog | None, *, limit: float) -> R
     return Reconciled(story.verdict, seconds, held_out, share)
 
 
-def confirm(one: FittedLog, other: FittedLog, *, limit: float) -> float:
-    """[1] Error of the last model on a second recording, over that of the base model.
+def compare_second_recording(one: FittedLog, other: FittedLog, *, limit: float) -> float:
+    """[1] Ratio of two errors on a second recording: the last model's over the base model's.
 
     The recording decides nothing; it is compared where an inspection finds no damage in it. The
     result is nan where no effect was added, or where the mechanism was changed in between.
