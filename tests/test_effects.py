@@ -145,7 +145,7 @@ def test_a_joint_that_is_stiff_or_tight_moves_as_one_body(name):
 
     one = simulate_run(base, time=TIME, voltage=np.full(TIME.size, 3.0), state=State())
     two = simulate_run(
-        base + Part(name, {**tight, "share": 0.3}),
+        base + Part(name, {**tight, "share": 0.3, "damping": 0.3, "motor_friction": 0.3}),
         time=TIME, voltage=np.full(TIME.size, 3.0), state=State(),
     )  # fmt: skip
 

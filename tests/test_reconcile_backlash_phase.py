@@ -31,7 +31,8 @@ from sim.reconcile.story import Finding
 
 GAINS = {"kS": 0.2, "kV": 2.4, "kA": 0.3}
 SLACK, SHARE = 0.05, 0.2
-PLAY = Part("backlash", {"slack": SLACK, "share": SHARE})
+JOINT = {"slack": SLACK, "share": SHARE, "damping": 0.3, "motor_friction": SHARE}
+PLAY = Part("backlash", JOINT)
 NOISE = (1e-4, 2e-3)  # [m] and [m/s]
 BEGAN = {
     "quasistatic-forward": (-1.0, -1.0),
@@ -41,7 +42,8 @@ BEGAN = {
 }
 """Test -> where in the play its run began, in the log and in its validation."""
 PLAYS = ModelStructure("simple") + "backlash"
-VALUES = {**GAINS, "backlash.slack": SLACK, "backlash.share": SHARE}
+OWN = {f"backlash.{name}": value for name, value in JOINT.items()}
+VALUES = {**GAINS, **OWN}
 
 
 def named(effect):
@@ -113,7 +115,7 @@ def test_a_start_that_was_told_amiss_is_gone_untold_too():
     told = RunNuisance.at_first_samples(len(BEGAN)).with_backlash_phase(
         np.array([1.0, -1.0, 1.0, -1.0])
     )
-    values = {**base.values, "backlash.slack": SLACK, "backlash.share": SHARE}
+    values = {**base.values, **OWN}
     start = problem.evaluate(PLAYS, values, told, base.process_noise)
     assert levenberg_marquardt(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
 

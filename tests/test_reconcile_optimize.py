@@ -55,7 +55,10 @@ def test_a_start_that_is_far_too_large_is_halved():
     point = problem.evaluate(
         base, values, RunNuisance.at_first_samples(len(problem.records)), problem.noise.velocity**2
     )
-    far = {"compliance.softness": FAR * truth, "compliance.share": 0.25}
+    far = {
+        "compliance.softness": FAR * truth, "compliance.share": 0.25,
+        "compliance.damping": 0.05, "compliance.motor_friction": 0.25,
+    }  # fmt: skip
 
     begun = rate_starts(
         problem, point, base + "compliance", [far], kept=make_joint_jacobian(problem, point)

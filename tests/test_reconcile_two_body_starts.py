@@ -21,6 +21,7 @@ BASE = ModelStructure("simple")
 SLACK = 0.02  # [rad]
 STEPS = 3  # downhill
 SOFT = BASE + "compliance"
+BELT = {"softness": 0.02, "share": 0.3, "damping": 0.05, "motor_friction": 0.3}
 
 
 def built(effect="", **values):
@@ -50,7 +51,7 @@ def starts(effect, evidence):
 
 @pytest.mark.parametrize("share", [0.2, 0.46])
 def test_free_play_is_found_whatever_its_motor_weighs(share):
-    mechanism = built("backlash", slack=SLACK, share=share)
+    mechanism = built("backlash", slack=SLACK, share=share, damping=0.3, motor_friction=share)
 
     story = told({name: session(mechanism, name) for name in SESSIONS}, type="simple")
 
@@ -62,7 +63,7 @@ def test_free_play_is_found_whatever_its_motor_weighs(share):
 
 
 def test_valleys_explain_the_lively_runs_and_are_not_one():
-    lively, evidence = looked(built("compliance", softness=0.02, share=0.3))
+    lively, evidence = looked(built("compliance", **BELT))
 
     found = lively.list_starts(SOFT, starts("compliance", evidence), heavy=False)
 
@@ -77,8 +78,8 @@ def test_valleys_explain_the_lively_runs_and_are_not_one():
 
 
 def test_the_start_nearest_to_what_is_there_need_not_promise_most():
-    lively, _ = looked(built("compliance", softness=0.02, share=0.3))
-    values = {**lively.point.values, "compliance.softness": 0.02}
+    lively, _ = looked(built("compliance", **BELT))
+    values = {**lively.point.values, **{f"compliance.{name}": BELT[name] for name in BELT}}
     nuisance, q = lively.point.nuisance, lively.point.process_noise
     heavy, light = (
         lively.problem.evaluate(SOFT, {**values, "compliance.share": share}, nuisance, q)
@@ -93,6 +94,7 @@ def test_the_start_nearest_to_what_is_there_need_not_promise_most():
 
 def test_what_makes_the_lively_runs_less_likely_is_not_tried_on_all():
     lively, _ = looked(built())
-    far = {"compliance.softness": 50.0, "compliance.share": 0.01}  # all of the load hangs loose
+    far = {f"compliance.{name}": BELT[name] for name in BELT}
+    far |= {"compliance.softness": 50.0, "compliance.share": 0.01}  # all of the load hangs loose
 
     assert lively.list_starts(SOFT, [far], heavy=False) == []

@@ -96,7 +96,8 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(
     problem, gap, score, verdict, remainder
 ):
     done = rounds(problem, gap)
-    values = {"compliance.softness": 0.3, "compliance.share": 0.2}
+    belt = {"softness": 0.3, "share": 0.2, "damping": 0.05, "motor_friction": 0.3}
+    values = {f"compliance.{name}": value for name, value in belt.items()}
     point = replace(done[0].candidate.estimate, values=values)
     tried = TriedCandidate("compliance", score, 1.6, admitted=False, why=WIDENS)
     other = WeighedCandidate(

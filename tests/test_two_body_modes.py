@@ -39,12 +39,14 @@ SHARES = (0.05, 0.3, 0.8)
 def sprung(gains, *, swing, share):
     reduced = share * (1.0 - share) * gains["kA"]
     soft = 1.0 / (reduced * (2.0 * math.pi * swing) ** 2)
-    return Model("simple", gains) + Part("compliance", {"softness": soft, "share": share})
+    joint = {"softness": soft, "share": share, "damping": 0.05, "motor_friction": share}
+    return Model("simple", gains) + Part("compliance", joint)
 
 
 def loose(gains, *, moment, share):
     slack = moment * 4.0 / gains["kV"]
-    return Model("simple", gains) + Part("backlash", {"slack": slack, "share": share})
+    joint = {"slack": slack, "share": share, "damping": 0.3, "motor_friction": share}
+    return Model("simple", gains) + Part("backlash", joint)
 
 
 def searched(model, volts):

@@ -41,9 +41,12 @@ HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
     "command_delay": (),
     # the next ``memory`` of an effect that has one, after ``dt`` [s] under the voltage ``u``
     "update_memory": ("memory", "dt", "u", "v", "kv"),
-    # two bodies: free play [unit], softness [unit/V] of what joins them, motor's share of kA [1]
+    # two bodies: free play [unit], softness [unit/V] and damping [1, of critical] of what joins
+    # them, the motor's shares of the friction and of kA [1]
     "backlash_gap": (),
     "joint_compliance": (),
+    "joint_damping": (),
+    "motor_friction_share": (),
     "motor_inertia_share": (),
     # two bodies: [V] of push that the floor passes on from the wheels to the robot
     "grip_limit": (),

@@ -32,6 +32,8 @@ from sim.reconcile.two_body_starts import TwoBodyStarts
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
 FURTHER = 6  # steps from each valley of what shakes, which are to be compared
+FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of it on the motor's side, from which a joint goes on
+NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 OWN: dict[str, tuple[str, ...]] = {
@@ -132,10 +134,30 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
         start: with it.
     """
     found = minimize(problem, start)
-    if found.cost <= point.cost or _ends_in_two_bodies(start):
+    if _ends_in_two_bodies(start):
+        return _move_friction(problem, found)
+    if found.cost <= point.cost:
         return found
     noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
     return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
+
+
+def _move_friction(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The best of a joint's minimum and of those with more or less friction at the motor.
+
+    Whether a load moves at all on a ramp depends on where it rubs, so each share of the friction
+    has a minimum of its own.
+    """
+    name = f"{point.structure.effects[-1]}.motor_friction"
+    best = point
+    for share in FRICTION_SHARES:
+        if abs(share - best.values[name]) < NEAR_FRICTION:
+            continue
+        moved = problem.evaluate(
+            point.structure, {**best.values, name: share}, best.nuisance, best.process_noise
+        )
+        best = min(best, minimize(problem, moved), key=compute_total_cost)
+    return best
 
 
 def descend_candidate(

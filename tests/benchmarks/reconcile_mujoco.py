@@ -4,8 +4,8 @@ Inertia, weight, dry friction, back-EMF, stops, springs, and joints that give or
 MuJoCo's, in volts instead of newtons. What a motor controller and a sensor make of a command and of
 a motion are the effects' own functions, asked in every step. Nothing is exact as on the bench:
 friction creeps a little at rest, stops and teeth give a little, steps are of a millisecond.
-Motor and load rub as much as they are heavy, wheels that slip rub alone; what pulls does so at the
-load.
+Motor and load each have a share of the friction, wheels that slip have all of it; what pulls does
+so at the load.
 
 Words of a scene: https://mujoco.readthedocs.io/en/stable/XMLreference.html#body-joint
 """
@@ -37,7 +37,6 @@ STEP = 0.001  # [s]
 G = 9.81  # [m/s²]
 FIRM = "0.004 1"  # [s], [1] in which stops and teeth give, and dry friction holds (solref)
 GRIPS = "0.98 0.998 0.001"  # how much of it holds (solimp); the default lets it creep
-DAMPED = 0.04  # [1] of critical damping in a joint that gives
 STILL = 1e-6  # [unit/s] below which friction goes by where the voltage pushes
 LOOKS = 20  # [samples] between two looks whether someone has ended the test
 WIDEST = 2.5  # [standard deviations] by which friction differs from run to run at most
@@ -141,7 +140,8 @@ def _joins(part: Part, ka: float) -> dict[str, str]:
             "frictionloss": f"{values['grip']}", "solreffriction": FIRM, "solimpfriction": GRIPS
         }  # fmt: skip
     stiff = 1.0 / values["softness"]
-    damping = 2.0 * DAMPED * math.sqrt(stiff * ka * values["share"] * (1.0 - values["share"]))
+    reduced = ka * values["share"] * (1.0 - values["share"])
+    damping = 2.0 * values["damping"] * math.sqrt(stiff * reduced)
     return {"stiffness": f"{stiff}", "damping": f"{damping}"}
 
 
@@ -170,7 +170,7 @@ class _Body:
         self.ks = mechanism.gains["kS"]
         between = _between(mechanism)
         joined = between and find(between.effect).is_joint
-        self.share = between.parameters["share"] if joined else 1.0  # of what rubs, at the motor
+        self.share = between.parameters["motor_friction"] if joined else 1.0  # of what rubs
         self.memory = {part.effect: 0.0 for part in mechanism.hidden}
         self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
         parts = sorted(mechanism.hidden, key=lambda part: find(part.effect).order)
@@ -225,7 +225,7 @@ class _Body:
         self._remember(at_motor, v, STEP)
         way = math.copysign(1.0, v if abs(v) > STILL else at_motor)
         grips = sum(self._ask("coulomb_friction", v=v, way=way))
-        rub = max(rubs * self.ks + grips, 0.0)  # as heavy bodies do, each its share
+        rub = max(rubs * self.ks + grips, 0.0)
         self.model.dof_frictionloss[0] = self.share * rub
         self.model.tendon_frictionloss[:] = (1.0 - self.share) * rub
         if self.acts["added_inertia"]:

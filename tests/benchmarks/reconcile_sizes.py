@@ -132,8 +132,9 @@ def _stribeck(values: Values, *rest: object) -> Values:
 
 
 def _joint(values: Values, *rest: object) -> Values:
-    """From a light motor to one that has half of the inertia."""
-    return values | {"share": float(rest[-1].uniform(0.15, 0.5))}
+    """A lighter or heavier motor, more or less damping, friction at one side or both."""
+    spans = {"share": (0.15, 0.5), "damping": (0.05, 0.3), "motor_friction": (0.0, 1.0)}
+    return values | {name: float(rest[-1].uniform(*span)) for name, span in spans.items()}
 
 
 def _inertia(values: Values, *rest: object) -> Values:

@@ -1,9 +1,10 @@
 """Compliance: what joins motor and load gives way and swings back.
 
-    push = (x_motor - x_load)/softness
+    push = (x_motor - x_load)/softness, and damping
 
 A belt, a long shaft, an arm that bends: the motor's encoder sees the load swing after every change
-of voltage. ``share`` of kA is on the motor's side.
+of voltage. ``share`` of kA and ``motor_friction`` of the friction are on the motor's side;
+``damping`` is that of the swing, as a share of critical damping.
 """
 
 import math
@@ -28,10 +29,20 @@ def motor_inertia_share(share: float) -> float:
     return share
 
 
+def joint_damping(damping: float) -> float:
+    """[1] damping of the joint, as a share of critical damping."""
+    return damping
+
+
+def motor_friction_share(motor_friction: float) -> float:
+    """[1] share of the friction on the motor's side: the parameter ``motor_friction`` itself."""
+    return motor_friction
+
+
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     """Parameters of a given size; size 1 is a swing at 5 Hz, the motor held; larger is slower."""
     stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
-    return {"softness": size / stiff, "share": 0.3}
+    return {"softness": size / stiff, "share": 0.3, "damping": 0.05, "motor_friction": 0.3}
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
@@ -40,7 +51,8 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         reduced = share * (1.0 - share) * abs(seen.gains["kA"])
         for number in range(TRIED):
             stiff = reduced * (2.0 * math.pi * SLOWEST * NEXT**number) ** 2
-            yield {"softness": 1.0 / max(stiff, 1e-9), "share": share}
+            soft = 1.0 / max(stiff, 1e-9)
+            yield {"softness": soft, "share": share, "damping": 0.1, "motor_friction": 0.5}
 
 
 EFFECT = Effect(
@@ -51,6 +63,10 @@ EFFECT = Effect(
     parameters=(
         Parameter("softness", "how far it bends per volt", "{u}/V", power=-1, most=1e6),
         Parameter("share", "inertia on the motor's side", "1", least=0.01, most=0.95, neutral=0.3),
+        Parameter(
+            "damping", "damping of the joint, of critical", "1", least=0.005, most=1.0, neutral=0.05
+        ),
+        Parameter("motor_friction", "friction on the motor's side", "1", most=1.0, neutral=0.3),
     ),
     fingerprint=(
         "After every change of voltage the velocity oscillates, always at the same frequency."
@@ -69,5 +85,10 @@ EFFECT = Effect(
     },
     example=ordinary_parameters,
     start_values=find_start_values,
-    hooks={"joint_compliance": joint_compliance, "motor_inertia_share": motor_inertia_share},
+    hooks={
+        "joint_compliance": joint_compliance,
+        "joint_damping": joint_damping,
+        "motor_friction_share": motor_friction_share,
+        "motor_inertia_share": motor_inertia_share,
+    },
 )

@@ -47,6 +47,8 @@ HOOKS: Mapping[str, tuple[str, str, str]] = {
     "next_change": ("on, p, clock", "math.inf", "min({0}, {1})"),
     "backlash_gap": ("on, p", "0.0", "{0} + {1}"),
     "joint_compliance": ("on, p", "0.0", "{0} + {1}"),
+    "joint_damping": ("on, p", "0.0", "max({0}, {1})"),
+    "motor_friction_share": ("on, p", "0.0", "max({0}, {1})"),
     "motor_inertia_share": ("on, p", "0.0", "max({0}, {1})"),
     "grip_limit": ("on, p", "math.inf", "min({0}, {1})"),
     "transform_velocity": ("on, p, now, time, position, velocity", "velocity[now]", "{1}"),

@@ -64,6 +64,16 @@ def joint_compliance(on: Numbers, p: Numbers) -> float:
     return 0.0
 
 
+def joint_damping(on: Numbers, p: Numbers) -> float:
+    """[1] damping of the joint between motor and load, as a share of critical damping."""
+    return 0.0
+
+
+def motor_friction_share(on: Numbers, p: Numbers) -> float:
+    """[1] share of the dry friction that acts on the motor's side of the joint."""
+    return 0.0
+
+
 def motor_inertia_share(on: Numbers, p: Numbers) -> float:
     """[1] share of the inertia on the motor's side; 0 with one body."""
     return 0.0

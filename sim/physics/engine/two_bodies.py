@@ -15,6 +15,8 @@ from sim.physics.engine.hooks import (
     backlash_gap,
     force,
     joint_compliance,
+    joint_damping,
+    motor_friction_share,
     motor_inertia_share,
 )
 from sim.physics.engine.one_body import (
@@ -48,10 +50,8 @@ from sim.physics.engine.two_body_modes import (
 )
 
 CONTACT = 40.0  # [Hz] at which motor and load bounce on each other's teeth: stiff, but not endless
-DAMPING = 0.3  # [1] of critical, of that contact: steel teeth in grease
 BLOW = 4  # steps in which one is taken while teeth bounce
 MOMENT = 1e-6  # [s] a shorter part of a step is not worth a step of its own
-LOOSE_DAMPING = 0.05  # [1] of critical, of a belt, a chain or an arm that bends
 FINE, FINEST = 0.06, 2e-4  # [1] of their pace, [s]: a step in which one turns, or teeth meet
 PARTS = 1 << (LEVELS - 1)  # of a step, at most: the half of what swings has a table, too
 TINY, HUGE = 1e-9, 1e12  # [V·s/unit] a kV that is none; [1] an inertia that nothing moves
@@ -69,7 +69,7 @@ def step_two_bodies(
     if ways[KNOWN] != ka:
         ways[KNOWN] = ka
         reduced = part * (1.0 - part) * ka
-        stiff, damp = compute_joint_stiffness(joint_compliance(on, p), reduced)
+        stiff, damp = compute_joint_stiffness(on, p, reduced)
         pace = min(1.4 * math.sqrt(reduced / stiff), part * ka / max(c[KV], TINY))
         ways[STIFF], ways[DAMP], ways[SMALL] = stiff, damp, max(FINE * pace, FINEST)
     stiff, damp = ways[STIFF], ways[DAMP]
@@ -108,34 +108,37 @@ def step_in_contact(
     The step is ``whole`` / 2^``level``. What is not linear is taken at its middle. Where one body
     turns, teeth part, or a load that stands begins to move, there is no step: nan is returned.
     """
-    part = motor_inertia_share(on, p)
-    rest = 1.0 - part
-    own, other, dt = part * ka, rest * ka, whole / (1 << level)
+    part, rub = motor_inertia_share(on, p), motor_friction_share(on, p)
+    own, other, dt = part * ka, (1.0 - part) * ka, whole / (1 << level)
     x, v, y, z = state[X], state[V], state[Y], state[W]
     side = 0.5 * play * math.copysign(1.0, x - y)
     d, stands = x - y - side, z == 0.0
     u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     r = -compute_gravity_voltage(c, y) - force(on, p, y, z)
-    if stands and not stays_at_rest(c, on, p, y, stiff * d + damp * v + r, rest):
+    if stands and not stays_at_rest(c, on, p, y, stiff * d + damp * v + r, 1.0 - rub):
         return math.nan
     if stands and v == 0.0:
-        return u if is_held(c, on, p, u - stiff * d, part) else math.nan
+        return u if is_held(c, on, p, u - stiff * d, rub) else math.nan
 
     which = STANDS if stands else MOVES
     prepare_series(ways, which, c[KV], own, HUGE * ka if stands else other, stiff, damp)
     half = make_table(ways, which, whole, level + 1)
     full = make_table_from_half(ways, which, whole, level)
     way, toward = math.copysign(1.0, v), math.copysign(1.0, z)
-    b = u - way * part * compute_sliding_friction(c, on, p, v, way)
-    r = 0.0 if stands else r - toward * rest * compute_sliding_friction(c, on, p, z, toward)
+    b = u - way * rub * compute_sliding_friction(c, on, p, v, way)
+    r = 0.0 if stands else r - toward * (1.0 - rub) * compute_sliding_friction(c, on, p, z, toward)
     d_half = apply_row(ways, half, d, v, z, b, r)
     v_half = apply_row(ways, half + ROW, d, v, z, b, r)
     z_half = apply_row(ways, half + 2 * ROW, d, v, z, b, r)
     y_half = y + apply_row(ways, half + 3 * ROW, d, v, z, b, r)
     u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
-    b = u - way * part * compute_sliding_friction(c, on, p, v_half, way)
+    b = u - way * rub * compute_sliding_friction(c, on, p, v_half, way)
     r = -compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
-    r = 0.0 if stands else r - toward * rest * compute_sliding_friction(c, on, p, z_half, toward)
+    r = (
+        0.0
+        if stands
+        else r - toward * (1.0 - rub) * compute_sliding_friction(c, on, p, z_half, toward)
+    )
     d_end = apply_row(ways, full, d, v, z, b, r)
     v_end = apply_row(ways, full + ROW, d, v, z, b, r)
     z_end = apply_row(ways, full + 2 * ROW, d, v, z, b, r)
@@ -144,7 +147,7 @@ def step_in_contact(
     if stands:
         y_end, z_end = y, 0.0
         load = stiff * d_end + damp * v_end - compute_gravity_voltage(c, y) - force(on, p, y, 0.0)
-        slowest = slowest if stays_at_rest(c, on, p, y, load, rest) else 0.0
+        slowest = slowest if stays_at_rest(c, on, p, y, load, 1.0 - rub) else 0.0
     else:
         slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
     if not slowest > 0.0:
@@ -181,17 +184,17 @@ def step_in_backlash(
     asked: float, off: bool, ka: float, dt: float, play: float, stiff: float, damp: float,
 ) -> float:  # fmt: skip
     """One step of two bodies within their backlash; nan, and no step, where the teeth meet."""
-    part = motor_inertia_share(on, p)
+    part, rub = motor_inertia_share(on, p), motor_friction_share(on, p)
     own, other = part * ka, (1.0 - part) * ka
     x, v, y, z = state[X], state[V], state[Y], state[W]
     u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
-    _, v_half = predict_midpoint(c, on, p, x, v, u, c[KV], own, 0.5 * dt, part)
+    _, v_half = predict_midpoint(c, on, p, x, v, u, c[KV], own, 0.5 * dt, rub)
     drive = -compute_gravity_voltage(c, y) - force(on, p, y, z)
-    y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+    y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - rub)
     u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
-    x, v = move_exactly(c, on, p, x, v, v_half, u, c[KV], own, dt, part)
+    x, v = move_exactly(c, on, p, x, v, v_half, u, c[KV], own, dt, rub)
     drive = -compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
-    y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - rub)
     if compute_joint_force(play, stiff, damp, x - y, v - z) != 0.0:
         return math.nan
     state[X], state[V] = x, v
@@ -238,32 +241,34 @@ def step_by_midpoint(
 ) -> float:  # fmt: skip
     """One step of two bodies by the midpoint rule, whatever happens in it."""
     part, play = motor_inertia_share(on, p), backlash_gap(on, p)
-    own, other = part * ka, (1.0 - part) * ka
-    stiff, damp = compute_joint_stiffness(joint_compliance(on, p), part * other)
+    own, other, rub = part * ka, (1.0 - part) * ka, motor_friction_share(on, p)
+    stiff, damp = compute_joint_stiffness(on, p, part * other)
     x, v, y, z = state[X], state[V], state[Y], state[W]
 
     u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     push = compute_joint_force(play, stiff, damp, x - y, v - z)
-    x_half, v_half = predict_midpoint(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, part)
+    x_half, v_half = predict_midpoint(c, on, p, x, v, u - push, c[KV], own, 0.5 * dt, rub)
     drive = push - compute_gravity_voltage(c, y) - force(on, p, y, z)
-    y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - part)
+    y_half, z_half = predict_midpoint(c, on, p, y, z, drive, 0.0, other, 0.5 * dt, 1.0 - rub)
 
     u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
     push = compute_joint_force(play, stiff, damp, x_half - y_half, v_half - z_half)
-    x, v = move_exactly(c, on, p, x, v, v_half, u - push, c[KV], own, dt, part)
+    x, v = move_exactly(c, on, p, x, v, v_half, u - push, c[KV], own, dt, rub)
     drive = push - compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
-    y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - part)
+    y, z = move_exactly(c, on, p, y, z, z_half, drive, 0.0, other, dt, 1.0 - rub)
     state[X], state[V] = x, v
     state[Y], state[W] = clamp_to_travel(c, y, z)
     return u
 
 
-def compute_joint_stiffness(soft: float, reduced: float) -> tuple[float, float]:
-    """[V/unit] stiffness and [V·s/unit] damping between motor and load."""
-    stiff, damping = reduced * (2.0 * math.pi * CONTACT) ** 2, DAMPING
-    if soft > 0.0:
-        stiff, damping = 1.0 / soft, LOOSE_DAMPING
-    return stiff, 2.0 * damping * math.sqrt(stiff * reduced)
+def compute_joint_stiffness(on: Numbers, p: Numbers, reduced: float) -> tuple[float, float]:
+    """[V/unit] stiffness and [V·s/unit] damping between motor and load.
+
+    ``reduced`` [V·s²/unit] is the inertia of the two against each other.
+    """
+    soft = joint_compliance(on, p)
+    stiff = 1.0 / soft if soft > 0.0 else reduced * (2.0 * math.pi * CONTACT) ** 2
+    return stiff, 2.0 * joint_damping(on, p) * math.sqrt(stiff * reduced)
 
 
 def compute_joint_force(play: float, stiff: float, damp: float, gap: float, rush: float) -> float:
