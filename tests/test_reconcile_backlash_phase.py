@@ -113,7 +113,7 @@ def test_a_start_that_was_told_amiss_is_gone_untold_too():
     stiff = at(problem, ModelStructure("simple"))
     base = minimize_fully(problem, stiff)
     told = RunNuisance.at_first_samples(len(BEGAN)).with_backlash_phase(
-        np.array([1.0, -1.0, 1.0, -1.0])
+        np.array([-1.0, 1.0, -1.0, 1.0])
     )
     values = {**base.values, **OWN}
     start = problem.evaluate(PLAYS, values, told, base.process_noise)

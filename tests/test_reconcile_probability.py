@@ -24,7 +24,14 @@ from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import FARTHEST
 
 PLAIN = Evidence(
-    likelihood=5.0, gap=-0.3, size=1.0, rival=0.4, structure=0.0, once=0.0, damaged=0.0
+    likelihood=5.0,
+    gap=-0.3,
+    size=1.0,
+    rival=0.4,
+    later=0.0,
+    structure=0.0,
+    once=0.0,
+    damaged=0.0,
 )  # of an effect that is worth 150 and closes a quarter of the gap
 
 
@@ -43,6 +50,7 @@ def test_every_feature_has_its_coefficient():
         ("gap", 0.2, False),  # it closes less of the gap
         ("size", 1.0, True),
         ("rival", 0.5, False),
+        ("later", 1.0, False),
         ("structure", 1.0, False),
         ("once", 1.0, False),
         ("damaged", 1.0, False),

@@ -117,11 +117,15 @@ def judge_effects(
     missed = compute_missed_motion(done[-1].gap.velocity, problem)
     if not missed <= LOST:  # no number at all is lost, too
         return ()
+    possible = [
+        (before, now)
+        for before, now in pairwise(done)
+        if not is_ordinary_size(now.candidate.effect, last.values)
+        and not is_contradicted(now.candidate.effect, problem, last, left)
+    ]
     found = []
-    for before, now in pairwise(done):
+    for place, (before, now) in enumerate(possible):
         name = now.candidate.effect
-        if is_ordinary_size(name, last.values) or is_contradicted(name, problem, last, left):
-            continue
         with_, bare = compare_gaps(now, done[-1])
         added = before.candidate.score - now.candidate.score
         evidence = Evidence(
@@ -135,6 +139,7 @@ def judge_effects(
             rival=compute_rival_share(
                 name, added, list_rival_scores(before, last.structure.effects, name)
             ),
+            later=float(place > 0),
             structure=float(left.has_structure),
             once=float(EFFECTS[name].has_onset),
             damaged=float(damaged and EFFECTS[name].has_onset),

@@ -1,7 +1,7 @@
 """How likely it is that an effect of the last model is missing in the base model.
 
 A logistic regression (Hastie, Tibshirani and Friedman, The Elements of Statistical Learning,
-section 4.4) of seven features. Its coefficients stand in ``probability.json``, which
+section 4.4) of eight features. Its coefficients stand in ``probability.json``, which
 ``tests/benchmarks/learn_probability.py`` makes from logs in which the truth is known.
 """
 
@@ -29,6 +29,8 @@ class Evidence:
         size: ln of its size over the largest that is everyday.
         rival: score of the best other effect that lasts, over its own, in its round, 0 to 1. What
             is the same wherever the mechanism moves is no other effect.
+        later: 1 if another effect that may be a finding was added before it, else 0. It may then
+            explain what that one leaves because its form is only about right.
         structure: 1 if the last model leaves more than noise, else 0.
         once: 1 if it begins at a moment, else 0.
         damaged: 1 if it begins at a moment and the log is damaged, else 0.
@@ -38,6 +40,7 @@ class Evidence:
     gap: float
     size: float
     rival: float
+    later: float
     structure: float
     once: float
     damaged: float

@@ -109,13 +109,13 @@ def step_in_contact(
     turns, teeth part, or a load that stands begins to move, there is no step: nan is returned.
     """
     part, rub = motor_inertia_share(on, p), motor_friction_share(on, p)
-    own, other, dt = part * ka, (1.0 - part) * ka, whole / (1 << level)
+    own, other, rest, dt = part * ka, (1.0 - part) * ka, 1.0 - rub, whole / (1 << level)
     x, v, y, z = state[X], state[V], state[Y], state[W]
     side = 0.5 * play * math.copysign(1.0, x - y)
     d, stands = x - y - side, z == 0.0
     u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
     r = -compute_gravity_voltage(c, y) - force(on, p, y, z)
-    if stands and not stays_at_rest(c, on, p, y, stiff * d + damp * v + r, 1.0 - rub):
+    if stands and not stays_at_rest(c, on, p, y, stiff * d + damp * v + r, rest):
         return math.nan
     if stands and v == 0.0:
         return u if is_held(c, on, p, u - stiff * d, rub) else math.nan
@@ -134,11 +134,7 @@ def step_in_contact(
     u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
     b = u - way * rub * compute_sliding_friction(c, on, p, v_half, way)
     r = -compute_gravity_voltage(c, y_half) - force(on, p, y_half, z_half)
-    r = (
-        0.0
-        if stands
-        else r - toward * (1.0 - rub) * compute_sliding_friction(c, on, p, z_half, toward)
-    )
+    r = 0.0 if stands else r - toward * rest * compute_sliding_friction(c, on, p, z_half, toward)
     d_end = apply_row(ways, full, d, v, z, b, r)
     v_end = apply_row(ways, full + ROW, d, v, z, b, r)
     z_end = apply_row(ways, full + 2 * ROW, d, v, z, b, r)
@@ -147,7 +143,7 @@ def step_in_contact(
     if stands:
         y_end, z_end = y, 0.0
         load = stiff * d_end + damp * v_end - compute_gravity_voltage(c, y) - force(on, p, y, 0.0)
-        slowest = slowest if stays_at_rest(c, on, p, y, load, 1.0 - rub) else 0.0
+        slowest = slowest if stays_at_rest(c, on, p, y, load, rest) else 0.0
     else:
         slowest = min(slowest, z * toward, z_half * toward, z_end * toward)
     if not slowest > 0.0:
