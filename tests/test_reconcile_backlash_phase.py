@@ -163,7 +163,7 @@ def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
     point = at(problem)
     one = SelectionRound(score_estimate(problem, point, "backlash"), Gap(0.0, 0.0), Gap(0.0, 0.0))
 
-    (said,) = list_remarks(problem, [one], [named("backlash")], ResidualSummary())
+    (said,) = list_remarks(problem, [one], [named("backlash")], (), ResidualSummary())
     assert "no fitted run changes direction" in said
 
     turned = session(0, step=4.0, seed=1)
@@ -171,4 +171,4 @@ def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
     there = PredictionErrorProblem.from_records(
         make_run_records(replace(turned, runs=(back, *turned.runs[1:])))
     )
-    assert list_remarks(there, [one], [named("backlash")], ResidualSummary()) == ()
+    assert list_remarks(there, [one], [named("backlash")], (), ResidualSummary()) == ()

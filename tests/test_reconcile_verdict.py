@@ -18,7 +18,12 @@ from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap, count_noise_floors
-from sim.reconcile.findings import judge_effects, list_remarks, make_findings
+from sim.reconcile.findings import (
+    judge_effects,
+    list_remarks,
+    make_findings,
+    select_reported_rounds,
+)
 from sim.reconcile.model_selection import WIDENS
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
@@ -276,7 +281,7 @@ def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, n
     done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
 
     found = find_effects(problem, done, left=ResidualSummary())
-    told = list_remarks(problem, done, found, ResidualSummary())
+    told = list_remarks(problem, done, found, (), ResidualSummary())
 
     assert [one.effect for one in found] == [effect] * named
     assert any(f"a little {effect}" in sentence for sentence in told) is not named
@@ -298,13 +303,17 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     tried = tuple(
         TriedCandidate(name, each, 1.0, admitted=False, why="") for name, each in scores.items()
     )
-    done = [replace(base, tried=tried), replace(one, removal_cost=score)]
+    plain = rounds(problem, 2.0)[0].candidate
+    done = [replace(base, tried=tried, candidate=plain), replace(one, removal_cost=score)]
 
     (judged,) = judge_effects(problem, done, ResidualSummary(), damaged=False)
     found = find_effects(problem, done, left=ResidualSummary())
+    remarks = list_remarks(problem, done, found, [judged], ResidualSummary())
 
     assert (judged.probability >= LEAST_PROBABILITY) is named
     assert [each.probability for each in found] == [judged.probability] * named
+    assert len(select_reported_rounds(done, found, [judged])) == (2 if named else 1)
+    assert any(f"only {judged.probability:.0%} likely" in one for one in remarks) is not named
 
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])
@@ -317,7 +326,7 @@ def test_what_is_in_the_model_and_not_named_is_told(problem, after, told):
     start = float(problem.records[0].measurements.time[0]) + 0.5 + after
     strange = ResidualSummary(worst_window=WorstWindow(20.0, 0, start, start + 0.1))
 
-    (said,) = list_remarks(problem, done, [], strange)
+    (said,) = list_remarks(problem, done, [], (), strange)
 
     assert "inertia-change" in said
     assert ("not named" in said) is told

@@ -128,7 +128,7 @@ def _make_story(
         problem, done, faults, chapters, without=shown.measure_gaps_without(done),
         held_out=shown.held_out, left=left, per=per,
     )  # fmt: skip
-    chapters = chapters[: len(select_reported_rounds(done, findings))]
+    chapters = chapters[: len(select_reported_rounds(done, findings, judged))]
     verdict, remainder, remains = reach_verdict(
         findings, done, problem, left=left, cut=cut, per=per
     )
@@ -138,7 +138,7 @@ def _make_story(
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.find_gap_places(chapters[0]),
         chapters=chapters, shown=shown.log, how=shown.kind,
-        notes=(*list_remarks(problem, done, findings, left), *seen),
+        notes=(*list_remarks(problem, done, findings, judged, left), *seen),
         compared=shown.compared_samples,
         judged=judged,
     )  # fmt: skip

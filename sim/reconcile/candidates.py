@@ -27,6 +27,7 @@ from sim.reconcile.local_minimum import (
     rate_starts,
 )
 from sim.reconcile.onset_scan import refine_onset, scan_onsets
+from sim.reconcile.thresholds import LEAST_SCORE
 from sim.reconcile.two_body_starts import TwoBodyStarts
 
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
@@ -135,11 +136,17 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
     """
     found = minimize(problem, start)
     if _ends_in_two_bodies(start):
-        return _move_friction(problem, found)
+        return _move_friction(problem, found) if _is_worth_more(point, found) else found
     if found.cost <= point.cost:
         return found
     noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
     return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
+
+
+def _is_worth_more(point: Estimate, found: Estimate) -> bool:
+    """Whether a model with a joint is much likelier than one without any."""
+    alone = not any(EFFECTS[name].is_joint for name in point.structure.effects)
+    return alone and point.cost - found.cost > LEAST_SCORE
 
 
 def _move_friction(problem: PredictionErrorProblem, point: Estimate) -> Estimate:

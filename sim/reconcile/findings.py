@@ -51,6 +51,12 @@ BELIED = (
 )
 
 
+DOUBTED = (
+    "With {} the model fits this log better, but that it is really in the mechanism is only {} "
+    "likely, so the model leaves it out."
+)
+
+
 def make_findings(
     problem: PredictionErrorProblem, done: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
@@ -275,14 +281,20 @@ def is_contradicted(
 
 
 def select_reported_rounds(
-    done: Sequence[SelectionRound], findings: Sequence[Finding]
+    done: Sequence[SelectionRound], findings: Sequence[Finding], judged: Sequence[JudgedEffect]
 ) -> Sequence[SelectionRound]:
-    """The rounds up to the last effect that is named or narrows the gap of other runs."""
+    """The rounds up to the last effect that is named, or is everyday and narrows the gap.
+
+    What is less likely right than wrong is not shown as if it explained the log.
+    """
     named = {one.effect for one in findings}
+    unlikely = {one.effect for one in judged if one.probability < LEAST_PROBABILITY}
     last = max(
         n
         for n, one in enumerate(done)
-        if n == 0 or one.candidate.effect in named or _narrows(one, done[-1])
+        if n == 0
+        or one.candidate.effect in named
+        or (one.candidate.effect not in unlikely and _narrows(one, done[-1]))
     )
     return done[: last + 1]
 
@@ -291,6 +303,7 @@ def list_remarks(
     problem: PredictionErrorProblem,
     done: Sequence[SelectionRound],
     findings: Sequence[Finding],
+    judged: Sequence[JudgedEffect],
     left: ResidualSummary,
 ) -> tuple[str, ...]:
     """Remarks: effects that were not reported, and what the data do not determine."""
@@ -299,13 +312,17 @@ def list_remarks(
     named = {one.effect for one in findings}
     unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
     rest = [name for name in structure.effects if name not in {*named, *unsure}]
-    kept = select_reported_rounds(done, findings)[-1].candidate.estimate.structure.effects
+    last_shown = select_reported_rounds(done, findings, judged)[-1]
+    kept = last_shown.candidate.estimate.structure.effects
     said = []
     if inside := [name for name in rest if name in kept]:
         what = " and ".join(inside)
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
-    if outside := [name for name in rest if name not in kept]:
+    likely = {one.effect: one.probability for one in judged}
+    doubted = [name for name in rest if name not in kept and name in likely]
+    said += [DOUBTED.format(name, f"{likely[name]:.0%}") for name in doubted]
+    if outside := [name for name in rest if name not in {*kept, *doubted}]:
         what = " and ".join(outside)
         said.append(
             f"A little {what} would fit the log better, but the gap does not shrink with it, so "
