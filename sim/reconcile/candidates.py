@@ -7,10 +7,10 @@ much pushes, which bears with anything, only near a calmer one.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.estimation.random_friction import compute_laplace_correction
 from sim.physics.effect import Effect, are_compatible
@@ -36,7 +36,6 @@ FURTHER = 6  # steps from each valley of what shakes, which are to be compared
 FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of it on the motor's side, from which a joint goes on
 NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
-STEPS_BELOW, STEP_BELOW = 8, 0.8  # how often, and by what, a threshold is lowered below its starts
 OWN: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
     "arm": ("gravity-cosine", "wheel-slip"),
@@ -276,7 +275,6 @@ def _best_starts(
             if shakes := lively.there:
                 more = lively.list_starts(structure, more, heavy=heavy)
         more += [{**more[0], "kA": share * point.values["kA"]} for share in effect.inertia_shares]
-        more += _steps_below(effect, more)
         if effect.has_onset:
             more += scan_onsets(problem, point, effect, kept=kept)
         if effect.name in seeds:
@@ -286,14 +284,3 @@ def _best_starts(
         if begun:
             found.append(begun if shakes else begun[:1])
     return sorted(found, key=lambda starts: -starts[0][0])
-
-
-def _steps_below(
-    effect: Effect, starts: Sequence[Mapping[str, float]]
-) -> Iterator[dict[str, float]]:
-    """The least start, and less and less of what acts by a threshold: no slope leads down to it."""
-    names = [f"{effect.name}.{name}" for name in effect.names if name in STEPWISE]
-    if names and starts:
-        least = min(starts, key=lambda one: one[names[0]])
-        for power in range(1, STEPS_BELOW + 1):
-            yield {**least, **{name: least[name] * STEP_BELOW**power for name in names}}

@@ -7,12 +7,12 @@ Phoenix calls it the neutral deadband (4 % by default, 0.48 V of 12); it hides f
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-STARTED = 0.02  # [share of the top speed] at which a run has begun to move
+SMALLEST, NEXT, TRIED = 0.06, 1.13, 27
+"""[V] of the thresholds that a search begins with, how many times larger the next one is, and how
+many: smaller ones hide in kS, and no controller ignores more than an eighth of the battery."""
 
 
 def transform_voltage(u: float, band: float) -> float:
@@ -25,20 +25,12 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"band": scale.ks + 0.33 * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: shares of the voltages at which the ramps began to move (it is a threshold).
+def find_start_values(_: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: all thresholds up to one and a half volts, each an eighth above the one below.
 
-    What a load draws along moves before any voltage does, until a ramp turns it.
+    It is a threshold: no slope leads to it. Where a load is drawn along, the ramps do not show it.
     """
-    started = STARTED * seen.top_speed
-    onset = [
-        abs(float(run.voltage[np.argmax(run.velocity * np.sign(run.voltage) > started)]))
-        for run in seen.log.runs
-        if run.kind == "quasistatic" and len(run)
-    ]
-    around = {float(np.median(onset)), max(onset)} if onset else {0.4}
-    for part in (1.0, 0.92, 0.84, 0.76, 0.68, 0.6, 1.1):
-        yield from ({"band": max(part * one, 0.02)} for one in sorted(around))
+    yield from ({"band": SMALLEST * NEXT**number} for number in range(TRIED))
 
 
 EFFECT = Effect(
