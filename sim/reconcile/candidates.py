@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.estimation.random_friction import compute_laplace_correction
 from sim.physics.effect import Effect, are_compatible
@@ -35,6 +35,7 @@ A_LITTLE = 2  # steps
 FURTHER = 6  # steps from each valley of what shakes, which are to be compared
 FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of it on the motor's side, from which a joint goes on
 NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
+THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] of a threshold, tried beside it
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 OWN: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
@@ -133,13 +134,33 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
         point: the best without the candidate.
         start: with it.
     """
-    found = minimize(problem, start)
+    found = _move_threshold(problem, minimize(problem, start))
     if _ends_in_two_bodies(start):
         return _move_friction(problem, found) if _is_worth_more(point, found) else found
     if found.cost <= point.cost:
         return found
     noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
     return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
+
+
+def _move_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The best of an estimate and of those whose last effect begins at a slightly other voltage.
+
+    Which samples a threshold lets through changes in jumps, so no slope leads to the best one.
+    """
+    last = point.structure.effects[-1]
+    names = [f"{last}.{name}" for name in EFFECTS[last].names if name in STEPWISE]
+    moved = [
+        problem.evaluate(
+            point.structure,
+            {**point.values, **{name: point.values[name] * share for name in names}},
+            point.nuisance,
+            point.process_noise,
+        )
+        for share in (THRESHOLD_SHARES if names else ())
+    ]
+    best = min([point, *moved], key=compute_total_cost)
+    return point if best is point else minimize(problem, best)
 
 
 def _is_worth_more(point: Estimate, found: Estimate) -> bool:
