@@ -17,7 +17,7 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.candidates import rank_candidates
+from sim.reconcile.candidates import move_threshold, rank_candidates
 from sim.reconcile.cross_validation import Gap, compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.local_minimum import rate_starts
@@ -44,6 +44,27 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
     first = story.findings[0]
     assert first.effect == "deadband"
     assert first.parameters["band"].value == pytest.approx(band, rel=0.1)
+
+
+@pytest.mark.parametrize("band", [0.07, 0.21, 0.48, 1.3])
+def test_a_search_begins_near_each_threshold_whatever_the_log_shows(band):
+    starts = [start["band"] for start in EFFECTS["deadband"].start_values(NOWHERE)]
+
+    assert min(abs(math.log(start / band)) for start in starts) < 0.07
+
+
+def test_a_threshold_that_is_a_little_off_is_moved():
+    built = replace(bench("drivetrain"), hidden=(Part("deadband", {"band": 0.6}),))
+    problem = PredictionErrorProblem.from_records(make_run_records(session(built, "log")))
+    structure = ModelStructure("simple") + "deadband"
+    values = {**{name: built.gains[name] for name in structure.names[:3]}, "deadband.band": 0.56}
+    nuisance = RunNuisance.at_first_samples(len(problem.records))
+    off = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
+
+    moved = move_threshold(problem, off)
+
+    assert moved.cost < off.cost
+    assert moved.values["deadband.band"] == pytest.approx(0.6, rel=0.03)  # it was 7 % off
 
 
 def test_a_start_that_is_far_too_large_is_halved():

@@ -134,7 +134,7 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
         point: the best without the candidate.
         start: with it.
     """
-    found = _move_threshold(problem, minimize(problem, start))
+    found = move_threshold(problem, minimize(problem, start))
     if _ends_in_two_bodies(start):
         return _move_friction(problem, found) if _is_worth_more(point, found) else found
     if found.cost <= point.cost:
@@ -143,7 +143,7 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
     return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
 
 
-def _move_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+def move_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The best of an estimate and of those whose last effect begins at a slightly other voltage.
 
     Which samples a threshold lets through changes in jumps, so no slope leads to the best one.
