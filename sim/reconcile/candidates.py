@@ -33,7 +33,7 @@ from sim.reconcile.two_body_starts import TwoBodyStarts
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
 FURTHER = 6  # steps from each valley of what shakes, which are to be compared
-FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of it on the motor's side, from which a joint goes on
+FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of it at the motor: a joint is searched from each
 NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
 THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] of a threshold, tried beside it
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
@@ -127,7 +127,7 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
 
     A candidate contains the model without it, so at its minimum it cannot be less likely. Where it
     is, its start had another process noise than that model, and the search begins anew from that
-    of the model.
+    of the model. A joint is searched from several shares of the friction instead.
 
     Args:
         problem: the measurements.
@@ -136,7 +136,7 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
     """
     found = move_threshold(problem, minimize(problem, start))
     if _ends_in_two_bodies(start):
-        return _move_friction(problem, found) if _is_worth_more(point, found) else found
+        return _move_friction(problem, found) if _is_much_likelier(found, point) else found
     if found.cost <= point.cost:
         return found
     noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
@@ -163,7 +163,7 @@ def move_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     return point if best is point else minimize(problem, best)
 
 
-def _is_worth_more(point: Estimate, found: Estimate) -> bool:
+def _is_much_likelier(found: Estimate, point: Estimate) -> bool:
     """Whether a model with a joint is much likelier than one without any."""
     alone = not any(EFFECTS[name].is_joint for name in point.structure.effects)
     return alone and point.cost - found.cost > LEAST_SCORE
