@@ -1,5 +1,6 @@
 """The verdict: what the findings and what is left of the gap come to."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -314,6 +315,20 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     assert [each.probability for each in found] == [judged.probability] * named
     assert len(select_reported_rounds(done, found, [judged])) == (2 if named else 1)
     assert any(f"only {judged.probability:.0%} likely" in one for one in remarks) is not named
+
+
+@pytest.mark.parametrize(("swings", "judged"), [(0.5, True), (1.5, False)])
+def test_a_joint_that_swings_within_a_sample_is_no_finding(problem, swings, judged):
+    period = float(np.median(np.diff(problem.records[0].measurements.time)))
+    reduced = 0.3 * 0.7 * GAINS["kA"]
+    soft = (period / (2.0 * math.pi * swings)) ** 2 / reduced
+    joint = {"softness": soft, "share": 0.3, "damping": 0.1, "motor_friction": 0.5}
+    values = {**GAINS, **{f"compliance.{name}": value for name, value in joint.items()}}
+    done = added(problem, ("compliance", 1.0, 2.0), values=values)
+
+    found = judge_effects(problem, done, ResidualSummary(), damaged=False)
+
+    assert [one.effect for one in found] == ["compliance"] * judged
 
 
 @pytest.mark.parametrize(("after", "told"), [(0.2, True), (0.9, False)])

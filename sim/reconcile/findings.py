@@ -128,6 +128,7 @@ def judge_effects(
         for before, now in pairwise(done)
         if not is_ordinary_size(now.candidate.effect, last.values)
         and not is_contradicted(now.candidate.effect, problem, last, left)
+        and not swings_between_samples(now.candidate.effect, problem, last.values)
     ]
     found = []
     for place, (before, now) in enumerate(possible):
@@ -152,6 +153,27 @@ def judge_effects(
         )
         found.append(JudgedEffect(name, now.rivals, evidence, compute_probability(evidence)))
     return tuple(found)
+
+
+def swings_between_samples(
+    effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
+) -> bool:
+    """Whether a soft joint swings to and fro within one sample, so that no log can show it.
+
+    Its two inertias swing with √(1/(softness·share·(1 - share)·kA)) in radians per second.
+
+    Args:
+        effect: its name.
+        problem: the measurements.
+        values: of a model, in SI.
+    """
+    if "joint_compliance" not in EFFECTS[effect].hooks:
+        return False
+    share, soft = values[f"{effect}.share"], values[f"{effect}.softness"]
+    reduced = share * (1.0 - share) * values["kA"]
+    periods = [np.median(np.diff(one.measurements.time)) for one in problem.records]
+    swing = 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0))
+    return bool(swing < float(np.median(periods)))
 
 
 def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
