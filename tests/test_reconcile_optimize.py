@@ -46,7 +46,7 @@ def test_a_threshold_far_below_where_the_ramps_begin_is_found(band):
     assert first.parameters["band"].value == pytest.approx(band, rel=0.1)
 
 
-@pytest.mark.parametrize("band", [0.07, 0.21, 0.48, 1.3])
+@pytest.mark.parametrize("band", [0.07, 0.21, 0.48, 1.3, 2.9])
 def test_a_search_begins_near_each_threshold_whatever_the_log_shows(band):
     starts = [start["band"] for start in EFFECTS["deadband"].start_values(NOWHERE)]
 

@@ -2,7 +2,9 @@
 
     u = 0 where |u| < band
 
-Phoenix calls it the neutral deadband (4 % by default, 0.48 V of 12); it hides friction below it.
+Phoenix calls it the neutral deadband. Phoenix 5 sets 4 % (0.48 V of 12), Phoenix 6 none; teams can
+set up to 25 %. It hides friction below it. Phoenix 6:
+https://api.ctr-electronics.com/phoenix6/stable/cpp/_motor_output_configs_8hpp_source.html
 """
 
 from collections.abc import Iterator, Mapping
@@ -10,9 +12,9 @@ from collections.abc import Iterator, Mapping
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-SMALLEST, NEXT, TRIED = 0.06, 1.13, 27
+SMALLEST, NEXT, TRIED = 0.06, 1.13, 33
 """[V] of the thresholds that a search begins with, how many times larger the next one is, and how
-many: smaller ones hide in kS, and no controller ignores more than an eighth of the battery."""
+many: smaller ones hide in kS, and no controller ignores more than a quarter of the battery."""
 
 
 def transform_voltage(u: float, band: float) -> float:
@@ -26,7 +28,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def find_start_values(_: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: all thresholds up to one and a half volts, each an eighth above the one below.
+    """Start values: all thresholds up to three volts, each an eighth above the one below.
 
     It is a threshold: no slope leads to it. Where a load is drawn along, the ramps do not show it.
     """
