@@ -17,7 +17,7 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.candidates import move_threshold, rank_candidates
+from sim.reconcile.candidates import rank_candidates, refine_threshold
 from sim.reconcile.cross_validation import Gap, compute_open_loop_errors, compute_rms_gap
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.local_minimum import rate_starts
@@ -61,7 +61,7 @@ def test_a_threshold_that_is_a_little_off_is_moved():
     nuisance = RunNuisance.at_first_samples(len(problem.records))
     off = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
 
-    moved = move_threshold(problem, off)
+    moved = refine_threshold(problem, off)
 
     assert moved.cost < off.cost
     assert moved.values["deadband.band"] == pytest.approx(0.6, rel=0.03)  # it was 7 % off

@@ -33,9 +33,14 @@ from sim.reconcile.two_body_starts import TwoBodyStarts
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
 FURTHER = 6  # steps from each valley of what shakes, which are to be compared
-FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of it at the motor: a joint is searched from each
+FRICTION_SHARES = (
+    0.0,
+    0.3,
+    0.6,
+    1.0,
+)  # [1] of the friction at the motor, from which a joint is searched
 NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
-THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] of a threshold, tried beside it
+THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] times a threshold, tried beside it
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
 OWN: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
@@ -134,17 +139,17 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
         point: the best without the candidate.
         start: with it.
     """
-    found = move_threshold(problem, minimize(problem, start))
+    found = refine_threshold(problem, minimize(problem, start))
     if _ends_in_two_bodies(start):
-        return _move_friction(problem, found) if _is_much_likelier(found, point) else found
+        return _refine_motor_friction(problem, found) if _is_much_likelier(found, point) else found
     if found.cost <= point.cost:
         return found
     noisy = problem.evaluate(start.structure, start.values, start.nuisance, point.process_noise)
     return min(found, minimize_fully(problem, noisy), key=lambda one: one.cost)
 
 
-def move_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The best of an estimate and of those whose last effect begins at a slightly other voltage.
+def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The likeliest of an estimate and of those with a slightly smaller or larger threshold.
 
     Which samples a threshold lets through changes in jumps, so no slope leads to the best one.
     """
@@ -169,11 +174,11 @@ def _is_much_likelier(found: Estimate, point: Estimate) -> bool:
     return alone and point.cost - found.cost > LEAST_SCORE
 
 
-def _move_friction(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The best of a joint's minimum and of those with more or less friction at the motor.
+def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The likeliest model of a joint, searched from several shares of friction at the motor.
 
-    Whether a load moves at all on a ramp depends on where it rubs, so each share of the friction
-    has a minimum of its own.
+    Whether a load moves on a slow ramp depends on where the friction is, so the search has a local
+    minimum for each share.
     """
     name = f"{point.structure.effects[-1]}.motor_friction"
     best = point

@@ -52,8 +52,8 @@ BELIED = (
 
 
 DOUBTED = (
-    "With {} the model fits this log better, but that it is really in the mechanism is only {} "
-    "likely, so the model leaves it out."
+    "With {} the model fits this log better. The probability that the mechanism really has this "
+    "effect is only {}, so the model leaves it out."
 )
 
 
@@ -128,7 +128,7 @@ def judge_effects(
         for before, now in pairwise(done)
         if not is_ordinary_size(now.candidate.effect, last.values)
         and not is_contradicted(now.candidate.effect, problem, last, left)
-        and not swings_between_samples(now.candidate.effect, problem, last.values)
+        and not oscillates_within_sample(now.candidate.effect, problem, last.values)
     ]
     found = []
     for place, (before, now) in enumerate(possible):
@@ -155,12 +155,12 @@ def judge_effects(
     return tuple(found)
 
 
-def swings_between_samples(
+def oscillates_within_sample(
     effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
 ) -> bool:
-    """Whether a soft joint swings to and fro within one sample, so that no log can show it.
+    """Whether a soft joint oscillates once or more from one sample to the next.
 
-    Its two inertias swing with √(1/(softness·share·(1 - share)·kA)) in radians per second.
+    No log can show that. The angular frequency is 1/√(softness·share·(1 - share)·kA) [rad/s].
 
     Args:
         effect: its name.
@@ -171,9 +171,7 @@ def swings_between_samples(
         return False
     share, soft = values[f"{effect}.share"], values[f"{effect}.softness"]
     reduced = share * (1.0 - share) * values["kA"]
-    periods = [np.median(np.diff(one.measurements.time)) for one in problem.records]
-    swing = 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0))
-    return bool(swing < float(np.median(periods)))
+    return 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0)) < problem.period
 
 
 def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
@@ -305,12 +303,12 @@ def is_contradicted(
 def select_reported_rounds(
     done: Sequence[SelectionRound], findings: Sequence[Finding], judged: Sequence[JudgedEffect]
 ) -> Sequence[SelectionRound]:
-    """The rounds up to the last effect that is named, or is everyday and narrows the gap.
+    """The rounds to show: up to the last whose effect is named or, if everyday, narrows the gap.
 
-    What is less likely right than wrong is not shown as if it explained the log.
+    An effect that is less likely than not is not shown as if it explained the log.
     """
     named = {one.effect for one in findings}
-    unlikely = {one.effect for one in judged if one.probability < LEAST_PROBABILITY}
+    unlikely = _list_unlikely(judged)
     last = max(
         n
         for n, one in enumerate(done)
@@ -319,6 +317,11 @@ def select_reported_rounds(
         or (one.candidate.effect not in unlikely and _narrows(one, done[-1]))
     )
     return done[: last + 1]
+
+
+def _list_unlikely(judged: Sequence[JudgedEffect]) -> dict[str, float]:
+    """Effect -> probability, of the effects that are less likely than not."""
+    return {one.effect: one.probability for one in judged if one.probability < LEAST_PROBABILITY}
 
 
 def list_remarks(
@@ -341,9 +344,9 @@ def list_remarks(
         what = " and ".join(inside)
         why = "no more than on other robots, or too little to narrow the gap"
         said.append(f"In the last model there is also a little {what}: {why}.")
-    likely = {one.effect: one.probability for one in judged}
-    doubted = [name for name in rest if name not in kept and name in likely]
-    said += [DOUBTED.format(name, f"{likely[name]:.0%}") for name in doubted]
+    unlikely = _list_unlikely(judged)
+    doubted = [name for name in rest if name not in kept and name in unlikely]
+    said += [DOUBTED.format(name, f"{unlikely[name]:.0%}") for name in doubted]
     if outside := [name for name in rest if name not in {*kept, *doubted}]:
         what = " and ".join(outside)
         said.append(

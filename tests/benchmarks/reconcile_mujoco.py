@@ -170,7 +170,7 @@ class _Body:
         self.ks = mechanism.gains["kS"]
         between = _between(mechanism)
         joined = between and find(between.effect).is_joint
-        self.share = between.parameters["motor_friction"] if joined else 1.0  # of what rubs
+        self.share = between.parameters["motor_friction"] if joined else 1.0  # of friction
         self.memory = {part.effect: 0.0 for part in mechanism.hidden}
         self.clock = self.more = 0.0  # [s] since the log began; [V·s²/unit] of inertia beyond kA
         parts = sorted(mechanism.hidden, key=lambda part: find(part.effect).order)

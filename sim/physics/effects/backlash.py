@@ -14,7 +14,7 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
 MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show at a start
-BOUNCE = 0.13  # [1] damping of hard teeth, from which a search begins
+BOUNCE = 0.13  # [1] damping of hard teeth, with which a search begins
 LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom finds the other
 
 

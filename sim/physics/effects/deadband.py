@@ -3,7 +3,7 @@
     u = 0 where |u| < band
 
 Phoenix calls it the neutral deadband. Phoenix 5 sets 4 % (0.48 V of 12), Phoenix 6 none; teams can
-set up to 25 %. It hides friction below it. Phoenix 6:
+set up to 25 %. Friction that is smaller than the deadband does not show. Phoenix 6:
 https://api.ctr-electronics.com/phoenix6/stable/cpp/_motor_output_configs_8hpp_source.html
 """
 
@@ -13,8 +13,8 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
 SMALLEST, NEXT, TRIED = 0.06, 1.13, 33
-"""[V] of the thresholds that a search begins with, how many times larger the next one is, and how
-many: smaller ones hide in kS, and no controller ignores more than a quarter of the battery."""
+"""[V] The smallest threshold from which a search begins, [1] the ratio of each to the one before,
+and their number. A smaller deadband looks like kS, and Phoenix allows none above 3 V."""
 
 
 def transform_voltage(u: float, band: float) -> float:
@@ -30,7 +30,8 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
 def find_start_values(_: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: all thresholds up to three volts, each an eighth above the one below.
 
-    It is a threshold: no slope leads to it. Where a load is drawn along, the ramps do not show it.
+    The likelihood changes in jumps with a threshold, so a search from far away does not find it. On
+    a mechanism that sinks under its own weight, the ramps do not show where it is.
     """
     yield from ({"band": SMALLEST * NEXT**number} for number in range(TRIED))
 
