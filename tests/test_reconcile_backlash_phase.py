@@ -10,17 +10,12 @@ from sim.core.log import Log
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
-from sim.estimation.run_nuisance import RunNuisance
+from sim.estimation.run_nuisance import BETWEEN, ON_ONE_SIDE, RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile import reconcile
-from sim.reconcile.backlash_phase import (
-    ASIDE,
-    BETWEEN,
-    compute_backlash_phase_prior,
-    estimate_backlash_phase,
-)
+from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.findings import list_remarks
@@ -87,7 +82,7 @@ def test_each_run_is_begun_where_it_went_on_from(problem):
 
     seen = estimate_backlash_phase(problem, blind)
 
-    assert seen.cost + compute_backlash_phase_prior(seen) < blind.cost - 100.0
+    assert seen.cost < blind.cost - 100.0
     assert seen.nuisance.backlash_phase == pytest.approx(
         [one for one, _ in BEGAN.values()], abs=0.2
     )
@@ -119,22 +114,27 @@ def test_a_start_that_was_told_amiss_is_gone_untold_too():
     start = problem.evaluate(PLAYS, values, told, base.process_noise)
     assert levenberg_marquardt(problem, start, steps=FURTHER).cost > base.cost  # it leads nowhere
 
-    found = descend_candidate(problem, base, start)
+    found = descend_candidate(problem, start)
 
     assert found.cost < base.cost - 5000.0
     assert not found.nuisance.has_backlash_phase
 
 
 def test_what_is_told_has_its_price(problem):
-    seen = estimate_backlash_phase(problem, at(problem))
+    blind = at(problem)
+    seen = estimate_backlash_phase(problem, blind)
     aside = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) == 1.0)
     between = np.count_nonzero(np.abs(seen.nuisance.backlash_phase) < 1.0)
 
     assert aside > between > 0
-    assert compute_backlash_phase_prior(seen) == pytest.approx(aside * ASIDE + between * BETWEEN)
-    assert score_estimate(problem, seen).score > seen.cost + compute_backlash_phase_prior(
-        seen
-    )  # and the values' own beside it
+    price = float(np.sum(seen.nuisance.backlash_phase_costs))
+    assert price == pytest.approx(aside * ON_ONE_SIDE + between * BETWEEN)
+    innovations = problem.predict_errors(
+        seen.structure.model(seen.values), seen.nuisance, seen.kalman_filter
+    )
+    fit = problem._cost(problem.compute_covariance(innovations))
+    assert seen.cost == pytest.approx(fit + price)
+    assert score_estimate(problem, seen).score > seen.cost  # and the values' own beside it
 
 
 def test_without_play_nothing_is_told_and_nothing_is_kept(problem):

@@ -208,7 +208,6 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
     for name in (
         "replace_effects",
         "simplify_effects",
-        "measure_removals",
         "choose_path",
         "add_pair",
     ):

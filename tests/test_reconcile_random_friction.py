@@ -8,7 +8,7 @@ from reconcile_made import rubbing
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
-from sim.estimation.optimize import append_prior_rows, make_joint_jacobian
+from sim.estimation.optimize import append_prior_rows, compute_standard_errors, make_joint_jacobian
 from sim.estimation.random_friction import compute_laplace_correction, get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
@@ -19,7 +19,6 @@ from sim.reconcile.cross_validation import (
     compute_rms_gap,
     find_parabola_minima,
 )
-from sim.reconcile.findings import compute_standard_errors
 from sim.reconcile.local_minimum import minimize, minimize_fully
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}

@@ -4,11 +4,13 @@ The prediction-error method (Ljung, *System Identification*, chapter 7): a stead
 filter predicts each sample from those before it, and the parameters are those that make its
 innovations most likely.
 
-    -2 log L = N·log det Σ + Σ (x/σ)² + Σ (δ/τ)² + Σ (d/λ)²
+    -2 log L = n_x·log Σ_xx + n_v·log Σ_vv + n_xv·log(1 - ρ²) + Σ (x/σ)² + Σ (δ/τ)² + Σ (d/λ)²
 
-Σ is the (2, 2) covariance of the innovations and N the number of samples. A run may start at an
-offset x from its first reading, its friction may differ by δ from that of the others
-(``random_friction.py``), and so may the lag of its readings, by d. All have a normal prior.
+Σ is the (2, 2) covariance of the innovations, ρ their correlation, and n_x, n_v and n_xv the
+numbers of compared positions, velocities and pairs; where all are equal, the first three terms are
+N·log det Σ. A run may start at an offset x from its first reading, its friction may differ by δ
+from that of the others (``random_friction.py``), and so may the lag of its readings, by d. All have
+a normal prior. The backlash phase of a run has one, too (``run_nuisance.py``).
 """
 
 import math
@@ -39,8 +41,7 @@ if TYPE_CHECKING:
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
 TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
 STEP = 1e-3  # [of a value's size] step of a derivative
-COARSE_STEP = 0.02  # [of it] for parameters whose effect comes in steps, as the samples do
-STEPWISE = ("band",)  # parameters of that kind
+COARSE_STEP = 0.02  # [of it] for parameters with which a simulation changes in jumps
 LAG_STEP = 0.02  # [of its standard deviation] step of the derivative by a run's own lag
 LARGEST = 1e100  # [1] innovation whose square is still a number
 SHORTEST = 0.02  # [sample periods] a shorter kA/kV leaves no trace, and takes ever finer steps
@@ -116,6 +117,21 @@ class PredictionErrorProblem:
             varying_friction=varying_friction,
             backlash_allowance=backlash_allowance,
         )
+
+    def select_runs(
+        self, chosen: Sequence[int], *, compared: Sequence[int] | None = None
+    ) -> "PredictionErrorProblem":
+        """The problem of some runs, with the same noise and priors.
+
+        Args:
+            chosen: places of the runs that are simulated.
+            compared: those of which samples are compared; None compares all of them.
+        """
+        records = tuple(
+            self.records[n] if compared is None or n in compared else self.records[n].exclude()
+            for n in chosen
+        )
+        return replace(self, records=records)
 
     @cached_property
     def run_edges(self) -> NDArray[np.intp]:
@@ -335,6 +351,7 @@ class PredictionErrorProblem:
             cov = self.compute_covariance(innovations)
             own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
             cost = self._cost(cov) + own + compute_friction_prior(values, nuisance)
+            cost += float(np.sum(nuisance.backlash_phase_costs))
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
             cost += sum(
@@ -361,10 +378,11 @@ class PredictionErrorProblem:
 
     def _cost(self, cov: Array) -> float:
         (xx, xv), (_, vv) = cov.tolist()
-        size = xx * vv - xv * xv
-        return (
-            self.sample_count * math.log(size) if size > 0.0 and math.isfinite(size) else math.inf
-        )
+        if not (xx > 0.0 and vv > 0.0 and math.isfinite(xx * vv)):
+            return math.inf
+        positions, velocities, both = self.compared_counts
+        alone = positions * math.log(xx) + velocities * math.log(vv)
+        return alone + both * math.log1p(-xv * xv / (xx * vv))
 
     def whiten(self, point: Estimate, table: Array, out: Array | None = None) -> Array:
         """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
@@ -528,7 +546,7 @@ class PredictionErrorProblem:
         there is none.
         """
         structure, value = point.structure, point.values[name]
-        coarse = name.partition(".")[2] in STEPWISE
+        coarse = name in structure.parameters and structure.parameters[name].stepwise
         size = max(structure.find_parameter_scale(name, value), self.priors.get(name, 0.0))
         step = (COARSE_STEP if coarse else STEP) * size
         above, below = value + step, value - step

@@ -20,6 +20,8 @@ NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
 FACTOR = 4.0  # [1] steps of the process noise
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which it is none
 TINY = 1e-9  # [of a value's size] step that tells whether a value is at its limit
+LEAST_INFORMATION = 1e-100  # of a parameter, so that it has an inverse
+MOST_INFLATION = 1e9  # [1] variance over that with all other parameters known; beyond is rounding
 UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what stands for none
 
 
@@ -229,6 +231,21 @@ def compute_parameter_covariance(problem: PredictionErrorProblem, point: Estimat
     return np.asarray(inverse[:count, :count])
 
 
+def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
+    """Searched parameter -> its standard error; infinite where the log does not determine it.
+
+    Args:
+        problem: the measurements.
+        point: the best estimate.
+    """
+    _, square = compute_gradient_and_information(problem, point, fine=True)
+    count = len(point.structure.searched_names)
+    variance = np.diag(invert_symmetric(square))[:count]
+    inflation = variance * np.maximum(np.diag(square)[:count], LEAST_INFORMATION)
+    errors = np.where(inflation < MOST_INFLATION, np.sqrt(np.maximum(variance, 0.0)), np.inf)
+    return dict(zip(point.structure.searched_names, errors.tolist(), strict=True))
+
+
 def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array, Array]:
     """(k, k) inverse of JᵀJ for a Jacobian J (n, k), and how parameters move together.
 
@@ -256,7 +273,7 @@ def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array,
 
 def invert_symmetric(square: Array) -> Array:
     """(k, k) inverse of an information matrix, with huge errors where it is singular."""
-    size = np.sqrt(np.maximum(np.diag(square), 1e-100))
+    size = np.sqrt(np.maximum(np.diag(square), LEAST_INFORMATION))
     told, ways = np.linalg.eigh(square / np.outer(size, size))
     share = np.where(told > UNKNOWN, told, NO_INFORMATION)
     return np.asarray((ways / share) @ ways.T / np.outer(size, size))

@@ -1,11 +1,22 @@
 """Nuisance parameters of each run: start position, backlash phase, friction and lag."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from sim.core.log import Array
+
+ON_ONE_SIDE = 2.0 * math.log(3.0)
+"""[of -2 log L] Prior cost of a backlash phase at one of the two ends of the backlash."""
+
+BETWEEN = ON_ONE_SIDE + 2.0 * math.log(10.0)
+"""[of -2 log L] Prior cost of a phase between them, where only friction holds the motor.
+
+Backlash that a run crosses from its end, and twice as much that it crosses from its middle, push
+the load at the same moment. The prior says that the first is ten times as usual.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +77,12 @@ class RunNuisance:
     def without_backlash_phase(self) -> "RunNuisance":
         """A copy in which the load's weight decides where in its backlash a run starts."""
         return self.with_backlash_phase(np.full_like(self.backlash_phase, np.nan))
+
+    @property
+    def backlash_phase_costs(self) -> Array:
+        """(runs,) prior cost of each backlash phase, as -2 log L; 0 where it is not given."""
+        given = np.where(np.abs(self.backlash_phase) == 1.0, ON_ONE_SIDE, BETWEEN)
+        return np.where(np.isnan(self.backlash_phase), 0.0, given)
 
     @property
     def has_backlash_phase(self) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.core.log import Array, Log
 from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
@@ -63,7 +64,14 @@ class RunRecord:
         time = self.measurements.time
         begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
         end = np.inf if aside.to_the_end and not begins else aside.end + AROUND
-        out = (time >= aside.start - AROUND) & (time <= end)
+        return self._leave_out((time >= aside.start - AROUND) & (time <= end))
+
+    def exclude(self) -> "RunRecord":
+        """A copy of which no sample is used; it is still simulated."""
+        return self._leave_out(np.ones(self.measurements.time.size, dtype=bool))
+
+    def _leave_out(self, out: NDArray[np.bool_]) -> "RunRecord":
+        """A copy in which some samples (n,) are not used."""
         seen = replace(
             self.measurements,
             informative=self.measurements.informative & ~out,
@@ -117,7 +125,10 @@ def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tupl
 
 
 def compute_session_length(*logs: Log) -> float:
-    """[s] from the start of the first run to the end of the last, without the pauses."""
+    """[s] from the start of the first run to the end of the last.
+
+    Pauses between runs count where the runs share a clock.
+    """
     lasted = (one.runs[-1].time[-1] - one.runs[-1].time[0] for one in logs)
     return float(
         sum(list_run_start_times(one)[-1] + last for one, last in zip(logs, lasted, strict=True))

@@ -70,6 +70,7 @@ class Parameter:
         neutral: the value at which the effect is not there.
         searched: a search may move it a little at a time; if not, it takes what a start says.
         counts: the data decide on it, so that it makes a hypothesis less likely beforehand.
+        stepwise: the simulation changes in jumps with it, so that a derivative needs a large step.
     """
 
     name: str
@@ -81,6 +82,7 @@ class Parameter:
     neutral: float = 0.0
     searched: bool = True
     counts: bool = True
+    stepwise: bool = False
 
 
 @dataclass(frozen=True)

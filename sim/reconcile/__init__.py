@@ -14,16 +14,18 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 
-from sim.core.errors import NotIdentifiable
+from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import Unit
+from sim.core.vocabulary import TYPES
 from sim.estimation.initial_guess import clamp_to_physical
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import load_engine
-from sim.reconcile.cross_validation import make_folds
+from sim.reconcile.backward_elimination import measure_removals
+from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import judge_damage
 from sim.reconcile.findings import list_remarks, make_findings, select_reported_rounds
@@ -70,7 +72,7 @@ def reconcile(
         progress: called with a step's description and the share done [1].
 
     Raises:
-        BadRequest: a log of another mechanism, or positions beyond the travel.
+        BadRequest: an unknown type, a log of another mechanism, or positions beyond the travel.
         NotIdentifiable: nothing moves, or too little was recorded; the message says what to record.
 
     Examples:
@@ -85,20 +87,23 @@ def reconcile(
         >>> story.findings[0].effect
         'velocity-filter'
     """
+    if type not in TYPES:
+        raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
     load_engine()  # the first time it is compiled, which is no part of the search
     deadline = time.process_time() + SEARCH_SHARE * time_limit
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
     check_logs(recordings, travel=travel)
     problem = recordings.make_problem()
+    folds = _make_folds(problem, recordings)
+    shown = HeldOutLog.choose(recordings)
     progress("base model", 0.05)
     base = _fit_base_model(problem, recordings)
-    folds = make_folds([one.session for one in problem.records])
     data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
     done = select_effects(data, base)
-    cut = time_limit if data.out_of_time() else math.inf
+    cut = time_limit if data.out_of_time() else math.inf  # the refits that follow do not count
+    done = measure_removals(data, done)
     progress("what remains", 0.9)
-    shown = HeldOutLog.choose(recordings)
     return _make_story(problem, done, shown, damage.reported, cut=cut, per=recordings.unit)
 
 
@@ -144,6 +149,22 @@ def _make_story(
     )  # fmt: skip
 
 
+def _make_folds(problem: PredictionErrorProblem, recordings: Recordings) -> tuple[Fold, ...]:
+    """The folds that have samples to fit and to predict.
+
+    Raises:
+        NotIdentifiable: there are none.
+    """
+    folds = select_usable_folds(problem, make_folds([one.session for one in problem.records]))
+    if not folds:
+        raise NotIdentifiable(
+            "after the damaged parts are cut out, no run is left to predict",
+            where=(recordings.validation or recordings.log).source,
+            advice="Inspect the log, and record it again.",
+        )
+    return folds
+
+
 def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
     """The best estimate without effects.
 
@@ -164,8 +185,9 @@ def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> 
         scan_process_noise(problem, levenberg_marquardt(problem, begin, steps=STEPS, enough=1.0)),
     )
     if not math.isfinite(base.cost):
+        parts = "without its damaged parts, " if recordings.damage.excluded else ""
         raise NotIdentifiable(
-            "without its damaged parts, no gains fit this log",
+            f"{parts}no gains fit this log",
             where=recordings.log.source,
             advice="Inspect the log, and record it again.",
         )

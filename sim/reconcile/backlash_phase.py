@@ -10,14 +10,10 @@ import numpy as np
 
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.estimation.run_nuisance import RunNuisance
 
 PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play
 FINER = 0.2  # [1] to both sides of the place that was the best one
-ASIDE = 2.0 * math.log(3.0)  # [of -2 log L] of telling that teeth rested on one side
-BETWEEN = ASIDE + 2.0 * math.log(10.0)  # the same, between them, where only friction holds them
-
-# Slack that a run crosses from its edge, and twice as much from its middle, push the load at the
-# same moment: the prices say which is the usual one.
 
 
 def estimate_backlash_phase(
@@ -32,8 +28,9 @@ def estimate_backlash_phase(
     """
     if not point.structure.has_backlash or not math.isfinite(point.cost):
         return point
-    before = point.nuisance.backlash_phase
-    if not point.nuisance.has_backlash_phase:
+    old = point.nuisance
+    before = old.backlash_phase
+    if not old.has_backlash_phase:
         places = PLACES[:: len(PLACES) - 1] if aside else PLACES
         others = [np.full(before.size, place) for place in places]
     else:
@@ -42,23 +39,17 @@ def estimate_backlash_phase(
             for by in (-FINER, FINER)
         ]
     model = point.structure.model(point.values)
-    costs = [_costs_by_run(problem, point, point.innovations, before)]
+    costs = [_costs_by_run(problem, point, point.innovations, old)]
     for each in others:
-        ahead = problem.predict_errors(
-            model, point.nuisance.with_backlash_phase(each), point.kalman_filter
-        )
-        costs.append(_costs_by_run(problem, point, ahead, each))
+        other = old.with_backlash_phase(each)
+        innovations = problem.predict_errors(model, other, point.kalman_filter)
+        costs.append(_costs_by_run(problem, point, innovations, other))
     tried, chosen = np.stack([before, *others]), np.argmin(np.stack(costs), axis=0)
     if not chosen.any():
         return point
-    nuisance = point.nuisance.with_backlash_phase(tried[chosen, np.arange(before.size)])
+    nuisance = old.with_backlash_phase(tried[chosen, np.arange(before.size)])
     found = problem.evaluate(point.structure, point.values, nuisance, point.process_noise)
-    return (
-        found
-        if found.cost + compute_backlash_phase_prior(found)
-        < point.cost + compute_backlash_phase_prior(point)
-        else point
-    )
+    return min(point, found, key=lambda one: one.cost)
 
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -74,20 +65,9 @@ def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate
 
 
 def _costs_by_run(
-    problem: PredictionErrorProblem, point: Estimate, ahead: Array, meshed: Array
+    problem: PredictionErrorProblem, point: Estimate, innovations: Array, nuisance: RunNuisance
 ) -> Array:
     """(runs,) -2 log L of each run's innovations, with the prior of its backlash phase."""
-    squares = np.square(problem.whiten(point, ahead)).reshape(-1, 2).sum(axis=1)
-    costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + _prior_costs(meshed)
+    squares = np.square(problem.whiten(point, innovations)).reshape(-1, 2).sum(axis=1)
+    costs: Array = np.add.reduceat(squares, problem.run_edges[:-1]) + nuisance.backlash_phase_costs
     return costs
-
-
-def compute_backlash_phase_prior(point: Estimate) -> float:
-    """Prior cost of the backlash phases, as -2 log L."""
-    return float(np.sum(_prior_costs(point.nuisance.backlash_phase)))
-
-
-def _prior_costs(meshed: Array) -> Array:
-    """(runs,) [of -2 log L]."""
-    told = np.where(np.abs(meshed) == 1.0, ASIDE, BETWEEN)
-    return np.where(np.isnan(meshed), 0.0, told)

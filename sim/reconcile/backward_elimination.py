@@ -12,19 +12,17 @@ from sim.physics.effects import EFFECTS
 from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
 from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.local_minimum import minimize
-from sim.reconcile.model_selection import (
-    WIDENS,
-    compare_scores,
-    explain_rejection,
-    find_required_improvement,
-)
+from sim.reconcile.model_selection import compare_scores, find_required_improvement, is_wider
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import COMPARABLE, EQUAL_SCORE, LEAST_SCORE_ONCE, LEAST_SCORE_UNSEEN
+from sim.reconcile.thresholds import COMPARABLE, EQUAL_SCORE, LEAST_SCORE_ONCE
 
 
 def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """The rounds, with an earlier effect replaced where another one is likelier now."""
+    """The rounds, with an earlier effect removed if needless, or replaced if another is likelier.
+
+    At most one of them: the search then goes on.
+    """
     problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
         effect = done[place].candidate.effect
@@ -35,7 +33,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
         needed = reduced.score - last.candidate.score >= find_required_improvement(effect)
         if not needed:
             gap = compute_validation_gap(problem, reduced.estimate, data.folds)
-            if not math.isfinite(gap.velocity + gap.position):
+            if is_wider(gap, last.gap):
                 continue
             best = replace(reduced, effect=last.candidate.effect)
             return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
@@ -51,7 +49,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
         ):
             continue
         gap = compute_validation_gap(problem, found[0].estimate, data.folds)
-        if explain_rejection(gap, last.gap, LEAST_SCORE_UNSEEN) == WIDENS:
+        if is_wider(gap, last.gap):
             continue
         return _replace_one(done, place, found[0], gap)
     return done
@@ -83,7 +81,7 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
         gap = compute_validation_gap(problem, found.estimate, data.folds)
         as_good = found.score - last.candidate.score <= EQUAL_SCORE
-        if as_good and explain_rejection(gap, last.gap, LEAST_SCORE_UNSEEN) != WIDENS:
+        if as_good and not is_wider(gap, last.gap):
             done = _replace_one(done, place, found, gap)
     return done
 
@@ -113,7 +111,10 @@ def _replace_one(
 
 
 def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """The rounds, each with the estimate that lacks its effect."""
+    """The rounds, each with the estimate that lacks its effect.
+
+    Rounds that added a single effect are returned as they are: its own round says what it brought.
+    """
     last = done[-1].candidate
     if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
         return done

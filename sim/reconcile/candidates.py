@@ -10,18 +10,16 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from sim.estimation.likelihood import STEPWISE, Estimate, PredictionErrorProblem
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.estimation.random_friction import compute_laplace_correction
 from sim.physics.effect import Effect, are_compatible
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
-from sim.reconcile.backlash_phase import compute_backlash_phase_prior
 from sim.reconcile.local_minimum import (
     AGITATED,
     CALM,
     Begun,
-    compute_total_cost,
     minimize,
     minimize_fully,
     rate_starts,
@@ -73,7 +71,7 @@ def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     values = point.structure.free_count * math.log(max(problem.sample_count, 2))
     own = compute_laplace_correction(point.values, problem.compute_friction_jacobian(point))
-    return Candidate(effect, point, point.cost + own + compute_backlash_phase_prior(point) + values)
+    return Candidate(effect, point, point.cost + own + values)
 
 
 def rank_candidates(
@@ -102,7 +100,7 @@ def rank_candidates(
     here = effects if calmer is None else [one for one in effects if not one.is_joint]
     begun = _best_starts(problem, point, here, evidence, seeds)[:TRIED]
     gone = [
-        descend_candidate(problem, point, refine_onset(problem, one))
+        descend_candidate(problem, refine_onset(problem, one))
         for starts in begun
         for _, one in starts
         if not stop()
@@ -113,10 +111,7 @@ def rank_candidates(
         shaken = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
         begun = [*begun[:TRIED_CALM], *shaken]
         calm = [
-            descend_candidate(problem, point, one)
-            for starts in begun
-            for _, one in starts
-            if not stop()
+            descend_candidate(problem, one) for starts in begun for _, one in starts if not stop()
         ]
         best = _best_of_each_effect([*gone, *calm])[:KEPT]
         best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
@@ -153,18 +148,17 @@ def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estima
 
     Which samples a threshold lets through changes in jumps, so no slope leads to the best one.
     """
-    last = point.structure.effects[-1]
-    names = [f"{last}.{name}" for name in EFFECTS[last].names if name in STEPWISE]
+    effect, structure = EFFECTS[point.structure.effects[-1]], point.structure
+    names = [f"{effect.name}.{one.name}" for one in effect.parameters if one.stepwise]
     moved = [
-        problem.evaluate(
-            point.structure,
-            {**point.values, **{name: point.values[name] * share for name in names}},
-            point.nuisance,
-            point.process_noise,
-        )
+        {name: structure.clamp_value(name, point.values[name] * share) for name in names}
         for share in (THRESHOLD_SHARES if names else ())
     ]
-    best = min([point, *moved], key=compute_total_cost)
+    tried = [
+        problem.evaluate(structure, {**point.values, **one}, point.nuisance, point.process_noise)
+        for one in moved
+    ]
+    best = min([point, *tried], key=lambda one: one.cost)
     return point if best is point else minimize(problem, best)
 
 
@@ -188,32 +182,29 @@ def _refine_motor_friction(problem: PredictionErrorProblem, point: Estimate) -> 
         moved = problem.evaluate(
             point.structure, {**best.values, name: share}, best.nuisance, best.process_noise
         )
-        best = min(best, minimize(problem, moved), key=compute_total_cost)
+        best = min(best, minimize(problem, moved), key=lambda one: one.cost)
     return best
 
 
-def descend_candidate(
-    problem: PredictionErrorProblem, point: Estimate, start: Estimate
-) -> Estimate:
+def descend_candidate(problem: PredictionErrorProblem, start: Estimate) -> Estimate:
     """A candidate after a few optimizer steps, for comparison with others.
 
-    The backlash phase of a run is estimated before the gains have adjusted to it. If the result is
-    worse than without the candidate, the start is tried again without backlash phases.
+    The backlash phase of a run is estimated before the gains have adjusted to it, so it may lead to
+    a poor minimum. The start is therefore tried without backlash phases, too.
 
     Args:
         problem: the measurements.
-        point: the best without the candidate.
-        start: with it.
+        start: a point with the candidate.
     """
     if not _ends_in_two_bodies(start):
         return levenberg_marquardt(problem, start, steps=A_LITTLE)
     gone = levenberg_marquardt(problem, start, steps=FURTHER)
-    if gone.cost < point.cost or not start.nuisance.has_backlash_phase:
+    if not start.nuisance.has_backlash_phase:
         return gone
     untold = problem.evaluate(
         start.structure, start.values, start.nuisance.without_backlash_phase, start.process_noise
     )
-    return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=compute_total_cost)
+    return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=lambda one: one.cost)
 
 
 def _ends_in_two_bodies(point: Estimate) -> bool:
@@ -269,7 +260,7 @@ def simplify_effect(
 def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
     """The best point of each effect, the likeliest first."""
     best: dict[str, Estimate] = {}
-    for one in sorted(points, key=compute_total_cost):
+    for one in sorted(points, key=lambda one: one.cost):
         best.setdefault(one.structure.effects[-1], one)
     return list(best.values())
 

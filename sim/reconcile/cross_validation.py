@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.random_friction import get_friction_sd
 from sim.estimation.run_nuisance import RunNuisance
+from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.reconcile.search_effort import STEPS
 
@@ -64,41 +66,59 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
     return tuple(Fold(tuple(m for m in every if m != n), (n,)) for n in every)
 
 
+def select_usable_folds(problem: PredictionErrorProblem, folds: Sequence[Fold]) -> tuple[Fold, ...]:
+    """The folds of which both parts have samples that are compared."""
+    edges = pairwise(problem.run_edges.tolist())
+    used = [bool(problem.informative[first:last].any()) for first, last in edges]
+    return tuple(
+        fold
+        for fold in folds
+        if any(used[n] for n in fold.fitted) and any(used[n] for n in fold.predicted)
+    )
+
+
 def compute_validation_gap(
-    problem: PredictionErrorProblem, point: Estimate, parts: Sequence[Fold]
+    problem: PredictionErrorProblem, point: Estimate, folds: Sequence[Fold]
 ) -> Gap:
-    """The gap on runs to which the values were not fitted."""
+    """The gap on runs to which the searched parameters were not fitted.
+
+    The process noise and how each run begins are those of the fit to all runs.
+
+    Args:
+        problem: the measurements.
+        point: the best estimate of all runs.
+        folds: which runs predict which; each has samples to fit and to predict.
+    """
     errors = [np.empty((0, 2))]
-    for part in parts:
-        if not (_has_comparison(problem, part.fitted) and _has_comparison(problem, part.predicted)):
-            continue
-        fitted = _select_records(problem, part.fitted)
-        begin = fitted.evaluate(
-            point.structure,
-            point.values,
-            point.nuisance.select_runs(part.fitted),
-            point.process_noise,
-        )
+    for fold in folds:
+        fitted, nuisance = _select_runs(problem, point, fold.fitted)
+        begin = fitted.evaluate(point.structure, point.values, nuisance, point.process_noise)
         found = levenberg_marquardt(fitted, begin, steps=STEPS // 2)
-        nuisance = point.nuisance.select_runs(part.predicted).with_common_friction
+        predicted, nuisance = _select_runs(problem, point, fold.predicted)
         errors.append(
-            compute_open_loop_errors(
-                _select_records(problem, part.predicted), found, nuisance, eased=True
-            )
+            compute_open_loop_errors(predicted, found, nuisance.with_common_friction, eased=True)
         )
     return compute_rms_gap(np.concatenate(errors))
 
 
-def _has_comparison(problem: PredictionErrorProblem, chosen: Sequence[int]) -> bool:
-    """Whether anything of these runs is compared."""
-    edges = problem.run_edges.tolist()
-    return any(problem.informative[edges[n] : edges[n + 1]].any() for n in chosen)
+def _select_runs(
+    problem: PredictionErrorProblem, point: Estimate, chosen: Sequence[int]
+) -> tuple[PredictionErrorProblem, RunNuisance]:
+    """The problem of some runs, and how they begin under an estimate.
+
+    Where a motor heats up, what it has lost depends on the runs before, so all are simulated.
+    """
+    if any("update_memory" in EFFECTS[name].hooks for name in point.structure.effects):
+        return problem.select_runs(range(len(problem.records)), compared=chosen), point.nuisance
+    return problem.select_runs(chosen), point.nuisance.select_runs(chosen)
 
 
 def compute_open_loop_errors(
     problem: PredictionErrorProblem, point: Estimate, nuisance: RunNuisance, *, eased: bool = False
 ) -> Array:
-    """(n, 2) measured minus simulated, position and velocity, without correction, while it moves.
+    """(compared, 2) measured minus simulated position and velocity, without correction.
+
+    Which samples are compared does not depend on the model.
 
     Args:
         problem: the runs.
@@ -108,13 +128,11 @@ def compute_open_loop_errors(
             accident in one run does not count for or against an effect.
     """
     track = problem.simulate(point.structure.model(point.values), nuisance)
-    errors = problem.measured - track.sensor_readings
-    moves = problem.moving | ((track.velocity != 0.0) & problem.informative)
+    compared = problem.moving | problem.informative
     if not eased:
-        return np.asarray(errors[moves])
-    errors = _with_run_friction(problem, point, nuisance, track, moves)
-    away = np.isinf(errors).any(axis=1)  # which is not left out of the mean
-    return np.asarray(errors[moves | away])
+        return _open_loop_errors(problem, track)[compared]
+    errors = _with_run_friction(problem, point, nuisance, track, compared)
+    return np.asarray(errors[compared])
 
 
 def _with_run_friction(
@@ -122,13 +140,12 @@ def _with_run_friction(
     point: Estimate,
     nuisance: RunNuisance,
     track: Track,
-    moves: NDArray[np.bool_],
+    compared: NDArray[np.bool_],
 ) -> Array:
-    """The errors with the likeliest friction of each run's own.
+    """(n, 2) the errors with the friction of each run's own that leaves least of them.
 
-    Each is simulated: over a long way, a wave along it falls out of step with a little friction,
-    and what that changes is in no proportion to it. Between those that are tried, each run's
-    likeliest is where a parabola is lowest.
+    Each friction is simulated, because friction shifts the phase of cogging nonlinearly. Between
+    those that are tried, each run's best is where a parabola is lowest.
     """
     deviation = get_friction_sd(point.values)
     model, runs = point.structure.model(point.values), len(problem.records)
@@ -140,14 +157,14 @@ def _with_run_friction(
     every = np.stack(
         [missed(np.full(runs, share * deviation)) for share in EASED]
     )  # (shares, n, 2)
-    costs = _costs_by_share(problem, every, moves)
+    costs = _costs_by_share(problem, every, compared)
     best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     aside = find_parabola_minima(less, here, more)
     between = missed((np.array(EASED)[best] + aside) * deviation)
     every = np.concatenate([every, between[None]])
-    best = np.argmin(_costs_by_share(problem, every, moves), axis=0)
-    return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(moves))])
+    best = np.argmin(_costs_by_share(problem, every, compared), axis=0)
+    return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])
 
 
 def find_parabola_minima(less: Array, here: Array, more: Array) -> Array:
@@ -158,11 +175,11 @@ def find_parabola_minima(less: Array, here: Array, more: Array) -> Array:
 
 
 def _costs_by_share(
-    problem: PredictionErrorProblem, every: Array, moves: NDArray[np.bool_]
+    problem: PredictionErrorProblem, every: Array, compared: NDArray[np.bool_]
 ) -> Array:
     """(shares, runs) what each run misses, position and velocity in what is ordinary for both."""
     with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
-        squares = np.where(moves[:, None] & ~np.isnan(every), np.square(every), 0.0)
+        squares = np.where(compared[:, None] & ~np.isnan(every), np.square(every), 0.0)
         sizes = np.mean(squares[EASED.index(0.0)], axis=0) + 1e-300
         costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.run_edges[:-1], axis=1)
     return np.asarray(np.nan_to_num(costs, nan=np.inf))
@@ -177,10 +194,9 @@ def _open_loop_errors(problem: PredictionErrorProblem, track: Track) -> Array:
 
 def compute_rms_gap(errors: Array) -> Gap:
     """RMS of errors (n, 2); nan where nothing was measured."""
-    if not errors.size:
-        return Gap(0.0, 0.0)
     counts = np.count_nonzero(~np.isnan(errors), axis=0)
-    with np.errstate(over="ignore", invalid="ignore"):  # what ran away, and what is not there
+    # a simulation that diverged, and a signal without samples
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         position, velocity = np.sqrt(np.nansum(np.square(errors), axis=0) / counts)
     return Gap(float(velocity), float(position))
 
@@ -200,9 +216,3 @@ def compute_missed_motion(gap: float, problem: PredictionErrorProblem) -> float:
     speeds = problem.measured[problem.moving, 1]
     size = float(np.sqrt(np.nanmean(np.square(speeds)))) if speeds.size else 0.0
     return gap / max(size, 1e-300)
-
-
-def _select_records(
-    problem: PredictionErrorProblem, chosen: Sequence[int]
-) -> PredictionErrorProblem:
-    return PredictionErrorProblem(tuple(problem.records[n] for n in chosen), problem.noise)

@@ -9,7 +9,7 @@ import numpy as np
 
 from sim.core.units import Unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.optimize import append_prior_rows
+from sim.estimation.optimize import compute_standard_errors
 from sim.physics.effect import ONSET
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import find_separating_test
@@ -404,16 +404,3 @@ def _make_effect_finding(  # noqa: PLR0917 - two rounds, and what to call them
         sentence=f"{effect.summary[0].upper()}{effect.summary[1:]}. {effect.fingerprint}",
         inspect=effect.inspect, separating_test=" ".join(dict.fromkeys(tests)),
     )  # fmt: skip
-
-
-def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) -> dict[str, float]:
-    """Parameter -> standard error, from the Jacobian of the innovations."""
-    table, _ = append_prior_rows(problem, point)
-    size = np.linalg.norm(table, axis=0)
-    size[size == 0.0] = np.inf
-    table = table / size
-    told, ways = np.linalg.eigh(table.T @ table)
-    inverse = (ways / np.maximum(told, 1e-11)) @ ways.T
-    errors = np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
-    names = point.structure.searched_names
-    return {name: float(error) for name, error in zip(names, errors, strict=False) if error > 0.0}

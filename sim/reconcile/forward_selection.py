@@ -7,7 +7,7 @@ from dataclasses import replace
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import ENOUGH
 from sim.physics.effects import EFFECTS
-from sim.reconcile.backward_elimination import measure_removals, replace_effects, simplify_effects
+from sim.reconcile.backward_elimination import replace_effects, simplify_effects
 from sim.reconcile.candidates import Seeds, score_estimate
 from sim.reconcile.cross_validation import (
     compute_missed_motion,
@@ -17,11 +17,10 @@ from sim.reconcile.cross_validation import (
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
     HARDLY,
-    WIDENS,
     choose_simplest,
     compare_scores,
-    explain_rejection,
     is_ordinary_size,
+    is_wider,
     list_blocked_candidates,
     list_rivals,
     weigh_candidates,
@@ -60,9 +59,7 @@ def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
     done = add_pair(data, done)
     done = choose_path(data, done)
     done = simplify_effects(data, done)
-    if data.out_of_time():
-        done = take_nearest(done)
-    return measure_removals(data, done)
+    return take_nearest(done) if data.out_of_time() else done
 
 
 def _continue_search(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
@@ -103,13 +100,13 @@ def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionR
         return done
     path = _continue_search(_on_another_path(data), [*done, _next_round(now, found[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
-    narrows = closes and explain_rejection(path[-1].gap, now.gap, LEAST_SCORE_UNSEEN) != WIDENS
+    narrows = closes and not is_wider(path[-1].gap, now.gap)
     new = {other.candidate.effect for other in path} - {other.candidate.effect for other in done}
     return path if narrows and len(new) > 1 else done  # what was there may have become needless
 
 
 def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """Try alternative paths where the greedy one led astray; the best is returned."""
+    """Try one alternative path where the greedy one led astray; the better is returned."""
     best, problem = done, data.problem
     if len(done) == 1 or count_noise_floors(done[-1].gap.velocity, problem) <= VISIBLE_FLOORS:
         return best
@@ -117,7 +114,7 @@ def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[Selecti
         path = [*done[: place + 1], _next_round(done[place], other)]
         path = _continue_search(_on_another_path(data), path)
         likelier = compare_scores(best[-1].candidate, path[-1].candidate) >= EQUAL_SCORE
-        if likelier and explain_rejection(path[-1].gap, best[-1].gap, LEAST_SCORE_UNSEEN) != WIDENS:
+        if likelier and not is_wider(path[-1].gap, best[-1].gap):
             best = path
     return best
 
@@ -257,7 +254,7 @@ def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandid
     if abs(candidate.estimate.cost - point.cost) < ENOUGH:
         return best
     gap = compute_validation_gap(problem, point, data.folds)
-    if explain_rejection(gap, best.gap, LEAST_SCORE_UNSEEN) == WIDENS:
+    if is_wider(gap, best.gap):
         return best
     return replace(best, candidate=score_estimate(problem, point, candidate.effect), gap=gap)
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
 from sim.core.units import find_unit
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
@@ -38,6 +39,7 @@ MESHED = (
     "contains it."
 )
 AGAIN: Mapping[str, str] = {
+    "log": "The log contains a run twice. Its copy is predicted well by any model.",
     "validation": "The validation repeats runs of the log, so it confirms nothing.",
     "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
 }
@@ -63,15 +65,26 @@ class HeldOutLog:
 
     @classmethod
     def choose(cls, recordings: Recordings) -> "HeldOutLog":
-        """The log that was used least: held out, else validation, else the log itself."""
+        """The log that was used least: held out, else validation, else the log itself.
+
+        Raises:
+            NotIdentifiable: none of its samples can be compared.
+        """
         name = next(one for one in HOW if one in recordings.logs_by_name)
+        problem = recordings.make_shown_problem(name)
+        if not problem.informative.any():
+            raise NotIdentifiable(
+                "after the damaged parts are cut out, nothing is left to show the gap on",
+                where=recordings.logs_by_name[name].source,
+                advice="Inspect the log, and record it again.",
+            )
         # numbers of one story have one unit
         log = replace(recordings.logs_by_name[name], units=recordings.log.units)
         again = _describe_repeats(recordings)
         others = [text for other, text in again.items() if other != name]
         return cls(
             log,
-            recordings.make_shown_problem(name),
+            problem,
             again.get(name, HOW[name]),
             (*others, *_collect_doubts(recordings)),
             name == "held_out" and name not in again,
@@ -86,10 +99,11 @@ class HeldOutLog:
         """
         gap = last.gap * find_unit(self.log.units).si
         said = (*self.doubts, *((MESHED,) if _has_backlash(last) else ()))
-        if not self.held_out or gap <= VISIBLE_FLOORS * max(fitted, self.problem.velocity_floor):
+        least = max(fitted, self.problem.velocity_floor)
+        if not self.held_out or gap <= VISIBLE_FLOORS * least:
             return said
         far = (
-            f"The last model misses the held-out log by {gap / max(fitted, 1e-300):.0f} times "
+            f"The last model misses the held-out log by {gap / least:.0f} times "
             "as much as it misses the others: make sure that it is of the same mechanism, in "
             "the same units, and that nothing was changed in between."
         )
@@ -143,7 +157,7 @@ class HeldOutLog:
 
     def _initial_nuisance(self, point: Estimate) -> RunNuisance:
         """How its runs begin: where they were first seen, and where in free play they say."""
-        seen = RunNuisance.at_first_samples(len(self.problem.records))
+        seen = self.problem.initial_nuisance
         here = self.problem.evaluate(point.structure, point.values, seen, point.process_noise)
         for _ in range(ROUNDS):
             here = estimate_backlash_phase(self.problem, here)

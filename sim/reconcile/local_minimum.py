@@ -7,6 +7,8 @@ of each run.
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+import numpy as np
+
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import (
@@ -16,11 +18,7 @@ from sim.estimation.optimize import (
     levenberg_marquardt,
     tune_process_noise,
 )
-from sim.reconcile.backlash_phase import (
-    compute_backlash_phase_prior,
-    estimate_backlash_phase,
-    halve_backlash,
-)
+from sim.reconcile.backlash_phase import estimate_backlash_phase, halve_backlash
 from sim.reconcile.thresholds import EQUAL_SCORE
 
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: the process noise is first thought too large
@@ -63,7 +61,7 @@ def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate
     if found[0].process_noise > AGITATED * calm:
         calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
         found.append(_alternate(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
-    best = min(found, key=compute_total_cost)
+    best = min(found, key=lambda one: one.cost)
     return _tighten_backlash(problem, best) if point.structure.has_backlash else best
 
 
@@ -72,16 +70,11 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
     best = point
     for _ in range(HALVED):
         less = minimize(problem, halve_backlash(problem, point))
-        if not compute_total_cost(less) < compute_total_cost(best) + EQUAL_SCORE:
+        if not less.cost < best.cost + EQUAL_SCORE:
             break
         point = less
-        best = min(best, point, key=compute_total_cost)
+        best = min(best, point, key=lambda one: one.cost)
     return point
-
-
-def compute_total_cost(point: Estimate) -> float:
-    """-2 log L of an estimate, with the priors of its nuisance parameters."""
-    return point.cost + compute_backlash_phase_prior(point)
 
 
 def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
@@ -122,9 +115,9 @@ def rate_starts(
             other = estimate_backlash_phase(problem, other, aside=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        return square - kept.compute_residual_square(
-            problem.whiten(point, other.innovations)
-        ) - compute_backlash_phase_prior(other), other
+        left = kept.compute_residual_square(problem.whiten(point, other.innovations))
+        phases = other.nuisance.backlash_phase_costs - point.nuisance.backlash_phase_costs
+        return square - left - float(np.sum(phases)), other
 
     now = problem.whiten(point, point.innovations)
     square = kept.compute_residual_square(now)

@@ -58,17 +58,24 @@ def find_required_improvement(effect: str) -> float:
 
 def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
     """Why a candidate is not admitted; empty if it is."""
-    if not math.isfinite(gap.velocity + gap.position):
+    if is_wider(gap, before):
         return WIDENS
     velocity = gap.velocity / max(before.velocity, TINY)
     position = gap.position / max(before.position, TINY)
-    if min(velocity, (velocity * position) ** 0.5) * NARROWER > 1.0:
-        return WIDENS
     if velocity > NARROWER and (
         (velocity * position) ** 0.5 > NARROWER or score < LEAST_SCORE_UNSEEN
     ):
         return HARDLY
     return ""
+
+
+def is_wider(gap: Gap, before: Gap) -> bool:
+    """Whether a gap is clearly wider than another, or not known."""
+    if not math.isfinite(gap.velocity + gap.position):
+        return True
+    velocity = gap.velocity / max(before.velocity, TINY)
+    position = gap.position / max(before.position, TINY)
+    return bool(min(velocity, math.sqrt(velocity * position)) * NARROWER > 1.0)
 
 
 def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:

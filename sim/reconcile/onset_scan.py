@@ -293,7 +293,7 @@ class _Scan:
         """These runs, none finding warm what another heated, and how they begin."""
         if runs not in self._some:
             records = (replace(self.problem.records[run], memory_group=run) for run in runs)
-            some = PredictionErrorProblem(tuple(records), self.problem.noise)
+            some = replace(self.problem, records=tuple(records))
             self._some[runs] = some, self.point.nuisance.select_runs(runs)
         return self._some[runs]
 

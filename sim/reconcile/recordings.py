@@ -73,13 +73,15 @@ class Recordings:
         return _make_problem(self._records(name))
 
     def count_repeated_runs(self, name: str) -> int:
-        """Number of a log's runs that also are in an earlier log, sample by sample."""
+        """Number of a log's runs that were recorded before, in it or in an earlier log."""
         if name not in self.logs_by_name:
             return 0
         known = [run for log in self._before(name) for run in log.runs]
-        return sum(
-            any(_is_same_run(run, other) for other in known) for run in self.logs_by_name[name].runs
-        )
+        count = 0
+        for run in self.logs_by_name[name].runs:
+            count += any(_is_same_run(run, other) for other in known)
+            known.append(run)
+        return count
 
     def _before(self, name: str) -> list[Log]:
         """The logs that were recorded before one."""

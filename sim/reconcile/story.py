@@ -1,5 +1,6 @@
 """The result of reconcile: verdict, findings, and the gap at each step."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -22,7 +23,8 @@ class ParameterEstimate:
 
     Args:
         value: of it.
-        error: one standard error; None where a start chose it and nothing was searched.
+        error: one standard error, infinite if the log does not determine the parameter; None where
+            a start chose it and nothing was searched.
         unit: of both.
     """
 
@@ -112,7 +114,8 @@ class Story:
         findings: what was missing or wrong, the most telling first.
         remainder: something is left that no effect of the catalogue explains.
         remains: a sentence about it; empty if nothing remains.
-        noise_floor: [owner's unit/s] noise of the shown velocity: no model comes below it.
+        noise_floor: [owner's unit/s] RMS noise of the shown velocity, at least ``LEAST_FLOOR`` of
+            the top speed. Gaps are told in multiples of it.
         gap_before: [owner's unit/s] RMS velocity error of the base model on the shown log.
         gap_after: the same of the last model.
         where: where the base model disagrees most.
@@ -151,14 +154,14 @@ class Story:
             "findings": [_finding(one) for one in self.findings],
             "remainder": self.remainder,
             "noise_floor": self.noise_floor,
-            "gap_before": self.gap_before,
-            "gap_after": self.gap_after,
+            "gap_before": _finite(self.gap_before),
+            "gap_after": _finite(self.gap_after),
             "where": [
                 {
                     "what": one.what,
                     "where": one.where,
                     "signal": one.signal,
-                    "error": one.error,
+                    "error": _finite(one.error),
                     "sure": one.sure,
                 }
                 for one in self.where
@@ -166,6 +169,11 @@ class Story:
             "how": self.how,
             "notes": [*self.notes, *([self.remains] if self.remains else [])],
         }
+
+
+def _finite(number: float | None) -> float | None:
+    """The number; None where it is not finite, which JSON cannot say."""
+    return number if number is not None and math.isfinite(number) else None
 
 
 def _finding(one: Finding) -> dict[str, Any]:
@@ -176,11 +184,11 @@ def _finding(one: Finding) -> dict[str, Any]:
         "probability": one.probability,
         "ambiguous_with": list(one.ambiguous_with),
         "parameters": {
-            name: {"value": p.value, "error": p.error, "unit": p.unit}
+            name: {"value": p.value, "error": _finite(p.error), "unit": p.unit}
             for name, p in one.parameters.items()
         },
-        "gap_before": one.gap_before,
-        "gap_after": one.gap_after,
+        "gap_before": _finite(one.gap_before),
+        "gap_after": _finite(one.gap_after),
         "separating_test": one.separating_test,
         "sentence": one.sentence,
         "inspect": one.inspect,

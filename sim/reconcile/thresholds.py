@@ -119,8 +119,9 @@ is missing. The last models of 42 complete logs reach 3.6 at most. Of logs with 
 band of friction, two of three go beyond 6."""
 
 PERIODIC = 100.0
-"""-log of the odds that noise has such a spectral peak, beyond which something swings. On 210 logs,
-last models reach 80 at most where nothing swings, and 150 and more where something does."""
+"""-ln of the probability that noise has such a peak at one frequency, beyond which something
+swings. On 210 logs, last models reach 80 at most where nothing swings, and 150 and more where
+something does."""
 
 # Limits for logs and runs.
 
@@ -148,9 +149,8 @@ It is 0.72 to 1.23 among 256 pairs of logs, whatever effects they contain. A foo
 meter makes it 3.3, a radian taken for a rotation 6.3."""
 
 DAMAGED = 0.95
-"""[1] Confidence of an inspection beyond which an interval is damaged and is cut out. On 900
-logs, encoder slips that are true have 0.96 and more, false ones (starts that stick) 0.945 at
-most."""
+"""[1] Confidence of an inspection from which an interval is damaged and is cut out. On 900 logs,
+encoder slips that are true have 0.96 and more, false ones (starts that stick) 0.945 at most."""
 
 DROPPED = 0.9
 """[1] A voltage below this share of its median has dropped, and a speed below this share of what it

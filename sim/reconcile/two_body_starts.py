@@ -13,7 +13,7 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
-from sim.reconcile.local_minimum import Begun, compute_total_cost, rate_starts
+from sim.reconcile.local_minimum import Begun, rate_starts
 from sim.reconcile.thresholds import LEAST_SCORE
 
 SLOW = "quasistatic"  # tests that say little of them
@@ -38,9 +38,7 @@ class TwoBodyStarts:
         self.there = False
         if not chosen:
             return
-        self.problem = PredictionErrorProblem(
-            tuple(problem.records[n] for n in chosen), problem.noise
-        )
+        self.problem = problem.select_runs(chosen)
         self.point = self.problem.evaluate(
             point.structure, point.values, point.nuisance.select_runs(chosen), point.process_noise
         )
@@ -53,8 +51,8 @@ class TwoBodyStarts:
     ) -> list[dict[str, float]]:
         """The starts that are worth a look at all runs.
 
-        None where no start makes the lively runs likelier by ``LEAST_SCORE``: these are the runs
-        in which a joint shows, and a look at all runs takes longest.
+        The list is empty where no start makes the step tests likelier by ``LEAST_SCORE``: a joint
+        shows in these runs, and a simulation of all runs takes longest.
 
         Args:
             structure: with the effect that shakes as its last one.
@@ -81,7 +79,7 @@ class TwoBodyStarts:
         return [levenberg_marquardt(self.problem, one, steps=1) for one in points]
 
     def _gain(self, point: Estimate) -> float:
-        return self.point.cost - compute_total_cost(point)
+        return self.point.cost - point.cost
 
 
 def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
@@ -96,7 +94,7 @@ def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
 def _one_per_valley(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
     """The likeliest first, one of each valley."""
     found: list[Estimate] = []
-    for one in sorted(points, key=compute_total_cost):
+    for one in sorted(points, key=lambda one: one.cost):
         if not any(_same(one, other, names) for other in found):
             found.append(one)
     return found

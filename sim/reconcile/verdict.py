@@ -65,8 +65,8 @@ def _describe_cut(limit: float, strays: float) -> str:
 
     Args:
         limit: [s] the time limit.
-        strays: [noise floors] gap of the last model. No effect brings it below one noise floor, so
-            of a gap that is nearly as small, no further effect can be major.
+        strays: [noise floors] gap of the last model. Hardly any model comes below one noise floor,
+            so of a gap that is nearly as small, no further effect can be major.
     """
     if math.isinf(limit) or MAJOR * strays <= 1.0:
         return ""

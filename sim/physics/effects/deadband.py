@@ -41,7 +41,9 @@ EFFECT = Effect(
     kind="path",
     summary="small voltages that the motor controller ignores",
     formula="u = 0 where |u| < band",
-    parameters=(Parameter("band", "smallest voltage that is applied", "V", most=12.0),),
+    parameters=(
+        Parameter("band", "smallest voltage that is applied", "V", most=12.0, stepwise=True),
+    ),
     fingerprint="Ramps start late and then jump to their speed; below one voltage it coasts.",
     inspect="Check the neutral deadband in the motor controller's configuration.",
     apart={

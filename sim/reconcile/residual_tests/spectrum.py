@@ -27,8 +27,9 @@ class SpectralPeak:
     """A periodic residual.
 
     Args:
-        size: [1] -log of the odds that noise has as much of it, at the frequency that has most.
-        rate: [Hz].
+        size: [1] -ln of the probability that noise has as large a peak at this frequency; how many
+            frequencies were looked at is not counted in.
+        rate: [Hz] the frequency.
     """
 
     size: float = 0.0
@@ -52,10 +53,11 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
     rates: Array = np.arange(FEWEST_TURNS / longest, FASTEST, 0.5 / longest)
     power, count = np.zeros(rates.size), np.zeros(rates.size)
     for (time, push), lasting in zip(runs, lasts, strict=True):
-        told = np.flatnonzero(rates * lasting >= FEWEST_TURNS)
-        waves = np.exp(-2j * np.pi * rates[told, None] * time)
-        power[told] += np.abs(waves @ push) ** 2 / (push.size * mean)
-        count[told] += 1.0
+        slow = int(np.searchsorted(rates * lasting, FEWEST_TURNS))
+        for place in range(slow, rates.size):  # all waves at once would need gigabytes
+            wave = np.exp(-2j * np.pi * rates[place] * time)
+            power[place] += abs(wave @ push) ** 2 / (push.size * mean)
+        count[slow:] += 1.0
     sizes = (_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
     found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
     return max(found, key=lambda one: one.size, default=SpectralPeak())

@@ -14,9 +14,9 @@ class ResidualSummary:
     """Results of the residual tests.
 
     Args:
-        moment: that the model explains least.
-        repeated: what runs miss of it alike.
-        peak: what comes back in time.
+        worst_window: the least likely window of innovations.
+        repeated: the residual that runs share at the same positions or speeds.
+        peak: the largest peak in the spectrum of the residual.
     """
 
     worst_window: WorstWindow = CALM

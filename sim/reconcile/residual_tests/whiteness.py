@@ -16,7 +16,6 @@ from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord
 from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW, STEP_VOLTAGE
 
-DELAY, LAG = "delay", "delay.lag"
 SOON = 2.0 * SHORTEST_WINDOW  # [s] after a step, in which everything is fast
 
 
@@ -65,15 +64,16 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
 
 
 def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
-    """Which run -> (windows,) their sums, in what is ordinary."""
-    sums = {record: one for record, one in _window_sums(problem, white, count) if one.size}
+    """Run -> (windows,) their sums, in robust standard deviations; 0 where samples are missing."""
+    sums = dict(_window_sums(problem, white, count))
     every = np.concatenate([*sums.values(), np.zeros(0)])
+    every = every[~np.isnan(every)]
     if every.size < FEWEST_SAMPLES:
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
     spread = max(spread, count**0.5)  # of independent innovations
     return {
-        record: one / (spread * _ordinary_size(problem.records[record])[: one.size])
+        record: np.nan_to_num(one) / (spread * _ordinary_size(problem.records[record])[: one.size])
         for record, one in sums.items()
     }
 
@@ -84,12 +84,9 @@ def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Ar
     A step comes a part of a sample late, another part in each run: that is of clocks, not of
     physics.
     """
-    delayed = point.structure
-    if DELAY not in delayed.effects:
-        delayed = delayed + DELAY
-    late = 0.5 * problem.period
-    values = {**point.values, LAG: point.values.get(LAG, 0.0) + late}
-    more = problem.predict_errors(delayed.model(values), point.nuisance, point.kalman_filter)
+    later = point.nuisance.add_lag(np.full(len(problem.records), 0.5 * problem.period))
+    model = point.structure.model(point.values)
+    more = problem.predict_errors(model, later, point.kalman_filter)
     white = point.innovations @ point.whitening.T
     change = np.nan_to_num(more - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.run_edges.tolist()):
@@ -116,15 +113,15 @@ def _ordinary_size(record: RunRecord) -> Array:
 def _window_sums(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
-    """Sums of so many innovations, of each run; windows with untold samples are left out."""
+    """Each run, and (windows,) sums of ``count`` innovations; nan where some are not compared."""
     for record, (first, last) in enumerate(
         zip(problem.run_edges[:-1], problem.run_edges[1:], strict=True)
     ):
-        mine, told = white[first:last], problem.informative[first:last]
+        mine, compared = white[first:last], problem.informative[first:last]
         if mine.size <= count:
             continue
         total = np.concatenate(([0.0], np.cumsum(mine)))
-        there = np.concatenate(([0], np.cumsum(told)))
+        counts = np.concatenate(([0], np.cumsum(compared)))
         sums = total[count:] - total[:-count]
-        sums[there[count:] - there[:-count] < count] = 0.0
+        sums[counts[count:] - counts[:-count] < count] = np.nan
         yield record, sums
