@@ -10,7 +10,7 @@ import sim
 from sim.cli import sysid
 from sim.core.errors import BadRequest, NotIdentifiable, Refusal
 from sim.core.log import Log
-from sim.reconcile import reconcile
+from sim.reconcile import DamagedInterval, reconcile
 from sim.reconcile.dropout_intervals import find_dropout_intervals
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.recordings import Recordings
@@ -175,6 +175,35 @@ def test_voltages_of_other_moments_are_not_refused_for_they_are_no_mechanism_s()
     check_logs(Recordings(mixed, OTHER, OTHER, type="simple"), travel=None)
 
 
+CUT = "after the damaged parts are cut out, "
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("validation", f"other.csv: {CUT}no run is left to predict. "),
+        ("held_out", f"other.csv: {CUT}nothing is left to show the gap on. "),
+    ],
+)
+def test_a_log_of_which_nothing_is_left_is_refused(name, said):
+    damages = [
+        DamagedInterval(n, 0.0, 1e6, "voltage-dropout", 1.0, "It was lost.", "Check it.")
+        for n in range(len(OTHER.runs))
+    ]
+
+    with pytest.raises(NotIdentifiable) as found:
+        reconcile(LOG, **{name: OTHER}, type="simple", damages={name: damages})
+
+    assert str(found.value) == said + "Inspect the log, and record it again."
+
+
+def test_a_type_that_is_none_is_refused():
+    with pytest.raises(BadRequest) as found:
+        reconcile(LOG, type="turret")
+
+    assert str(found.value) == ("unknown type 'turret'. Choose one of: simple, elevator, arm.")
+
+
 def test_runs_that_were_recorded_once_are_counted_once():
     repeats = replace(OTHER, runs=(*OTHER.runs, LOG.runs[2]))
     recordings = Recordings(LOG, repeats, LOG, type="simple")
@@ -182,6 +211,9 @@ def test_runs_that_were_recorded_once_are_counted_once():
     assert Recordings(LOG, None, OTHER, type="simple").count_repeated_runs("held_out") == 0
     assert recordings.count_repeated_runs("validation") == 1
     assert recordings.count_repeated_runs("held_out") == 4
+    twice = replace(LOG, runs=(*LOG.runs, *LOG.runs[:2]))
+    assert Recordings(LOG, None, None, type="simple").count_repeated_runs("log") == 0
+    assert Recordings(twice, None, None, type="simple").count_repeated_runs("log") == 2
 
 
 # -- drop-outs -----------------------------------------------------------------------------------

@@ -257,7 +257,9 @@ def test_a_simulation_that_ran_away_is_said_in_words():
     )
 
     page = render_story(mad, title="drive.csv")
+    said = json.loads(json.dumps(mad.to_json(), allow_nan=False))
 
+    assert (said["gap_before"], said["findings"][0]["gap_before"]) == (None, None)
     assert page_flaws(page) == []
     assert "ran away" in page
     assert "inf " not in told(mad)

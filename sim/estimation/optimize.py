@@ -21,7 +21,7 @@ FACTOR = 4.0  # [1] steps of the process noise
 LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which it is none
 TINY = 1e-9  # [of a value's size] step that tells whether a value is at its limit
 LEAST_INFORMATION = 1e-100  # of a parameter, so that it has an inverse
-MOST_INFLATION = 1e9  # [1] variance over that with all other parameters known; beyond is rounding
+LARGEST_ERROR = 1e6  # [sizes of a parameter] a larger standard error is rounding alone
 UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what stands for none
 
 
@@ -238,12 +238,17 @@ def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) ->
         problem: the measurements.
         point: the best estimate.
     """
-    _, square = compute_gradient_and_information(problem, point, fine=True)
-    count = len(point.structure.searched_names)
-    variance = np.diag(invert_symmetric(square))[:count]
-    inflation = variance * np.maximum(np.diag(square)[:count], LEAST_INFORMATION)
-    errors = np.where(inflation < MOST_INFLATION, np.sqrt(np.maximum(variance, 0.0)), np.inf)
-    return dict(zip(point.structure.searched_names, errors.tolist(), strict=True))
+    structure = point.structure
+    variances = np.diag(compute_parameter_covariance(problem, point)).tolist()
+    errors = {
+        name: math.sqrt(max(variance, 0.0))
+        for name, variance in zip(structure.searched_names, variances, strict=True)
+    }
+    most = {
+        name: LARGEST_ERROR * structure.find_parameter_scale(name, point.values[name])
+        for name in errors
+    }
+    return {name: error if error < most[name] else math.inf for name, error in errors.items()}
 
 
 def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array, Array]:
