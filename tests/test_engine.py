@@ -251,7 +251,7 @@ def test_a_search_is_fine_where_friction_fades_while_the_speed_changes_fast():
         edges=np.array([0.0, TIME.size]), time=TIME, voltage=volts,
         voltage_slide=np.zeros(TIME.size), measured=np.full((TIME.size, 2), np.nan),
         position=still, velocity=still, low=still - math.inf, high=still + math.inf,
-        clocks=still, sessions=still,
+        clocks=still, memory_groups=still,
     )  # fmt: skip
 
     found = filter_runs(
@@ -426,8 +426,8 @@ def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
     given = {
         "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
         "slides": steady(0.0), "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf),
-        "high": np.full(1, math.inf), "rubs": np.zeros(1), "run_lags": np.zeros(1),
-        "sessions": np.zeros(1), "c": make_model_constants(PLAIN), "w": NO_WIRES, "on": on,
+        "high": np.full(1, math.inf), "frictions": np.zeros(1), "run_lags": np.zeros(1),
+        "memory_groups": np.zeros(1), "c": make_model_constants(PLAIN), "w": NO_WIRES, "on": on,
         "p": parameters, "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS),
         "began": np.zeros(1), "steps": EXACT, "plain": True,
         "measured": np.zeros((0, 2)), "trust": np.zeros((0, 4)), "errors": np.zeros((0, 2)),

@@ -44,7 +44,7 @@ def followed(model, time, volts, *, rubs):
         edges=np.arange(count + 1.0) * time.size, time=np.tile(time, count),
         voltage=np.tile(volts, count),
         voltage_slide=np.zeros(count * time.size), measured=nothing, position=still, velocity=still,
-        low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
+        low=still - math.inf, high=still + math.inf, clocks=still, memory_groups=still,
     )  # fmt: skip
     return filter_runs(
         model,

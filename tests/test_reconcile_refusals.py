@@ -197,6 +197,17 @@ def test_a_log_of_which_nothing_is_left_is_refused(name, said):
     assert str(found.value) == said + "Inspect the log, and record it again."
 
 
+def test_a_run_without_samples_is_refused():
+    empty = replace(OTHER, runs=(*OTHER.runs, *short(OTHER, count=0, runs=1).runs))
+
+    with pytest.raises(NotIdentifiable) as found:
+        reconcile(LOG, validation=empty, type="simple")
+
+    assert str(found.value) == (
+        "other.csv: run 5 (quasistatic-forward) has no samples. Leave this run out."
+    )
+
+
 def test_a_type_that_is_none_is_refused():
     with pytest.raises(BadRequest) as found:
         reconcile(LOG, type="turret")

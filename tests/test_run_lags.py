@@ -41,7 +41,8 @@ def test_a_run_with_a_lag_of_its_own_moves_as_a_model_with_a_delay(late):
     batch = RunBatch(
         edges=np.array([0.0, count]), time=time, voltage=3.0 * np.sin(4.0 * time),
         voltage_slide=np.zeros(count), measured=np.full((count, 2), np.nan), position=still,
-        velocity=still, low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
+        velocity=still, low=still - math.inf, high=still + math.inf, clocks=still,
+        memory_groups=still,
     )  # fmt: skip
 
     def moved(model, lag):

@@ -55,7 +55,7 @@ def searched(model, volts):
         edges=np.array([0.0, TIME.size]), time=TIME, voltage=volts,
         voltage_slide=np.zeros(TIME.size),
         measured=np.full((TIME.size, 2), np.nan), position=still, velocity=still,
-        low=still - math.inf, high=still + math.inf, clocks=still, sessions=still,
+        low=still - math.inf, high=still + math.inf, clocks=still, memory_groups=still,
     )  # fmt: skip
     return filter_runs(
         model,

@@ -36,7 +36,7 @@ def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
     Returns:
         Raw: a log whose signs are opposed has a negative kV.
     """
-    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
+    top = log.top_speed
     parts = [
         _integral_rows(run, standing=STANDING * top, type=type) for run in log.runs if len(run) > 1
     ]

@@ -5,8 +5,8 @@ measured is the innovation; then the state is corrected by the gain K times it. 
 
     d(x, v) = (v, -kV/kA·v + ...)·dt + (0, √q)·dW        measured with noise of known size
 
-With q = 0 nothing is corrected, and the simulation is open loop; the larger q, the less one run's
-small unknowns (a slope in the floor, a worn tooth) are charged to the gains.
+With q = 0 nothing is corrected, and the simulation is open loop. The larger q, the less the
+disturbances of a single run (a slope in the floor, a worn tooth) bias the gains.
 """
 
 import math
@@ -53,9 +53,11 @@ class KalmanFilter:
         predicted: (2, 2) covariance of the predicted position and velocity.
         measured: (2,) variances of a measured position and velocity.
         step: (2, 2) from one state to the next.
-        push: (2, 2) covariance that process noise adds on the way.
+        push: (2, 2) covariance that process noise adds in a period, that of a double integrator.
         disturbed: (2, 2) covariance of position and velocity after one period whose mean voltage
             has a variance of one volt squared.
+
+    All covariances are divided by the variance of a measured velocity.
     """
 
     steady: Array

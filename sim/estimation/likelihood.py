@@ -387,8 +387,8 @@ class PredictionErrorProblem:
     def whiten(self, point: Estimate, table: Array, out: Array | None = None) -> Array:
         """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
 
-        What flies off is large, and its squares can still be summed. ``out`` (2 n,) is where the
-        result is written, if wanted.
+        Diverging innovations are clipped, so that their squares can be summed. ``out`` (2 n,) is
+        where the result is written, if wanted.
         """
         into = None if out is None else out.reshape(table.shape)
         with np.errstate(over="ignore", invalid="ignore"):

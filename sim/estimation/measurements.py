@@ -3,7 +3,7 @@
 A reading that stands because no new frame has come is no measurement; noise is measured without a
 model, from third differences, which a smooth motion hardly has:
 
-    σ² = mean((x₃ - 3 x₂ + 3 x₁ - x₀)²)/20
+    σ = 1.4826·median|x₃ - 3 x₂ + 3 x₁ - x₀|/√20        (of normal noise the standard deviation)
 """
 
 import math
@@ -78,7 +78,8 @@ class SensorNoise:
     Args:
         position: [m or rad].
         velocity: [m/s or rad/s].
-        resolution: smallest step of a logged number, of position and of velocity.
+        resolution: [m or rad], [m/s or rad/s] a smallest size, far below the step of any sensor, so
+            that a variance is never zero.
     """
 
     position: float
@@ -99,7 +100,7 @@ def measure_runs(
             rest. A model with effects is judged by how it leaves its rest, and keeps every sample
             that the velocity alone calls motion.
     """
-    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in log.runs), default=0.0)
+    top = log.top_speed
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
     step = _smallest_step([run.position for run in runs])
     fresh = [_select_fresh_readings(run, step=step) for run in runs]

@@ -5,8 +5,8 @@ and what is believed of δ goes into the search as what is believed of starts do
 
     Σ (δ/τ)² + Σ log(1 + τ² a)        a the square of how a run's innovations change with its δ
 
-The second sum is what is lost by how little else each could have been (Laplace's integral). A τ
-that the runs themselves may widen makes friction of a load: more of it forward, less in reverse.
+The second sum is Laplace's correction for integrating over δ. τ is fixed, not fitted: with a free τ
+a constant load would be taken for friction that is larger in forward runs than in reverse ones.
 """
 
 from collections.abc import Mapping

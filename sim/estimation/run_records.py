@@ -46,7 +46,7 @@ class RunRecord:
         test: its name.
         low: [unit] the stop on which it lay when it began; minus infinity if none shows.
         high: [unit] the same above.
-        clock: [s] when it began, since its log did.
+        clock: [s] when it began, since the first log did.
         session: which log it is from.
         memory_group: runs of one number followed one another: what one heated, the next found warm.
     """
@@ -95,7 +95,7 @@ def make_run_records(
     runs = [log.runs[number] for number in places]
     began = list_run_start_times(log)
     together = shares_clock(log)
-    top = max((float(np.quantile(np.abs(run.velocity), 0.98)) for run in runs), default=0.0)
+    top = max((run.top_speed for run in runs), default=0.0)
     measured = measure_runs(log, friction=None, rest_by_position=False)
     found = {}
     for number, run, one in zip(places, runs, measured, strict=True):

@@ -150,18 +150,20 @@ def _with_run_friction(
     deviation = get_friction_sd(point.values)
     model, runs = point.structure.model(point.values), len(problem.records)
 
-    def missed(rubs: Array) -> Array:
-        other = problem.simulate(model, nuisance.add_friction(rubs)) if rubs.any() else track
+    def errors_with(frictions: Array) -> Array:
+        other = (
+            problem.simulate(model, nuisance.add_friction(frictions)) if frictions.any() else track
+        )
         return _open_loop_errors(problem, other)
 
     every = np.stack(
-        [missed(np.full(runs, share * deviation)) for share in EASED]
+        [errors_with(np.full(runs, share * deviation)) for share in EASED]
     )  # (shares, n, 2)
     costs = _costs_by_share(problem, every, compared)
     best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     aside = find_parabola_minima(less, here, more)
-    between = missed((np.array(EASED)[best] + aside) * deviation)
+    between = errors_with((np.array(EASED)[best] + aside) * deviation)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs_by_share(problem, every, compared), axis=0)
     return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])

@@ -29,6 +29,8 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
         NotIdentifiable: too few runs, samples, or voltages.
     """
     log, base, unit = recordings.log, recordings.type, recordings.unit
+    for one in recordings.logs_by_name.values():
+        _check_samples(one)
     _check_size(log)
     if base == "arm" and not unit.angular:
         raise BadRequest(
@@ -49,6 +51,16 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
             _check_same(log, other, guess, type=base)
     if travel is not None:
         _check_travel(log, travel, unit)
+
+
+def _check_samples(log: Log) -> None:
+    empty = [number for number, run in enumerate(log.runs, 1) if not len(run)]
+    if empty:
+        raise NotIdentifiable(
+            f"run {empty[0]} ({log.runs[empty[0] - 1].test}) has no samples",
+            where=log.source,
+            advice="Leave this run out.",
+        )
 
 
 def _check_size(log: Log) -> None:

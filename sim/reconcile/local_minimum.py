@@ -183,7 +183,7 @@ def _scale_start(
 
 
 def scan_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The estimate with the likeliest process noise of its whole range."""
+    """The likeliest of an estimate and of five with less process noise."""
     tried = [
         problem.evaluate(
             point.structure, point.values, point.nuisance, point.process_noise * FACTOR**power

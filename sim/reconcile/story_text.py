@@ -169,7 +169,7 @@ def _gap(story: Story) -> str:
 
 def _in_speed(story: Story) -> str:
     """The last gap as a speed and a share of the top speed, in brackets; empty if it is neither."""
-    top = max((run.top_speed for run in story.shown.runs), default=0.0)
+    top = story.shown.top_speed
     if not (math.isfinite(story.gap_after) and top > 0.0):
         return ""
     unit = find_unit(story.shown.units)

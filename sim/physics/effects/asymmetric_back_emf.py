@@ -12,7 +12,7 @@ from sim.physics.voltage_residual import VoltageResidual
 
 
 def force(v: float, lean: float) -> float:
-    """[V] additional force: it opposes forward motion and assists reverse motion."""
+    """[V] additional force; with ``lean`` > 0 it opposes forward and assists reverse motion."""
     return lean * abs(v)
 
 

@@ -26,7 +26,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the mean of the voltage residual."""
+    """Start values: the constant that the voltage residual contains, fitted beside the gains."""
     (lean,) = seen.fit_columns(np.ones_like(seen.missing))
     yield {"lean": float(lean)}
 

@@ -31,7 +31,7 @@ def added_inertia(clock: float, extra: float, onset: float, until: float) -> flo
 
 
 def impact(shared: float) -> float:
-    """[1] share of the momentum that inertia takes when it joins."""
+    """[1] 1 if the joining inertia was at rest, 0 if it already moved along."""
     return shared
 
 

@@ -37,7 +37,7 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
 
 
 def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: shares of the largest traction in the log; none for positions in radians."""
+    """Start values: shares of the largest traction in the log; none for angular positions."""
     if find_unit(seen.log.units).angular:
         return
     push = np.abs(seen.voltage - seen.gains["kV"] * seen.velocity) - seen.gains["kS"]

@@ -230,8 +230,8 @@ def filter_runs(
         errors: (n, 2) where innovations are written, measured minus expected, if wanted.
 
     Returns:
-        (n, 8) of all runs, one after another, as ``Track.of`` takes it; the last two columns, from
-        ``EXPECTED`` on, are what was expected before a measurement corrected it.
+        (n, 8) of all runs, one after another, as ``Track.from_array`` takes it; the last two
+        columns, from ``EXPECTED`` on, are what was expected before a measurement corrected it.
     """
     on, parameters = make_effect_arrays(model)
     simple = model.type != "arm" and all(map(is_pure_delay, model.parts))
@@ -251,7 +251,7 @@ def filter_runs(
     _compiled_engine().move(
         batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
         batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
-        batch.sessions, make_model_constants(model), NO_WIRES, on, parameters,
+        batch.memory_groups, make_model_constants(model), NO_WIRES, on, parameters,
         np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
         measured, gains, errors, out,
     )  # fmt: skip

@@ -45,7 +45,7 @@ def added_inertia(on: Numbers, p: Numbers, clock: float) -> float:
 
 
 def impact(on: Numbers, p: Numbers) -> float:
-    """[1] share of its momentum that added inertia takes from the moving mechanism."""
+    """[1] 1 if inertia that is added was at rest, 0 if it already moved along."""
     return 0.0
 
 

@@ -54,8 +54,8 @@ class Kernel:
 
     def move(
         self, edges: Array, time: Array, asked: Array, slides: Array, bodies: Array,
-        low: Array, high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Array, w: Array,
-        on: Array, p: Array, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
+        low: Array, high: Array, frictions: Array, run_lags: Array, memory_groups: Array, c: Array,
+        w: Array, on: Array, p: Array, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
         measured: Array, trust: Array, errors: Array, out: Array,
     ) -> None:  # fmt: skip
         """Simulate runs; the arguments are those of ``stepping.step_runs``.
@@ -72,15 +72,15 @@ class Kernel:
             raise TypeError("each measurement has its innovation")
         if trust.shape[1:] != (4,) or len(trust) not in {min(rows, 1), rows}:
             raise TypeError("each measurement has four gains, or all have the same")
-        each = low.size, high.size, rubs.size, run_lags.size, sessions.size
+        each = low.size, high.size, frictions.size, run_lags.size, memory_groups.size
         if {len(bodies), *each, edges.size - 1} != {count}:
             raise TypeError("there is one of everything for each run")
         if count and not (edges[0] == 0 and edges[-1] == n and (edges[1:] >= edges[:-1]).all()):
             raise TypeError("runs lie one behind the other")
         self._call(
             count, n, rows, len(trust), _place(edges), _place(time), _place(asked), _place(slides),
-            _place(bodies), _place(low), _place(high), _place(rubs), _place(run_lags),
-            _place(sessions), _place(c), _place(w), _place(on), _place(p), _place(memory),
+            _place(bodies), _place(low), _place(high), _place(frictions), _place(run_lags),
+            _place(memory_groups), _place(c), _place(w), _place(on), _place(p), _place(memory),
             _place(ways), _place(began), _place(steps), plain, _place(measured),
             _place(trust), _place(errors), _place(out),
         )  # fmt: skip
@@ -198,7 +198,17 @@ def try_kernel_file(kept: Path) -> None:
         sys.exit(1)
     none, some = np.zeros((0, 2)), np.zeros(ROOM)
     runs = dict.fromkeys(
-        ("time", "asked", "slides", "low", "high", "rubs", "run_lags", "sessions", "began"),
+        (
+            "time",
+            "asked",
+            "slides",
+            "low",
+            "high",
+            "frictions",
+            "run_lags",
+            "memory_groups",
+            "began",
+        ),
         none[:, 0],
     )
     model = dict.fromkeys(("c", "w", "on", "p", "memory", "ways", "steps"), some)

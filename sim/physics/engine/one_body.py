@@ -29,10 +29,10 @@ X, V, Y, W, OFF_UNTIL = range(5)
 until which a brownout keeps the motors off. With one body, motor and load are the same."""
 
 
-def bound_travel(c: Numbers, low: float, high: float, rubs: float) -> Numbers:
-    """Constants of one run: friction is kS + ``rubs``, travel is between ``low`` and ``high``."""
+def bound_travel(c: Numbers, low: float, high: float, extra: float) -> Numbers:
+    """Constants of one run: friction is kS + ``extra``, travel is between ``low`` and ``high``."""
     return (
-        max(c[KS] + rubs, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
+        max(c[KS] + extra, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
         max(c[LOW], low), min(c[HIGH], high),
     )  # fmt: skip
 

@@ -19,8 +19,8 @@ class RunBatch:
         velocity: (runs,) [m/s or rad/s] with which.
         low: (runs,) [m or rad] a stop beneath it; minus infinity is none.
         high: (runs,) [m or rad] a stop above it.
-        clocks: (runs,) [s] since its log began.
-        sessions: (runs,) which log; what effects remember goes on within one.
+        clocks: (runs,) [s] when each began, since the first log did.
+        memory_groups: (runs,) a number; what effects remember goes on between runs with the same.
     """
 
     edges: Array
@@ -33,4 +33,4 @@ class RunBatch:
     low: Array
     high: Array
     clocks: Array
-    sessions: Array
+    memory_groups: Array

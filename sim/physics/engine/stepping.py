@@ -197,21 +197,21 @@ def step_run(
 
 def step_runs(
     edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
-    high: Array, rubs: Array, run_lags: Array, sessions: Array, c: Numbers, w: Numbers, on: Numbers,
-    p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
+    high: Array, frictions: Array, run_lags: Array, memory_groups: Array, c: Numbers, w: Numbers,
+    on: Numbers, p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
     measured: Array, trust: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
     """Simulate runs that are stored one after another.
 
     Run k has the samples from ``edges[k]`` to ``edges[k + 1]``. It begins in the state
     ``bodies[k]``, at ``began[k]`` [s] of the clock, and its travel ends at ``low[k]`` and
-    ``high[k]``. Its dry friction is ``rubs[k]`` [V] larger than kS, and its commands are
+    ``high[k]``. Its dry friction is ``frictions[k]`` [V] larger than kS, and its commands are
     ``run_lags[k]`` [s] later than the effects delay them. The memory of effects is kept between
-    runs with the same number in ``sessions``.
+    runs with the same number in ``memory_groups``.
     """
     for k in range(began.size):
         first, last = int(edges[k]), int(edges[k + 1])
-        if k > 0 and sessions[k] != sessions[k - 1]:
+        if k > 0 and memory_groups[k] != memory_groups[k - 1]:
             for i in range(memory.size):
                 memory[i] = 0.0
         lead, left = measured, errors
@@ -220,7 +220,7 @@ def step_runs(
         gains = trust[first:last] if trust.shape[0] > 1 else trust
         step_run(
             time[first:last], asked[first:last], slides[first:last], bodies[k],
-            bound_travel(c, low[k], high[k], rubs[k]), w, on, p, memory, ways, began[k],
+            bound_travel(c, low[k], high[k], frictions[k]), w, on, p, memory, ways, began[k],
             run_lags[k], steps, plain, lead, gains, left, out[first:last],
         )  # fmt: skip
 
