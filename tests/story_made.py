@@ -59,7 +59,6 @@ DRAG = Finding(
     parameters={"drag": ParameterEstimate(0.11234, 0.0021, "V·s²/ft²")},
     gap_before=1.0,
     gap_after=0.0328,
-    score=812.0,
     sentence="Drag pushes back with the square of speed.",
     inspect="Check whether grease has become stiff.",
     separating_test="",
@@ -72,7 +71,6 @@ SLIP = Finding(
     parameters={},
     gap_before=1.0,
     gap_after=1.0,
-    score=float("inf"),
     sentence="The velocity reads 40% too little for 0.1 s.",
     inspect="Tighten what holds the sensor.",
     separating_test="",
@@ -104,7 +102,7 @@ def story(*findings, verdict="explained", chapters=2, **changes):
     log = shown()
     first = Chapter("", BASE, TRIED, gap_of(log, WRONG), WRONG)
     model = BASE + Part("drag", {"drag": 0.1})
-    after = tuple(replace(one, admitted=False, score=-5.0) for one in TRIED[1:])
+    after = tuple(replace(one, admitted=False, improvement=-5.0) for one in TRIED[1:])
     second = Chapter("drag", model, after, gap_of(log, RIGHT), RIGHT)
     told = (first, second)[:chapters]
     made = Story(

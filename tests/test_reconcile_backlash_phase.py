@@ -18,8 +18,8 @@ from sim.reconcile import reconcile
 from sim.reconcile.backlash_phase import estimate_backlash_phase
 from sim.reconcile.candidates import FURTHER, descend_candidate, score_estimate
 from sim.reconcile.cross_validation import Gap
-from sim.reconcile.findings import list_remarks
 from sim.reconcile.local_minimum import minimize_fully
+from sim.reconcile.remarks import list_remarks
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Finding
@@ -44,7 +44,7 @@ VALUES = {**GAINS, **OWN}
 def named(effect):
     return Finding(
         effect=effect, kind="effect", size="major", ambiguous_with=(), parameters={},
-        gap_before=2.0, gap_after=1.0, score=100.0, sentence="", inspect="", separating_test="",
+        gap_before=2.0, gap_after=1.0, sentence="", inspect="", separating_test="",
     )  # fmt: skip
 
 
@@ -134,7 +134,7 @@ def test_what_is_told_has_its_price(problem):
     )
     fit = problem._cost(problem.compute_covariance(innovations))
     assert seen.cost == pytest.approx(fit + price)
-    assert score_estimate(problem, seen).score > seen.cost  # and the values' own beside it
+    assert score_estimate(problem, seen).bic > seen.cost  # and the values' own beside it
 
 
 def test_without_play_nothing_is_told_and_nothing_is_kept(problem):

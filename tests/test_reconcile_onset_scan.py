@@ -19,7 +19,7 @@ from sim.physics.voltage_residual import compute_voltage_residual, list_run_star
 from sim.reconcile import model_selection
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap, make_folds
-from sim.reconcile.findings import is_contradicted
+from sim.reconcile.judgement import is_contradicted
 from sim.reconcile.local_minimum import minimize, rate_starts
 from sim.reconcile.onset_scan import flip_duration, refine_onset, scan_onsets
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -213,7 +213,7 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
             problem.noise.velocity**2,
         ),
     )
-    other = replace(base, effect=effect, score=base.score - score)
+    other = replace(base, effect=effect, bic=base.bic - score)
     gap = Gap(1.0, 1.0)
     monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: [other])
     monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: Gap(0.9, 0.9))
@@ -240,7 +240,7 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
     )
     gap = Gap(1.0, 1.0)
     names = ("inertia-change", "drag")
-    tried = [replace(base, effect=name, score=base.score - 500.0) for name in names]
+    tried = [replace(base, effect=name, bic=base.bic - 500.0) for name in names]
     monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: tried)
     monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: gap)
 

@@ -166,7 +166,7 @@ def test_two_bodies_are_tried_where_all_lively_runs_were_set_aside():
 
     found = rank_candidates(problem, point, evidence, only=["backlash"])
 
-    assert all(math.isfinite(one.score) for one in found)
+    assert all(math.isfinite(one.bic) for one in found)
 
 
 @pytest.mark.parametrize(
@@ -193,7 +193,7 @@ def test_a_search_that_leads_nowhere_is_given_up(monkeypatch, inertia, gaps, ask
         calls.append(now)
         if len(calls) == len(sizes):
             return []
-        other = replace(now.candidate, effect="drag", score=now.candidate.score - 500.0)
+        other = replace(now.candidate, effect="drag", bic=now.candidate.bic - 500.0)
         return [
             WeighedCandidate(
                 other, sizes[len(calls)], TriedCandidate("drag", 500.0, 0.9, admitted=True, why="")

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.physics.effects import EFFECTS
-from sim.reconcile.findings import list_rival_scores
+from sim.reconcile.judgement import list_rival_scores
 from sim.reconcile.probability import (
     FEATURES,
     FILE,

@@ -19,13 +19,10 @@ from sim.physics.engine import State
 from sim.physics.model import Model, Part
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import Gap, count_noise_floors
-from sim.reconcile.findings import (
-    judge_effects,
-    list_remarks,
-    make_findings,
-    select_reported_rounds,
-)
+from sim.reconcile.findings import make_findings
+from sim.reconcile.judgement import judge_effects
 from sim.reconcile.model_selection import WIDENS
+from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary

@@ -1,5 +1,6 @@
 """Bar charts of a story: the candidates of a round, and the gap after each round."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -46,24 +47,26 @@ def plot_candidate_bars(story: Story, chapter: int = 0) -> Picture:
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
     axes.legend(fontsize=8, labelcolor=INK, loc="lower right")
-    told = ". ".join(f"{one.effect} {_points(one.score)}, {_why(one, taken)}" for one in drawn)
+    told = ". ".join(
+        f"{one.effect} {_points(one.improvement)}, {_why(one, taken)}" for one in drawn
+    )
     alt = f"Bars show what each suspect explains, the likeliest first: {told}."
     return Picture(figure, alt, make_candidate_table(story, chapter))
 
 
 def _bars(axes: Axes, drawn: Sequence[TriedCandidate], taken: str) -> None:
     """A bar for each suspect, as long as it explains."""
-    most = max((max(one.score, 0.0) for one in drawn), default=0.0) or 1.0
+    most = max((max(one.improvement, 0.0) for one in drawn), default=0.0) or 1.0
     seen: set[str] = set()
     for place, one in enumerate(drawn):
         kind = describe_candidate_status(one, taken)
         color, hatch = LOOKS[kind]
         axes.barh(
-            place, max(one.score, 0.0), color=color, hatch=hatch, edgecolor=INK, linewidth=0.6,
-            height=0.7, label=kind if kind not in seen else None,
+            place, max(one.improvement, 0.0), color=color, hatch=hatch, edgecolor=INK,
+            linewidth=0.6, height=0.7, label=kind if kind not in seen else None,
         )  # fmt: skip
         seen.add(kind)
-        _beside(axes, max(one.score, 0.0), place, _points(one.score))
+        _beside(axes, max(one.improvement, 0.0), place, _points(one.improvement))
     axes.set_xlim(0.0, 1.15 * most)
 
 
@@ -71,7 +74,7 @@ def make_candidate_table(story: Story, chapter: int) -> Table:
     """A table of all candidates of a round."""
     taken = find_next_effect(story, chapter)
     rows = tuple(
-        (one.effect, _points(one.score), _known(one.gap), _why(one, taken))
+        (one.effect, _points(one.improvement), _known(one.gap_ratio), _why(one, taken))
         for one in story.chapters[chapter].tried
     )
     header = ("suspect", "likelier by", "gap becomes, times", "and so")
@@ -147,7 +150,9 @@ def _lengths(axes: Axes, gaps: Sequence[float]) -> None:
 
 
 def _known(value: float) -> str:
-    return to_text(value) if np.isfinite(value) else "ran away"
+    if math.isnan(value):
+        return "not computed"
+    return to_text(value) if math.isfinite(value) else "ran away"
 
 
 def _beside(axes: Axes, x: float, y: float, text: str) -> None:

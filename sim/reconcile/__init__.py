@@ -28,12 +28,13 @@ from sim.reconcile.backward_elimination import measure_removals
 from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
 from sim.reconcile.damage import DamagedInterval
 from sim.reconcile.damage_policy import judge_damage
-from sim.reconcile.findings import list_remarks, make_findings, select_reported_rounds
+from sim.reconcile.findings import make_findings
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.local_minimum import minimize_fully, scan_process_noise
 from sim.reconcile.recordings import Recordings
+from sim.reconcile.remarks import list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.search_effort import STEPS
 from sim.reconcile.selection_data import SelectionData

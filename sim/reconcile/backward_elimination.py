@@ -30,7 +30,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
         if not others:
             continue
         reduced = refit_without_effect(problem, last.candidate, effect)
-        needed = reduced.score - last.candidate.score >= find_required_improvement(effect)
+        needed = reduced.bic - last.candidate.bic >= find_required_improvement(effect)
         if not needed:
             gap = compute_validation_gap(problem, reduced.estimate, data.folds)
             if is_wider(gap, last.gap):
@@ -80,7 +80,7 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
         gap = compute_validation_gap(problem, found.estimate, data.folds)
-        as_good = found.score - last.candidate.score <= EQUAL_SCORE
+        as_good = found.bic - last.candidate.bic <= EQUAL_SCORE
         if as_good and not is_wider(gap, last.gap):
             done = _replace_one(done, place, found, gap)
     return done
@@ -91,8 +91,8 @@ def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
     effect = done[place].candidate.effect
     had = {one.candidate.effect for one in done}
     tried = done[place - 1].tried
-    best = max((one.score for one in tried), default=0.0)
-    alike = [one.effect for one in tried if one.score > COMPARABLE * best]
+    best = max((one.improvement for one in tried), default=0.0)
+    alike = [one.effect for one in tried if one.improvement > COMPARABLE * best]
     return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
 
 
@@ -122,7 +122,7 @@ def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[Se
     for one in done[1:]:
         reduced = refit_without_effect(data.problem, last, one.candidate.effect)
         gap = compute_validation_gap(data.problem, reduced.estimate, data.folds)
-        cost = reduced.score - last.score
+        cost = reduced.bic - last.bic
         told.append(replace(one, removal_cost=cost, without=reduced, gap_without=gap))
     return told
 

@@ -53,18 +53,18 @@ Seeds = Mapping[str, Mapping[str, float]]
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """An effect, the estimate with it, and its score.
+    """An effect, the estimate with it, and its BIC.
 
     Args:
         effect: its name; empty for the point itself.
         estimate: the best with it.
-        score: [of -2 log L] of the point, friction that varies and the number of values priced in;
-            the smaller, the likelier.
+        bic: [of -2 log L] Bayesian information criterion of the estimate, integrated over the
+            friction of each run; the smaller, the better.
     """
 
     effect: str
     estimate: Estimate
-    score: float
+    bic: float
 
 
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
@@ -119,7 +119,7 @@ def rank_candidates(
     simpler = [simplify_effect(problem, one, names, evidence) for one in ended if not stop()]
     ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
-    return sorted(found, key=lambda one: one.score)
+    return sorted(found, key=lambda one: one.bic)
 
 
 def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Estimate) -> Estimate:

@@ -136,10 +136,10 @@ def list_alternative_paths(
     for place, one in enumerate(done[:-1]):
         had = {before.candidate.effect for before in done[: place + 1]}
         admitted = [other for other in one.candidates if other.report.admitted]
-        top = max((other.report.score for other in admitted), default=0.0)
+        top = max((other.report.improvement for other in admitted), default=0.0)
         # an effect that resembles two others at once scores as much as both of them together
-        near = [other for other in admitted if other.report.score >= COMPARABLE**2 * top]
-        near.sort(key=lambda other: other.report.gap if lost else -other.report.score)
+        near = [other for other in admitted if other.report.improvement >= COMPARABLE**2 * top]
+        near.sort(key=lambda other: other.report.gap_ratio if lost else -other.report.improvement)
         for other in near:
             names = frozenset({*had, other.candidate.effect})
             if names not in gone:
@@ -162,7 +162,7 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
         done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
         admitted, quiet = select_admissible(weighed, most=MOST_NUISANCE - now.nuisance_effects)
         if quiet and not any(
-            one.report.score > COMPARABLE * quiet[0].report.score for one in admitted
+            one.report.improvement > COMPARABLE * quiet[0].report.improvement for one in admitted
         ):
             one = quiet[0]
             if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
@@ -211,15 +211,15 @@ def select_admissible(
     quiet = [
         one
         for one in weighed
-        if one.report.why == HARDLY and one.report.score >= LEAST_SCORE_UNSEEN
+        if one.report.why == HARDLY and one.report.improvement >= LEAST_SCORE_UNSEEN
     ][:most]
-    every = sorted([*admitted, *quiet], key=lambda one: -one.report.score)
+    every = sorted([*admitted, *quiet], key=lambda one: -one.report.improvement)
     usual = [
         one
         for one in every
         if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
-    if usual and usual[0].report.score >= COMPARABLE * every[0].report.score:
+    if usual and usual[0].report.improvement >= COMPARABLE * every[0].report.improvement:
         admitted = [one for one in admitted if one is usual[0]]
         quiet = [one for one in quiet if one is usual[0]]
     return admitted, quiet
@@ -260,14 +260,14 @@ def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandid
 
 
 def _is_close(other: WeighedCandidate, best: WeighedCandidate) -> bool:
-    return other.candidate.score - best.candidate.score <= EQUAL_SCORE
+    return other.candidate.bic - best.candidate.bic <= EQUAL_SCORE
 
 
 def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
     """What the candidates' parameters are, of those that explain something."""
     found = {}
     for one in weighed:
-        if one.report.score >= LEAST_SCORE:
+        if one.report.improvement >= LEAST_SCORE:
             name, values = one.candidate.effect, one.candidate.estimate.values
             found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
     return found

@@ -34,10 +34,10 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
     evidence = data.voltage_residual(point)
     stop = data.out_of_time
     for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds, stop=stop):
-        score = now.candidate.score - candidate.score
+        score = now.candidate.bic - candidate.bic
         if score < find_required_improvement(candidate.effect):
             tried = TriedCandidate(
-                candidate.effect, score, 1.0, admitted=False, why="explains too little"
+                candidate.effect, score, math.nan, admitted=False, why="explains too little"
             )
             found.append(WeighedCandidate(candidate, now.gap, tried))
             continue
@@ -90,27 +90,31 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     if (
         lasting
         and best is not lasting[0]
-        and best.report.score - lasting[0].report.score < LEAST_SCORE_ONCE
+        and best.report.improvement - lasting[0].report.improvement < LEAST_SCORE_ONCE
     ):
         admitted, best = lasting, lasting[0]
-    closer = [one for one in admitted if one.report.score > COMPARABLE * best.report.score]
-    closest = min(closer, key=lambda one: one.report.gap)
-    if closest.report.gap < MAJOR_UNEXPLAINED * best.report.gap:
+    closer = [
+        one for one in admitted if one.report.improvement > COMPARABLE * best.report.improvement
+    ]
+    closest = min(closer, key=lambda one: one.report.gap_ratio)
+    if closest.report.gap_ratio < MAJOR_UNEXPLAINED * best.report.gap_ratio:
         best = closest
-    top = best.report.score
-    admitted = [one for one in admitted if one.report.score <= top]
+    top = best.report.improvement
+    admitted = [one for one in admitted if one.report.improvement <= top]
     simpler = EFFECTS[best.candidate.effect].simpler
     near = [
         one
         for one in admitted
-        if top - one.report.score <= EQUAL_SCORE
-        or (one.candidate.effect == simpler and one.report.score > NARROWER * top)
+        if top - one.report.improvement <= EQUAL_SCORE
+        or (one.candidate.effect == simpler and one.report.improvement > NARROWER * top)
     ]
     fewest = min(one.candidate.estimate.structure.free_count for one in near)
     near = [one for one in near if one.candidate.estimate.structure.free_count == fewest]
-    likeliest = max(near, key=lambda one: one.report.score)
-    nearest = min(near, key=lambda one: one.report.gap)
-    return nearest if nearest.report.gap < NARROWER * likeliest.report.gap else likeliest
+    likeliest = max(near, key=lambda one: one.report.improvement)
+    nearest = min(near, key=lambda one: one.report.gap_ratio)
+    return (
+        nearest if nearest.report.gap_ratio < NARROWER * likeliest.report.gap_ratio else likeliest
+    )
 
 
 def list_rivals(
@@ -127,9 +131,10 @@ def list_rivals(
         for one in weighed
         if one is not best
         and one.report.admitted
-        and best.report.score - one.report.score <= EQUAL_SCORE
+        and best.report.improvement - one.report.improvement <= EQUAL_SCORE
         and not (
-            one.report.score <= best.report.score and contains_effect(one.candidate.effect, chosen)
+            one.report.improvement <= best.report.improvement
+            and contains_effect(one.candidate.effect, chosen)
         )
     ]
 
@@ -152,7 +157,7 @@ def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[Weighed
         one
         for one in weighed
         if one.report.why == WIDENS
-        and one.report.score >= LEAST_SCORE_ONCE
+        and one.report.improvement >= LEAST_SCORE_ONCE
         and not EFFECTS[one.candidate.effect].has_onset
         and not is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
     ]
@@ -167,4 +172,4 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
 def compare_scores(now: Candidate, other: Candidate) -> float:
     """Decrease of -2 log L from one model to another, fewer parameters counted in."""
     fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
-    return now.score - other.score + (2.0 * EQUAL_SCORE if fewer > 0 else 0.0)
+    return now.bic - other.bic + (2.0 * EQUAL_SCORE if fewer > 0 else 0.0)

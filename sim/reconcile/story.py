@@ -45,7 +45,6 @@ class Finding:
         parameters: name -> estimate.
         gap_before: [owner's unit/s] RMS velocity error of the simulation without it.
         gap_after: the same with it.
-        score: [of -2 log L] by which it makes the model likelier, all prices paid.
         sentence: what it is and does, for a person.
         inspect: what to look at on the robot.
         separating_test: which test tells it from what it is ambiguous with; empty if it is not.
@@ -60,7 +59,6 @@ class Finding:
     parameters: Mapping[str, ParameterEstimate]
     gap_before: float
     gap_after: float
-    score: float
     sentence: str
     inspect: str
     separating_test: str
@@ -73,15 +71,16 @@ class TriedCandidate:
 
     Args:
         effect: its name.
-        score: [of -2 log L] by which it would make the model likelier; negative: less likely.
-        gap: [1] of the validation's, over the one before: below 1 the gap shrinks.
+        improvement: [of -2 log L] by which it would make the BIC smaller; negative: larger.
+        gap_ratio: [1] gap of the validation over the one before, below 1 if it shrinks; nan if it
+            was not computed.
         admitted: whether it passed every gate.
         why: the gate that it did not pass; empty if it passed all.
     """
 
     effect: str
-    score: float
-    gap: float
+    improvement: float
+    gap_ratio: float
     admitted: bool
     why: str
 

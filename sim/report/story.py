@@ -121,7 +121,7 @@ def _gaps(story: Story) -> Markup:
 
 def _lineup(story: Story, chapter: int) -> Markup:
     """The suspects of a round; where none explains anything, bars would show nothing."""
-    if max(one.score for one in story.chapters[chapter].tried) < 1.0:
+    if max(one.improvement for one in story.chapters[chapter].tried) < 1.0:
         return _html(make_candidate_table(story, chapter))
     return _html(plot_candidate_bars(story, chapter))
 

@@ -55,8 +55,8 @@ class Kernel:
     def move(
         self, edges: Array, time: Array, asked: Array, slides: Array, bodies: Array,
         low: Array, high: Array, frictions: Array, run_lags: Array, memory_groups: Array, c: Array,
-        w: Array, on: Array, p: Array, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
-        measured: Array, trust: Array, errors: Array, out: Array,
+        w: Array, on: Array, p: Array, memory: Array, ways: Array, began: Array, steps: Array,
+        plain: bool, measured: Array, trust: Array, errors: Array, out: Array,
     ) -> None:  # fmt: skip
         """Simulate runs; the arguments are those of ``stepping.step_runs``.
 

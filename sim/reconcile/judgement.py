@@ -1,0 +1,149 @@
+"""How likely each effect of the last model is real.
+
+The evidence of an effect is measured here; ``probability.py`` turns it into a probability.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+from sim.estimation.likelihood import Estimate, PredictionErrorProblem
+from sim.physics.effect import ONSET
+from sim.physics.effects import EFFECTS
+from sim.reconcile.cross_validation import Gap, compute_missed_motion
+from sim.reconcile.model_selection import is_ordinary_size
+from sim.reconcile.probability import (
+    Evidence,
+    JudgedEffect,
+    compute_log_ratio,
+    compute_log_size,
+    compute_probability,
+    compute_rival_share,
+)
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.thresholds import LATEST, LOST, NARROWER, SOONEST
+
+
+def judge_effects(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    left: ResidualSummary,
+    *,
+    damaged: bool,
+) -> tuple[JudgedEffect, ...]:
+    """The effects of the last model that may be findings, each with its probability.
+
+    Args:
+        problem: the measurements.
+        done: the base model and the selection rounds.
+        left: residuals of the last model.
+        damaged: whether damaged intervals were excluded.
+    """
+    last = done[-1].candidate.estimate
+    missed = compute_missed_motion(done[-1].gap.velocity, problem)
+    if not missed <= LOST:  # no number at all is lost, too
+        return ()
+    possible = [
+        (before, now)
+        for before, now in pairwise(done)
+        if not is_ordinary_size(now.candidate.effect, last.values)
+        and not is_contradicted(now.candidate.effect, problem, last, left)
+        and not oscillates_within_sample(now.candidate.effect, problem, last.values)
+    ]
+    found = []
+    for place, (before, now) in enumerate(possible):
+        name = now.candidate.effect
+        with_, bare = compare_gaps(now, done[-1])
+        added = before.candidate.bic - now.candidate.bic
+        evidence = Evidence(
+            likelihood=math.log(max(compute_removal_cost(before, now), 1.0)),
+            gap=0.5
+            * (
+                compute_log_ratio(with_.velocity, bare.velocity)
+                + compute_log_ratio(with_.position, bare.position)
+            ),
+            size=compute_log_size(name, last.values),
+            rival=compute_rival_share(
+                name, added, list_rival_scores(before, last.structure.effects, name)
+            ),
+            later=float(place > 0),
+            structure=float(left.has_structure),
+            once=float(EFFECTS[name].has_onset),
+            damaged=float(damaged and EFFECTS[name].has_onset),
+        )
+        found.append(JudgedEffect(name, now.rivals, evidence, compute_probability(evidence)))
+    return tuple(found)
+
+
+def oscillates_within_sample(
+    effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
+) -> bool:
+    """Whether a soft joint oscillates once or more from one sample to the next.
+
+    No log can show that. The angular frequency is 1/√(softness·share·(1 - share)·kA) [rad/s].
+
+    Args:
+        effect: its name.
+        problem: the measurements.
+        values: of a model, in SI.
+    """
+    if "joint_compliance" not in EFFECTS[effect].hooks:
+        return False
+    share, soft = values[f"{effect}.share"], values[f"{effect}.softness"]
+    reduced = share * (1.0 - share) * values["kA"]
+    return 2.0 * math.pi * math.sqrt(max(soft * reduced, 0.0)) < problem.period
+
+
+def is_contradicted(
+    effect: str, problem: PredictionErrorProblem, last: Estimate, left: ResidualSummary
+) -> bool:
+    """Whether the largest unexplained residual follows this effect's onset.
+
+    A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
+    has it back at another pace. The knock itself is known to a sample, and never explained quite.
+    """
+    moment = left.worst_window
+    if not (EFFECTS[effect].has_onset and left.has_unlikely_window):
+        return False
+    record = problem.records[moment.record]
+    onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])
+    return onset + SOONEST * problem.period < moment.start < onset + LATEST
+
+
+def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
+    """Candidate -> its score in the round of an effect, without other effects of the last model.
+
+    Those explain something else: they are in the model beside it.
+
+    Args:
+        before: the round.
+        kept: the effects of the last model.
+        name: the effect.
+    """
+    others = {*kept} - {name}
+    return {one.effect: one.improvement for one in before.tried if one.effect not in others}
+
+
+def compute_removal_cost(before: SelectionRound, now: SelectionRound) -> float:
+    """[of -2 log L] what the last model loses without an effect; what it brought, if not asked."""
+    if math.isnan(now.removal_cost):
+        return before.candidate.bic - now.candidate.bic
+    return now.removal_cost
+
+
+def compare_gaps(added: SelectionRound, end: SelectionRound) -> tuple[Gap, Gap]:
+    """The gap of the last model, and of the same without one effect, refitted.
+
+    Where the last model has one effect only, that is what its round brought.
+    """
+    if added.gap_without is None:
+        return added.gap, added.gap_before
+    return end.gap, added.gap_without
+
+
+def is_narrower_with(added: SelectionRound, end: SelectionRound) -> bool:
+    """Whether the last model's gap, of velocity and position, is narrower with an effect."""
+    with_, bare = compare_gaps(added, end)
+    product = with_.velocity * with_.position
+    return product <= NARROWER**2 * bare.velocity * bare.position

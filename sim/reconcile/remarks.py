@@ -1,0 +1,98 @@
+"""Remarks: effects of the last model that are no findings, and what the data do not determine."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from sim.estimation.likelihood import PredictionErrorProblem
+from sim.reconcile.judgement import is_contradicted, is_narrower_with
+from sim.reconcile.probability import JudgedEffect
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.story import Finding
+from sim.reconcile.thresholds import LEAST_PROBABILITY
+
+NO_REVERSAL = (
+    "The free play is known only to a factor of two: no fitted run changes direction, and "
+    "only a run that does is sure to cross all of the play. Record steps forward and back in "
+    "one run."
+)
+
+CONTRADICTED = (
+    "The last model has {} right before the moment that it explains least. It is not named: what "
+    "happened then may be something else."
+)
+
+UNLIKELY = (
+    "With {} the model fits this log better. The probability that the mechanism really has this "
+    "effect is only {}, so the model leaves it out."
+)
+
+
+def list_remarks(
+    problem: PredictionErrorProblem,
+    done: Sequence[SelectionRound],
+    findings: Sequence[Finding],
+    judged: Sequence[JudgedEffect],
+    left: ResidualSummary,
+) -> tuple[str, ...]:
+    """Remarks: effects that were not reported, and what the data do not determine."""
+    last = done[-1].candidate.estimate
+    structure = last.structure
+    named = {one.effect for one in findings}
+    unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
+    rest = [name for name in structure.effects if name not in {*named, *unsure}]
+    last_shown = select_reported_rounds(done, findings, judged)[-1]
+    kept = last_shown.candidate.estimate.structure.effects
+    said = []
+    if inside := [name for name in rest if name in kept]:
+        what = " and ".join(inside)
+        why = "no more than on other robots, or too little to narrow the gap"
+        said.append(f"In the last model there is also a little {what}: {why}.")
+    unlikely = _list_unlikely(judged)
+    doubted = [name for name in rest if name not in kept and name in unlikely]
+    said += [UNLIKELY.format(name, f"{unlikely[name]:.0%}") for name in doubted]
+    if outside := [name for name in rest if name not in {*kept, *doubted}]:
+        what = " and ".join(outside)
+        said.append(
+            f"A little {what} would fit the log better, but the gap does not shrink with it, so "
+            "the model leaves it out."
+        )
+    said += [CONTRADICTED.format(name) for name in unsure]
+    if structure.has_backlash and not _reverses_within_run(problem):
+        said.append(NO_REVERSAL)
+    return tuple(said)
+
+
+def select_reported_rounds(
+    done: Sequence[SelectionRound], findings: Sequence[Finding], judged: Sequence[JudgedEffect]
+) -> Sequence[SelectionRound]:
+    """The rounds to show: up to the last whose effect is named or, if everyday, narrows the gap.
+
+    An effect that is less likely than not is not shown as if it explained the log.
+    """
+    named = {one.effect for one in findings}
+    unlikely = _list_unlikely(judged)
+    last = max(
+        n
+        for n, one in enumerate(done)
+        if n == 0
+        or one.candidate.effect in named
+        or (one.candidate.effect not in unlikely and is_narrower_with(one, done[-1]))
+    )
+    return done[: last + 1]
+
+
+def _list_unlikely(judged: Sequence[JudgedEffect]) -> dict[str, float]:
+    """Effect -> probability, of the effects that are less likely than not."""
+    return {one.effect: one.probability for one in judged if one.probability < LEAST_PROBABILITY}
+
+
+def _reverses_within_run(problem: PredictionErrorProblem) -> bool:
+    """Whether it moved both ways within a run."""
+    ways = [
+        np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
+        for first, last in pairwise(problem.run_edges.tolist())
+    ]
+    return any((one > 0.0).any() and (one < 0.0).any() for one in ways)
