@@ -49,10 +49,10 @@ def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
         / problem.noise.velocity
     )
     eased = compute_rms_gap(
-        compute_open_loop_errors(problem, truth, truth.nuisance, eased=True)
+        compute_open_loop_errors(problem, truth, truth.nuisance, own_friction=True)
     ).velocity
     bare = compute_rms_gap(
-        compute_open_loop_errors(problem, without, without.nuisance, eased=True)
+        compute_open_loop_errors(problem, without, without.nuisance, own_friction=True)
     ).velocity
 
     assert plain > 5.0

@@ -236,7 +236,9 @@ def test_what_runs_away_is_not_left_out_of_the_gap(monkeypatch):
 
     assert (
         compute_rms_gap(
-            compute_open_loop_errors(problem, point, RunNuisance.at_first_samples(4), eased=True)
+            compute_open_loop_errors(
+                problem, point, RunNuisance.at_first_samples(4), own_friction=True
+            )
         ).velocity
         == math.inf
     )

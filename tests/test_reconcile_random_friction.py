@@ -153,7 +153,7 @@ def test_a_gap_is_that_of_each_runs_own_friction_between_those_that_are_tried(sh
 
     plain = compute_rms_gap(compute_open_loop_errors(problem, point, point.nuisance)).velocity
     eased = compute_rms_gap(
-        compute_open_loop_errors(problem, point, point.nuisance, eased=True)
+        compute_open_loop_errors(problem, point, point.nuisance, own_friction=True)
     ).velocity
 
     assert eased == pytest.approx(NOISE[1], rel=0.05)
@@ -166,7 +166,7 @@ def test_a_gap_of_a_friction_that_is_beyond_all_bounds_stays_wide():
 
     assert (
         compute_rms_gap(
-            compute_open_loop_errors(problem, point, point.nuisance, eased=True)
+            compute_open_loop_errors(problem, point, point.nuisance, own_friction=True)
         ).velocity
         > 3.0 * NOISE[1]
     )

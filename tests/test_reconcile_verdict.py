@@ -80,7 +80,7 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
     said = reach_verdict(
-        findings, rounds(problem, *gaps), problem, left=ResidualSummary(), per=METERS
+        findings, rounds(problem, *gaps), problem, residuals=ResidualSummary(), per=METERS
     )
 
     assert said[:2] == (verdict, remains)
@@ -108,7 +108,7 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(
     )
     done = [replace(done[0], candidates=(other,))]
 
-    said = reach_verdict([], done, problem, left=ResidualSummary(), per=METERS)
+    said = reach_verdict([], done, problem, residuals=ResidualSummary(), per=METERS)
 
     assert said[:2] == (verdict, remainder)
     assert ("compliance" in said[2]) is (remainder and gap < 10.0)
@@ -130,7 +130,7 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
     findings = [replace(DRAG, effect=name) for name in names]
 
     verdict, remainder, remains = reach_verdict(
-        findings, rounds(problem, 40.0, 1.1), problem, left=ResidualSummary(), per=METERS
+        findings, rounds(problem, 40.0, 1.1), problem, residuals=ResidualSummary(), per=METERS
     )
 
     assert (verdict, remainder) == ("explained", doubted)
@@ -159,14 +159,21 @@ def added(problem, *steps, values):
     return done
 
 
-def find_effects(problem, done, *, left):
+def find_effects(problem, done, *, residuals):
     """The findings, where the shown log is missed as the other runs are."""
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
     without = {
         one.candidate.effect: (one.gap_without or one.gap_before).velocity for one in done[1:]
     }
     return make_findings(
-        problem, done, [], chapters, without=without, held_out=False, left=left, per=METERS
+        problem,
+        done,
+        [],
+        chapters,
+        without=without,
+        held_out=False,
+        residuals=residuals,
+        per=METERS,
     )[0]
 
 
@@ -188,7 +195,7 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
     values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
     done = added(problem, *steps, values=values)
 
-    found = find_effects(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, residuals=ResidualSummary())
 
     assert {one.effect: one.size for one in found} == sizes
 
@@ -211,7 +218,7 @@ def test_the_most_important_effect_closes_most_of_the_gap_as_the_first_and_as_th
         TriedCandidate(name, SURELY, share, admitted=True, why="") for name, share in alone.items()
     )
 
-    found = find_effects(problem, [replace(base, tried=tried), *steps], left=ResidualSummary())
+    found = find_effects(problem, [replace(base, tried=tried), *steps], residuals=ResidualSummary())
 
     assert found[0].effect == first
     assert {one.effect for one in found} == {"drag", "spring"}
@@ -236,7 +243,7 @@ def test_no_effect_is_named_with_which_the_shown_log_is_missed_by_more(
 
     found, _ = make_findings(
         problem, done, [], chapters, without={"drag": shown * end}, held_out=held_out,
-        left=ResidualSummary(), per=METERS,
+        residuals=ResidualSummary(), per=METERS,
     )  # fmt: skip
 
     assert [one.size for one in found] == [size] * (size is not None)
@@ -258,7 +265,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
     alike = added(problem, ("drag", 1.1, 1.05), ("spring", 1.0, 1.1), values=values)
 
     def sizes(done):
-        found = find_effects(problem, done, left=rest)
+        found = find_effects(problem, done, residuals=rest)
         return [one.size for one in found]
 
     assert sizes(alone) == [size]
@@ -278,7 +285,7 @@ def test_while_something_remains_a_name_has_to_take_much_of_it_away(problem, res
 def test_what_frictions_of_single_runs_add_up_to_is_not_named(problem, effect, name, size, named):
     done = added(problem, (effect, 1.9, 2.0), values={**GAINS, f"{effect}.{name}": size})
 
-    found = find_effects(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, residuals=ResidualSummary())
     told = list_remarks(problem, done, found, (), ResidualSummary())
 
     assert [one.effect for one in found] == [effect] * named
@@ -305,7 +312,7 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     done = [replace(base, tried=tried, candidate=plain), replace(one, removal_cost=score)]
 
     (judged,) = judge_effects(problem, done, ResidualSummary(), damaged=False)
-    found = find_effects(problem, done, left=ResidualSummary())
+    found = find_effects(problem, done, residuals=ResidualSummary())
     remarks = list_remarks(problem, done, found, [judged], ResidualSummary())
 
     assert (judged.probability >= LEAST_PROBABILITY) is named
@@ -353,7 +360,12 @@ def test_a_time_limit_is_told_where_another_effect_could_be_major(problem, gap, 
     noises = count_noise_floors(problem.noise.velocity, problem)
 
     _, remainder, remains = reach_verdict(
-        [], rounds(problem, gap / noises), problem, left=ResidualSummary(), cut=20.0, per=METERS
+        [],
+        rounds(problem, gap / noises),
+        problem,
+        residuals=ResidualSummary(),
+        cut=20.0,
+        per=METERS,
     )
 
     assert remainder is told

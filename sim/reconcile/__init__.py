@@ -129,22 +129,22 @@ def _make_story(
     """
     chapters = shown.chapters(done)
     seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    left = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
+    residuals = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
     findings, judged = make_findings(
         problem, done, faults, chapters, without=shown.measure_gaps_without(done),
-        held_out=shown.held_out, left=left, per=per,
+        held_out=shown.held_out, residuals=residuals, per=per,
     )  # fmt: skip
     chapters = chapters[: len(select_reported_rounds(done, findings, judged))]
     verdict, remainder, remains = reach_verdict(
-        findings, done, problem, left=left, cut=cut, per=per
+        findings, done, problem, residuals=residuals, cut=cut, per=per
     )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
         noise_floor=shown.noise_floor,
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.find_gap_places(chapters[0]),
-        chapters=chapters, shown=shown.log, how=shown.kind,
-        notes=(*list_remarks(problem, done, findings, judged, left), *seen),
+        chapters=chapters, shown=shown.log, how=shown.usage,
+        notes=(*list_remarks(problem, done, findings, judged, residuals), *seen),
         compared=shown.compared_samples,
         judged=judged,
     )  # fmt: skip

@@ -37,9 +37,9 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
                 continue
             best = replace(reduced, effect=last.candidate.effect)
             return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
-        evidence = data.voltage_residual(reduced.estimate)
+        residual = data.voltage_residual(reduced.estimate)
         found = rank_candidates(
-            problem, reduced.estimate, evidence,
+            problem, reduced.estimate, residual,
             only=others, seeds=last.seeds, stop=data.out_of_time,
         )  # fmt: skip
         if data.out_of_time():
@@ -74,8 +74,8 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
         point = last.candidate.estimate
         had = point.structure.effects  # those that nobody names among them
         names = [EFFECTS[effect].simpler] if EFFECTS[effect].simpler not in {"", *had} else []
-        evidence = data.voltage_residual(point)
-        begun = simplify_effect(problem, point, names, evidence, effect=effect)
+        residual = data.voltage_residual(point)
+        begun = simplify_effect(problem, point, names, residual, effect=effect)
         if begun is None or not math.isfinite(begun.cost):
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])

@@ -1,9 +1,9 @@
 """Candidate effects: each effect of the catalogue on top of a model, ranked by BIC.
 
-A start of each is drawn from what the log shows (``Effect.start_values``) and simulated once; the
-most promising go downhill a little, the best of those to the end. What shakes only for a moment
-after each change of voltage, as two bodies do, is tried on the lively runs first; of a point that
-much pushes, which bears with anything, only near a calmer one.
+Start values of each come from what the log shows (``Effect.start_values``) and are simulated once.
+The most promising are searched for a few steps, the best of these to the end. Joints show only
+after changes of the voltage, so their starts are first tried on the step tests. If the model has
+large process noise, which hides any model error, they are tried from a model with less.
 """
 
 import math
@@ -30,7 +30,7 @@ from sim.reconcile.two_body_starts import TwoBodyStarts
 
 TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
 A_LITTLE = 2  # steps
-FURTHER = 6  # steps from each valley of what shakes, which are to be compared
+FURTHER = 6  # steps from each start of a joint, before starts are compared
 FRICTION_SHARES = (
     0.0,
     0.3,
@@ -40,7 +40,7 @@ FRICTION_SHARES = (
 NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
 THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] times a threshold, tried beside it
 TRIED_CALM = 3  # more, where a large q hides what the base model lacks
-OWN: dict[str, tuple[str, ...]] = {
+INCOMPATIBLE: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
     "arm": ("gravity-cosine", "wheel-slip"),
 }
@@ -75,7 +75,7 @@ def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str
 
 
 def rank_candidates(
-    problem: PredictionErrorProblem, point: Estimate, evidence: VoltageResidual, *,
+    problem: PredictionErrorProblem, point: Estimate, residual: VoltageResidual, *,
     only: Iterable[str] | None = None, seeds: Seeds | None = None,
     stop: Callable[[], bool] = lambda: False,
 ) -> list[Candidate]:  # fmt: skip
@@ -84,21 +84,21 @@ def rank_candidates(
     Args:
         problem: the measurements.
         point: the best without them.
-        evidence: what the point leaves, in volts.
+        residual: voltage residual of the whole log under the base gains of the point.
         only: names to choose from; None is the whole catalogue.
         seeds: an effect's parameters as found before something else was added: where two effects
             are in a log, what one of them hides at first is hardly found anew beside the other.
         stop: whether there is no time for another candidate.
     """
     seeds = seeds or {}
-    had = (*point.structure.effects, *OWN.get(point.structure.type, ()))
+    had = (*point.structure.effects, *INCOMPATIBLE.get(point.structure.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
     here_already = [EFFECTS[name] for name in point.structure.effects]
     names = [name for name in names if are_compatible([*here_already, EFFECTS[name]])]
     effects = [EFFECTS[name] for name in names]
     calmer = _find_calmer_estimate(problem, point)
     here = effects if calmer is None else [one for one in effects if not one.is_joint]
-    begun = _best_starts(problem, point, here, evidence, seeds)[:TRIED]
+    begun = _best_starts(problem, point, here, residual, seeds)[:TRIED]
     gone = [
         descend_candidate(problem, refine_onset(problem, one))
         for starts in begun
@@ -107,7 +107,7 @@ def rank_candidates(
     ]
     best = _best_of_each_effect(gone)[:KEPT]
     if calmer is not None:
-        begun = _best_starts(problem, calmer, effects, evidence, seeds, heavy=True)
+        begun = _best_starts(problem, calmer, effects, residual, seeds, heavy=True)
         shaken = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
         begun = [*begun[:TRIED_CALM], *shaken]
         calm = [
@@ -116,7 +116,7 @@ def rank_candidates(
         best = _best_of_each_effect([*gone, *calm])[:KEPT]
         best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
     ended = [_minimize_nested(problem, point, one) for one in dict.fromkeys(best) if not stop()]
-    simpler = [simplify_effect(problem, one, names, evidence) for one in ended if not stop()]
+    simpler = [simplify_effect(problem, one, names, residual) for one in ended if not stop()]
     ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
     found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
     return sorted(found, key=lambda one: one.bic)
@@ -226,7 +226,7 @@ def simplify_effect(
     problem: PredictionErrorProblem,
     point: Estimate,
     names: Sequence[str],
-    evidence: VoltageResidual,
+    residual: VoltageResidual,
     *,
     effect: str = "",
 ) -> Estimate | None:
@@ -239,7 +239,7 @@ def simplify_effect(
         problem: the measurements.
         point: with the effect.
         names: of effects to choose from.
-        evidence: what a log shows.
+        residual: voltage residual of the log.
         effect: to replace; empty for the one that was added last.
     """
     old = EFFECTS[effect or point.structure.effects[-1]]
@@ -247,7 +247,7 @@ def simplify_effect(
     if name not in names:
         return None
     mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
-    values = old.simplify(mine, evidence)
+    values = old.simplify(mine, residual)
     structure = point.structure - old.name + name
     more = {
         f"{name}.{one}": structure.clamp_value(f"{name}.{one}", value)
@@ -267,16 +267,16 @@ def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
 
 def _best_starts(
     problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect],
-    evidence: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
+    residual: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
 ) -> list[list[Begun]]:  # fmt: skip
     """The best start of each effect, with what it promises; the most promising effect first.
 
-    Of what shakes, each valley that its lively runs show: how promising one is, is no sign of where
-    it leads. ``heavy`` tries two bodies of more inertia, too.
+    Of a joint, one start for each minimum that the step tests suggest: the prediction does not say
+    which of these is the best. ``heavy`` tries joints of more inertia, too.
     """
     kept = make_joint_jacobian(problem, point)
     found = []
-    lively = None
+    step_tests = None
     for effect in effects:
         structure = point.structure + effect.name
         more = [
@@ -284,20 +284,20 @@ def _best_starts(
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
                 for one in effect.parameters
             }
-            for start in effect.start_values(evidence)
+            for start in effect.start_values(residual)
         ]
-        shakes = False
+        tried_on_steps = False
         if effect.is_joint:
-            lively = lively or TwoBodyStarts(problem, point)
-            if shakes := lively.there:
-                more = lively.list_starts(structure, more, heavy=heavy)
+            step_tests = step_tests or TwoBodyStarts(problem, point)
+            if tried_on_steps := step_tests.available:
+                more = step_tests.list_starts(structure, more, heavy=heavy)
         more += [{**more[0], "kA": share * point.values["kA"]} for share in effect.inertia_shares]
         if effect.has_onset:
             more += scan_onsets(problem, point, effect, kept=kept)
         if effect.name in seeds:
             more.append(dict(seeds[effect.name]))
-        begun = rate_starts(problem, point, structure, more, kept=kept, as_given=shakes)
+        begun = rate_starts(problem, point, structure, more, kept=kept, as_given=tried_on_steps)
         begun.sort(key=lambda one: -one[0])
         if begun:
-            found.append(begun if shakes else begun[:1])
+            found.append(begun if tried_on_steps else begun[:1])
     return sorted(found, key=lambda starts: -starts[0][0])

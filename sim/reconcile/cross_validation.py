@@ -16,7 +16,7 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine import Track
 from sim.reconcile.search_effort import STEPS
 
-EASED = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
+FRICTION_DEVIATIONS = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
 """[standard deviations] of a run's own friction that are tried."""
 
 
@@ -96,7 +96,9 @@ def compute_validation_gap(
         found = levenberg_marquardt(fitted, begin, steps=STEPS // 2)
         predicted, nuisance = _select_runs(problem, point, fold.predicted)
         errors.append(
-            compute_open_loop_errors(predicted, found, nuisance.with_common_friction, eased=True)
+            compute_open_loop_errors(
+                predicted, found, nuisance.with_common_friction, own_friction=True
+            )
         )
     return compute_rms_gap(np.concatenate(errors))
 
@@ -114,7 +116,11 @@ def _select_runs(
 
 
 def compute_open_loop_errors(
-    problem: PredictionErrorProblem, point: Estimate, nuisance: RunNuisance, *, eased: bool = False
+    problem: PredictionErrorProblem,
+    point: Estimate,
+    nuisance: RunNuisance,
+    *,
+    own_friction: bool = False,
 ) -> Array:
     """(compared, 2) measured minus simulated position and velocity, without correction.
 
@@ -124,12 +130,12 @@ def compute_open_loop_errors(
         problem: the runs.
         point: values that are simulated.
         nuisance: how each run begins.
-        eased: each run may have a friction of its own, as in ``random_friction.py``, so that an
-            accident in one run does not count for or against an effect.
+        own_friction: each run may have a friction of its own, as in ``random_friction.py``, so
+            that an accident in one run does not count for or against an effect.
     """
     track = problem.simulate(point.structure.model(point.values), nuisance)
     compared = problem.moving | problem.informative
-    if not eased:
+    if not own_friction:
         return _open_loop_errors(problem, track)[compared]
     errors = _with_run_friction(problem, point, nuisance, track, compared)
     return np.asarray(errors[compared])
@@ -157,13 +163,13 @@ def _with_run_friction(
         return _open_loop_errors(problem, other)
 
     every = np.stack(
-        [errors_with(np.full(runs, share * deviation)) for share in EASED]
+        [errors_with(np.full(runs, share * deviation)) for share in FRICTION_DEVIATIONS]
     )  # (shares, n, 2)
     costs = _costs_by_share(problem, every, compared)
-    best = np.clip(np.argmin(costs, axis=0), 1, len(EASED) - 2)
+    best = np.clip(np.argmin(costs, axis=0), 1, len(FRICTION_DEVIATIONS) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
     aside = find_parabola_minima(less, here, more)
-    between = errors_with((np.array(EASED)[best] + aside) * deviation)
+    between = errors_with((np.array(FRICTION_DEVIATIONS)[best] + aside) * deviation)
     every = np.concatenate([every, between[None]])
     best = np.argmin(_costs_by_share(problem, every, compared), axis=0)
     return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])
@@ -182,7 +188,7 @@ def _costs_by_share(
     """(shares, runs) what each run misses, position and velocity in what is ordinary for both."""
     with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
         squares = np.where(compared[:, None] & ~np.isnan(every), np.square(every), 0.0)
-        sizes = np.mean(squares[EASED.index(0.0)], axis=0) + 1e-300
+        sizes = np.mean(squares[FRICTION_DEVIATIONS.index(0.0)], axis=0) + 1e-300
         costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.run_edges[:-1], axis=1)
     return np.asarray(np.nan_to_num(costs, nan=np.inf))
 

@@ -29,7 +29,7 @@ from sim.reconcile.thresholds import (
 def make_findings(
     problem: PredictionErrorProblem, done: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
-    without: Mapping[str, float], held_out: bool, left: ResidualSummary, per: Unit,
+    without: Mapping[str, float], held_out: bool, residuals: ResidualSummary, per: Unit,
 ) -> tuple[tuple[Finding, ...], tuple[JudgedEffect, ...]]:  # fmt: skip
     """Findings, faults first, then effects, major ones first; and all effects that were judged.
 
@@ -46,13 +46,13 @@ def make_findings(
         chapters: of the shown log, one for each round.
         without: effect -> [owner's unit/s] gap of the last model without it on the shown log.
         held_out: whether the shown log decides nothing.
-        left: what the last model leaves.
+        residuals: what the last model leaves.
         per: the owner's unit.
     """
     faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
-    judged = judge_effects(problem, done, left, damaged=bool(damages))
+    judged = judge_effects(problem, done, residuals, damaged=bool(damages))
     noises = count_noise_floors(done[-1].gap.velocity, problem)
-    far = noises > VISIBLE_FLOORS or left.has_structure
+    far = noises > VISIBLE_FLOORS or residuals.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
     told = {one.effect: one for one in judged if one.probability >= LEAST_PROBABILITY}
     effects = [

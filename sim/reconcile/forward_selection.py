@@ -44,7 +44,7 @@ from sim.reconcile.thresholds import (
     VISIBLE_FLOORS,
 )
 
-BESIDE = 0.85  # [1] of all that is to be done, while another path is gone
+SECOND_PATH = 0.85  # [1] of all that is to be done, while another path is gone
 
 
 def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
@@ -191,7 +191,7 @@ def _next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
 
 def _on_another_path(data: SelectionData) -> SelectionData:
     """The same data, with a progress that waits where the first path ended."""
-    return replace(data, progress=lambda what, _: data.progress(what, BESIDE))
+    return replace(data, progress=lambda what, _: data.progress(what, SECOND_PATH))
 
 
 def select_admissible(

@@ -24,8 +24,8 @@ from sim.reconcile.selection_round import SelectionRound, choose_reported_estima
 from sim.reconcile.story import Chapter
 from sim.reconcile.thresholds import VISIBLE_FLOORS
 
-TOLD = 5  # places
-HOW: Mapping[str, str] = {
+PLACES_SHOWN = 5  # largest differences that are listed
+LOG_USES: Mapping[str, str] = {
     "held_out": "The gap is shown on the held-out log, which was not used for any fit.",
     "validation": (
         "No held-out log was given: the gap is shown on the validation log, which was also used "
@@ -34,11 +34,11 @@ HOW: Mapping[str, str] = {
     "log": "Only one log was given: an effect is accepted if it helps to predict each run from the "
     "others. The gap is shown on the fitted log itself.",
 }
-MESHED = (
+PHASE_NOTE = (
     "Where in its free play each run began is estimated from that run itself, because no log "
     "contains it."
 )
-AGAIN: Mapping[str, str] = {
+REPEAT_WARNINGS: Mapping[str, str] = {
     "log": "The log contains a run twice. Its copy is predicted well by any model.",
     "validation": "The validation repeats runs of the log, so it confirms nothing.",
     "held_out": "The held-out log repeats runs that were fitted, so the gap on it proves nothing.",
@@ -52,14 +52,14 @@ class HeldOutLog:
     Args:
         log: the runs.
         problem: what is compared of them.
-        kind: a sentence about how it was used.
+        usage: a sentence about how it was used.
         doubts: what a person should know of the logs.
         held_out: whether nothing was fitted to it.
     """
 
     log: Log
     problem: PredictionErrorProblem
-    kind: str
+    usage: str
     doubts: tuple[str, ...]
     held_out: bool
 
@@ -70,7 +70,7 @@ class HeldOutLog:
         Raises:
             NotIdentifiable: none of its samples can be compared.
         """
-        name = next(one for one in HOW if one in recordings.logs_by_name)
+        name = next(one for one in LOG_USES if one in recordings.logs_by_name)
         problem = recordings.make_shown_problem(name)
         if not problem.informative.any():
             raise NotIdentifiable(
@@ -85,7 +85,7 @@ class HeldOutLog:
         return cls(
             log,
             problem,
-            again.get(name, HOW[name]),
+            again.get(name, LOG_USES[name]),
             (*others, *_collect_doubts(recordings)),
             name == "held_out" and name not in again,
         )
@@ -98,7 +98,7 @@ class HeldOutLog:
             fitted: [unit/s] its gap on the runs that were fitted or chosen by.
         """
         gap = last.gap * find_unit(self.log.units).si
-        said = (*self.doubts, *((MESHED,) if _has_backlash(last) else ()))
+        said = (*self.doubts, *((PHASE_NOTE,) if _has_backlash(last) else ()))
         least = max(fitted, self.problem.velocity_floor)
         if not self.held_out or gap <= VISIBLE_FLOORS * least:
             return said
@@ -123,7 +123,7 @@ class HeldOutLog:
         """Places where the base model's velocity is wrong, the most significant first."""
         noise = self.problem.velocity_floor
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
-        return found.find_places(TOLD, signal="velocity") if found else ()
+        return found.find_places(PLACES_SHOWN, signal="velocity") if found else ()
 
     def chapters(self, done: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
@@ -172,10 +172,14 @@ def _has_backlash(chapter: Chapter) -> bool:
 
 def _describe_repeats(recordings: Recordings) -> dict[str, str]:
     """A log that repeats runs of those before it -> what that means."""
-    return {name: AGAIN[name] for name in AGAIN if recordings.count_repeated_runs(name)}
+    return {
+        name: REPEAT_WARNINGS[name]
+        for name in REPEAT_WARNINGS
+        if recordings.count_repeated_runs(name)
+    }
 
 
 def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
     """What reading the logs left to say, each once; the log that was used least first."""
-    logs = [recordings.logs_by_name[name] for name in HOW if name in recordings.logs_by_name]
+    logs = [recordings.logs_by_name[name] for name in LOG_USES if name in recordings.logs_by_name]
     return tuple(dict.fromkeys(doubt.message for log in logs for doubt in log.doubts))

@@ -28,7 +28,7 @@ from sim.reconcile.thresholds import LATEST, LOST, NARROWER, SOONEST
 def judge_effects(
     problem: PredictionErrorProblem,
     done: Sequence[SelectionRound],
-    left: ResidualSummary,
+    residuals: ResidualSummary,
     *,
     damaged: bool,
 ) -> tuple[JudgedEffect, ...]:
@@ -37,7 +37,7 @@ def judge_effects(
     Args:
         problem: the measurements.
         done: the base model and the selection rounds.
-        left: residuals of the last model.
+        residuals: residuals of the last model.
         damaged: whether damaged intervals were excluded.
     """
     last = done[-1].candidate.estimate
@@ -48,7 +48,7 @@ def judge_effects(
         (before, now)
         for before, now in pairwise(done)
         if not is_ordinary_size(now.candidate.effect, last.values)
-        and not is_contradicted(now.candidate.effect, problem, last, left)
+        and not is_contradicted(now.candidate.effect, problem, last, residuals)
         and not oscillates_within_sample(now.candidate.effect, problem, last.values)
     ]
     found = []
@@ -68,7 +68,7 @@ def judge_effects(
                 name, added, list_rival_scores(before, last.structure.effects, name)
             ),
             later=float(place > 0),
-            structure=float(left.has_structure),
+            structure=float(residuals.has_structure),
             once=float(EFFECTS[name].has_onset),
             damaged=float(damaged and EFFECTS[name].has_onset),
         )
@@ -96,15 +96,15 @@ def oscillates_within_sample(
 
 
 def is_contradicted(
-    effect: str, problem: PredictionErrorProblem, last: Estimate, left: ResidualSummary
+    effect: str, problem: PredictionErrorProblem, last: Estimate, residuals: ResidualSummary
 ) -> bool:
     """Whether the largest unexplained residual follows this effect's onset.
 
     A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
     has it back at another pace. The knock itself is known to a sample, and never explained quite.
     """
-    moment = left.worst_window
-    if not (EFFECTS[effect].has_onset and left.has_unlikely_window):
+    moment = residuals.worst_window
+    if not (EFFECTS[effect].has_onset and residuals.has_unlikely_window):
         return False
     record = problem.records[moment.record]
     onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])

@@ -31,9 +31,9 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
     """
     point = now.candidate.estimate
     found = []
-    evidence = data.voltage_residual(point)
+    residual = data.voltage_residual(point)
     stop = data.out_of_time
-    for candidate in rank_candidates(data.problem, point, evidence, seeds=now.seeds, stop=stop):
+    for candidate in rank_candidates(data.problem, point, residual, seeds=now.seeds, stop=stop):
         score = now.candidate.bic - candidate.bic
         if score < find_required_improvement(candidate.effect):
             tried = TriedCandidate(

@@ -35,13 +35,13 @@ def list_remarks(
     done: Sequence[SelectionRound],
     findings: Sequence[Finding],
     judged: Sequence[JudgedEffect],
-    left: ResidualSummary,
+    residuals: ResidualSummary,
 ) -> tuple[str, ...]:
     """Remarks: effects that were not reported, and what the data do not determine."""
     last = done[-1].candidate.estimate
     structure = last.structure
     named = {one.effect for one in findings}
-    unsure = [name for name in structure.effects if is_contradicted(name, problem, last, left)]
+    unsure = [name for name in structure.effects if is_contradicted(name, problem, last, residuals)]
     rest = [name for name in structure.effects if name not in {*named, *unsure}]
     last_shown = select_reported_rounds(done, findings, judged)[-1]
     kept = last_shown.candidate.estimate.structure.effects

@@ -35,7 +35,7 @@ class TwoBodyStarts:
 
     def __init__(self, problem: PredictionErrorProblem, point: Estimate) -> None:
         chosen = [n for n, record in enumerate(problem.records) if SLOW not in record.test]
-        self.there = False
+        self.available = False
         if not chosen:
             return
         self.problem = problem.select_runs(chosen)
@@ -43,7 +43,7 @@ class TwoBodyStarts:
             point.structure, point.values, point.nuisance.select_runs(chosen), point.process_noise
         )
         if isfinite(self.point.cost):  # else all of them were set aside, or fly off
-            self.there = True
+            self.available = True
             self.kept = make_joint_jacobian(self.problem, self.point)
 
     def list_starts(

@@ -17,7 +17,7 @@ from sim.reconcile.thresholds import COMPARABLE, LOST, MAJOR, VISIBLE_FLOORS, VI
 
 def reach_verdict(
     findings: Sequence[Finding], done: Sequence[SelectionRound], problem: PredictionErrorProblem, *,
-    left: ResidualSummary, cut: float = math.inf, per: Unit,
+    residuals: ResidualSummary, cut: float = math.inf, per: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
     """The verdict, whether something remains, and a sentence about it.
 
@@ -25,7 +25,7 @@ def reach_verdict(
         findings: what was named.
         done: the base and the rounds.
         problem: the measurements.
-        left: what the last model leaves.
+        residuals: what the last model leaves.
         cut: [s] time limit that ended the search; inf if it came to its own end.
         per: the owner's unit.
     """
@@ -41,7 +41,7 @@ def reach_verdict(
         return UNEXPLAINED, True, remains
     remains = (
         _describe_cut(cut, strays)
-        or _describe_residual(problem, left, per)
+        or _describe_residual(problem, residuals, per)
         or _describe_remainder(findings, done, strays=strays)
     )
     majors = [one for one in findings if one.size == "major"]
@@ -100,21 +100,23 @@ def _describe_remainder(
     return ""
 
 
-def _describe_residual(problem: PredictionErrorProblem, left: ResidualSummary, per: Unit) -> str:
+def _describe_residual(
+    problem: PredictionErrorProblem, residuals: ResidualSummary, per: Unit
+) -> str:
     """A sentence about what the last model leaves that is no noise; empty if it is."""
-    if left.has_unlikely_window:
-        moment = left.worst_window
+    if residuals.has_unlikely_window:
+        moment = residuals.worst_window
         record = problem.records[moment.record]
         return (
             f"In {record.test}, {moment.start:.2f} to {moment.end:.2f} s, the log shows a "
             f"motion that no effect in the catalogue explains ({moment.size:.0f} times the "
             "usual size)."
         )
-    if left.is_repeated:
-        return _describe_repeated(left.repeated, per)
-    if left.is_periodic:
+    if residuals.is_repeated:
+        return _describe_repeated(residuals.repeated, per)
+    if residuals.is_periodic:
         return (
-            f"Something pushes back and forth every {1.0 / left.peak.rate:.2f} s, whatever "
+            f"Something pushes back and forth every {1.0 / residuals.peak.rate:.2f} s, whatever "
             "the mechanism does, and no effect in the catalogue explains it. Look for "
             "something with a rhythm of its own: a robot that rocks on its blocks, a "
             "compressor, another mechanism."

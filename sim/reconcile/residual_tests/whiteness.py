@@ -36,7 +36,7 @@ class WorstWindow:
     end: float
 
 
-CALM = WorstWindow(0.0, 0, 0.0, 0.0)
+NO_WINDOW = WorstWindow(0.0, 0, 0.0, 0.0)
 """None at all."""
 
 
@@ -60,7 +60,7 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
             moments.append(
                 WorstWindow(float(size[place]), record, float(time[place]), float(time[end]))
             )
-    return max(moments, key=lambda one: one.size, default=CALM)
+    return max(moments, key=lambda one: one.size, default=NO_WINDOW)
 
 
 def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
