@@ -21,7 +21,8 @@ from sim.reconcile.thresholds import COMPARABLE, EQUAL_SCORE, LEAST_SCORE_ONCE
 def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
     """The rounds, with an earlier effect removed if needless, or replaced if another is likelier.
 
-    At most one of them: the search then goes on.
+    At most one of them: the search then goes on. A needless effect goes even if the gap becomes
+    wider without it: it has then taken the place of another one.
     """
     problem, last = data.problem, done[-1]
     for place in range(1, len(done) - 1):
@@ -33,7 +34,7 @@ def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[Sel
         needed = reduced.bic - last.candidate.bic >= find_required_improvement(effect)
         if not needed:
             gap = compute_validation_gap(problem, reduced.estimate, data.folds)
-            if is_wider(gap, last.gap):
+            if not math.isfinite(gap.velocity + gap.position):
                 continue
             best = replace(reduced, effect=last.candidate.effect)
             return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
