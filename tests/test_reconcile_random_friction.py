@@ -102,7 +102,9 @@ def test_its_slope_is_of_the_size_by_which_friction_varies():
     ]  # fmt: skip
 
     prices = [
-        compute_laplace_correction(one.values, problem.compute_friction_jacobian(one))
+        compute_laplace_correction(
+            get_friction_sd(one.values), problem.compute_friction_jacobian(one)
+        )
         for one in (found, *nudged)
     ]
 

@@ -30,11 +30,11 @@ def compute_friction_prior(values: Mapping[str, float], nuisance: RunNuisance) -
     return float(np.sum(np.square(nuisance.friction_offset / get_friction_sd(values))))
 
 
-def compute_laplace_correction(values: Mapping[str, float], slopes: Array) -> float:
-    """Correction of -2 log L for integrating over the runs' frictions (Laplace).
+def compute_laplace_correction(sd: float, slopes: Array) -> float:
+    """Correction of -2 log L for integrating over a parameter that each run has of its own.
 
     Args:
-        values: of a point.
-        slopes: (2 n, runs) change of the white innovations with each.
+        sd: standard deviation of the parameter between runs.
+        slopes: (2 n, runs) derivatives of the whitened innovations by each run's own.
     """
-    return float(np.sum(np.log1p(get_friction_sd(values) ** 2 * np.sum(np.square(slopes), axis=0))))
+    return float(np.sum(np.log1p(sd**2 * np.sum(np.square(slopes), axis=0))))

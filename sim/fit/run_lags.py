@@ -22,6 +22,7 @@ import numpy as np
 from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
+from sim.estimation.random_friction import compute_laplace_correction
 from sim.fit.search import ROUGHLY, STEPS, drop_outliers, fit_open_loop, fit_tracking, refine
 
 WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
@@ -66,7 +67,8 @@ def fit_run_lags(
     lags = tracked.values["delay.lag"] + tracked.nuisance.lag_offset
     if lags.min() < -EARLY * period:
         return problem, point  # no reading is newer than the voltage beside it
-    if not tracked.cost + compute_laplace_correction(extended, tracked) < alike.cost - WORTH:
+    own_lags = compute_laplace_correction(extended.lag_sd, extended.compute_lag_jacobian(tracked))
+    if not tracked.cost + own_lags < alike.cost - WORTH:
         return problem, point
     extended = drop_outliers(extended, tracked)
     tracked = levenberg_marquardt(extended, _again(extended, tracked), steps=STEPS, enough=ROUGHLY)
@@ -79,12 +81,6 @@ def fit_run_lags(
         return extended, found
     framed = _at_frame_times(extended, regular)
     return framed, fit_open_loop(framed, _again(framed, regular))
-
-
-def compute_laplace_correction(problem: PredictionErrorProblem, point: Estimate) -> float:
-    """Correction of -2 log L for integrating over the runs' lags (Laplace)."""
-    slopes = np.sum(np.square(problem.compute_lag_jacobian(point)), axis=0)
-    return float(np.sum(np.log1p(problem.lag_sd**2 * slopes)))
 
 
 def _with_shared_lag(problem: PredictionErrorProblem, point: Estimate, *, least: float) -> Estimate:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
-from sim.estimation.random_friction import compute_laplace_correction
+from sim.estimation.random_friction import compute_laplace_correction, get_friction_sd
 from sim.physics.effect import Effect, are_compatible
 from sim.physics.effects import EFFECTS
 from sim.physics.voltage_residual import VoltageResidual
@@ -70,7 +70,8 @@ class Candidate:
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
     values = point.structure.free_count * math.log(max(problem.sample_count, 2))
-    own = compute_laplace_correction(point.values, problem.compute_friction_jacobian(point))
+    sd = get_friction_sd(point.values)
+    own = compute_laplace_correction(sd, problem.compute_friction_jacobian(point))
     return Candidate(effect, point, point.cost + own + values)
 
 

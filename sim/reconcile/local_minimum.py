@@ -19,14 +19,15 @@ from sim.estimation.optimize import (
     tune_process_noise,
 )
 from sim.reconcile.backlash_phase import estimate_backlash_phase, halve_backlash
+from sim.reconcile.search_effort import ROUNDS, STEPS
 from sim.reconcile.thresholds import EQUAL_SCORE
 
 SCANNED = (-12, -9, -6, -4, -2)  # powers of it: the process noise is first thought too large
 SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size between which a part of it is tried, too
 LARGEST_PART = 30.0  # [1] the same, the other way
 SURELY_MORE = 10.0  # [of -2 log L]
-HALVINGS = 3  # of the best start: what an effect offers may be too large for what is subtle
-ROUNDS, FIRST_STEPS, STEPS = 3, 3, 8
+START_HALVINGS = 3  # of the best start, which may be too large for a subtle effect
+FIRST_STEPS = 3  # Levenberg-Marquardt steps before the process noise is estimated
 AGAIN = 6  # times that a point is settled at most
 CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
 HALVED = 6  # times at most that play is halved
@@ -144,7 +145,7 @@ def _halve_start(
     begun: Callable[[Mapping[str, float]], Begun],
 ) -> Iterator[Begun]:  # fmt: skip
     """Half of the best start, and half of that, as long as it promises more."""
-    for _ in range(HALVINGS):
+    for _ in range(START_HALVINGS):
         half = begun(_scale_start(structure, {name: best[1].values[name] for name in names}, 0.5))
         if not half[0] > best[0]:
             return
