@@ -20,7 +20,8 @@ LEAST_SCORE_ONCE = 130.0
 """Least score of an effect that begins at a moment, and by how much it must beat an effect that
 lasts. It may act in a single run, so other runs cannot confirm it, and a snag or a push resembles
 it. On 430 logs false ones reached 106, but for four of 142 to 344; true ones reached 245 and more,
-but for seven that hardly show in their log."""
+but for seven that hardly show in their log. As much is asked of an effect that widens the gap,
+before it is tried together with another one, and told as what would fit far better."""
 
 EQUAL_SCORE = 10.0
 """Difference of scores below which two effects explain a log equally well: odds below 150 to one.
