@@ -122,6 +122,15 @@ def digest_starter(content: bytes) -> str:
     return hashlib.sha256(content.replace(b"\r\n", b"\n")).hexdigest()
 
 
+def read_listed_files(exercise: Exercise) -> dict[str, str]:
+    """Name -> digest, of an exercise's files that are listed as starters; empty without a list."""
+    try:
+        text = (exercise.folder.parents[1] / STARTERS).read_text(encoding="utf-8")
+        return {str(name): str(one) for name, one in tomllib.loads(text)[exercise.name].items()}
+    except (OSError, ValueError, LookupError, AttributeError):
+        return {}
+
+
 def _read_starters(course: Path) -> dict[str, str]:
     """Path in the course folder -> digest, of every starter.
 

@@ -1,6 +1,8 @@
 """Names of what schools hand in: each platform has its form; the roster has the student."""
 
+import shutil
 import zipfile
+from pathlib import Path
 
 import pytest
 from small_course import HALF, RIGHT, lay_out
@@ -12,6 +14,7 @@ from grader.cli import run_command
 from grader.exercise import list_exercises
 from sim.core.errors import BadRequest
 
+ROOT = Path(__file__).resolve().parents[1]
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section
     Points Possible,,,,
@@ -117,6 +120,136 @@ def test_a_canvas_download_is_graded_as_it_is(tmp_path, course):
     assert find_stray_files(place) == ("roster.csv",)
 
 
+@pytest.fixture
+def four(tmp_path, course):
+    """A course of four exercises: three of numbers, and exercise 4 of code."""
+    first = course[0].folder
+    for number, file in ((2, "answers.toml"), (3, "answers.toml"), (4, "Code.java")):
+        folder = first.with_name(f"exercise{number}")
+        folder.mkdir()
+        for name in ("checks.py", "README.md", "hints.toml"):
+            text = (first / name).read_text(encoding="utf-8").replace("answers.toml", file)
+            (folder / name).write_text(text, encoding="utf-8")
+    return list_exercises(tmp_path / "course")
+
+
+COULD_BELONG = (
+    "answers.toml could belong to exercise1, exercise2, exercise3; it was not graded. "
+    "Put it into a folder with the name of its exercise"
+)
+
+
+def put(place, **files):
+    """Write files of one student: path -> content."""
+    for name, text in files.items():
+        path = place / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("path", "exercise", "name"),
+    [
+        ("Code.java", "exercise4", "Code.java"),
+        ("code.JAVA", "exercise4", "Code.java"),
+        ("exercise4/Code.java.txt", "exercise4", "Code.java"),
+        ("Exercise 4/Code.java", "exercise4", "Code.java"),
+        ("Exercise4.java", "exercise4", "Exercise4.java"),
+        ("exercise_2/ANSWERS.TOML", "exercise2", "answers.toml"),
+        ("EX03/my answers.toml", "exercise3", "my answers.toml"),
+        ("ex-2.toml", "exercise2", "ex-2.toml"),
+    ],
+)
+def test_an_answer_is_recognized_by_its_folders_or_its_own_name(
+    tmp_path, four, path, exercise, name
+):
+    put(tmp_path / "in" / "ann", **{path: RIGHT})
+    (one,) = find_submissions(tmp_path / "in", four)
+
+    assert one.files == {exercise: {name: RIGHT.encode()}}
+    assert (one.unused, one.problems) == ((), {})
+
+
+def test_code_outside_the_folders_counts_where_its_exercise_has_no_other(tmp_path, four):
+    put(tmp_path / "in" / "ann", **{"exercise1/answers.toml": RIGHT, "Code.java": HALF})
+    put(tmp_path / "in" / "ben", **{"exercise4/Code.java": RIGHT, "Code.java": HALF})
+    ann, ben = find_submissions(tmp_path / "in", four)
+
+    assert ann.files["exercise4"] == {"Code.java": HALF.encode()}
+    assert ben.files == {"exercise4": {"Code.java": RIGHT.encode()}}
+
+
+@pytest.mark.parametrize(
+    ("files", "unused", "problems"),
+    [
+        (["answers.toml"],
+         (COULD_BELONG,), {}),
+        (["report.pdf", "exercise9/answers.docx"],
+         ("report.pdf is not a file of any exercise; it was not graded",
+          "answers.docx is not a file of any exercise; it was not graded"), {}),
+        (["exercise2/answers.txt", "exercise2/answers.docx", "ex4/notebook.ipynb"], (),
+         {"exercise2": "answers.docx, answers.txt cannot be graded: exercise2 needs answers.toml",
+          "exercise4": "notebook.ipynb cannot be graded: exercise4 needs Code.java"}),
+        (["exercise1/answers.toml", "exercise2/answers.toml", "answers.toml"], (),
+         {"exercise3": "answers.toml may belong to exercise3. Put it into a folder exercise3"}),
+        (["exercise1/answers.toml", "exercise1/notes.txt"], (), {}),
+    ],
+)  # fmt: skip
+def test_a_file_that_may_be_the_only_answer_to_an_exercise_is_named(
+    tmp_path, four, files, unused, problems
+):
+    put(tmp_path / "in" / "ann", **dict.fromkeys(files, RIGHT))
+    (one,) = find_submissions(tmp_path / "in", four)
+
+    assert (one.unused, one.problems) == (unused, problems)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "README.md", "exercise1/README.md", "exercise1/checks.py", "readme.txt", ".DS_Store",
+        "__MACOSX/x.toml", "Thumbs.db", ".git/config", "__pycache__/a.pyc", "class.toml",
+        ".course/class.toml", "lessons/01_model.ipynb", "sim/core/log.py", "LICENSE",
+        "exercise1/data/ann/numbers.txt", "exercise1/log.wpilog", "exercise1/~$answers.docx",
+    ],
+)  # fmt: skip
+def test_a_file_of_the_course_or_of_a_computer_is_not_named(tmp_path, four, path):
+    put(tmp_path / "in" / "ann", **{path: "x"})
+    (one,) = find_submissions(tmp_path / "in", four)
+
+    assert (one.files, one.unused, one.problems) == ({}, (), {})
+
+
+def test_the_authored_files_of_an_exercise_are_nobodys_answer(tmp_path):
+    course = list_exercises(ROOT)
+    for one in course:
+        shutil.copytree(one.folder, tmp_path / "in" / "ann" / one.name)
+        for name in (*one.files, *one.companion_files):
+            (tmp_path / "in" / "ann" / one.name / name).unlink()
+    (one,) = find_submissions(tmp_path / "in", course)
+
+    assert (one.files, one.unused, one.problems) == ({}, (), {})
+
+
+def test_a_class_with_unused_files_is_not_all_graded(tmp_path, four, monkeypatch, capsys):
+    put(tmp_path / "in" / "Jane Doe", **{"answers.toml": RIGHT})
+    put(tmp_path / "in" / "ana", **{"exercise1/answers.txt": RIGHT})
+    put(tmp_path / "in" / "zoe", **{"exercise1/answers.toml": RIGHT})
+    (tmp_path / "roster.csv").write_text(CANVAS, encoding="utf-8")
+    monkeypatch.chdir(four[0].folder)
+
+    assert run_command(["class", str(tmp_path / "in"), "--roster", f"{tmp_path}/roster.csv"]) == 1
+    out = tmp_path / "in-graded"
+    page = (out / "index.html").read_text(encoding="utf-8")
+    rows = (out / "gradebook.csv").read_text("utf-8-sig").splitlines()
+    assert "<b>jdoe</b>: answers.toml could belong to exercise1, exercise2, exercise3;" in page
+    assert "<b>ana, exercise1</b>: answers.txt cannot be graded: exercise1 needs" in page
+    assert [row.rpartition(",")[2] for row in rows[1:]] == ["exercise1", "unused files", ""]
+    said = capsys.readouterr().err
+    assert "jdoe: answers.toml could belong to" in said
+    assert "some work of 2 students could not be graded" in said
+
+
 def test_several_files_of_one_student_are_one_hand_in(tmp_path, course):
     second = tmp_path / "course" / "exercises" / "exercise2"
     second.mkdir()
@@ -158,7 +291,8 @@ def test_two_files_that_could_be_one_answer_are_refused_by_name(tmp_path, course
     (one,) = find_submissions(tmp_path / "in", course)
 
     assert one.problems == {
-        "exercise1": "there are two different files answers.toml; keep the one that counts"
+        "exercise1": "there are two different files answers.toml: final/exercise1/answers.toml and "
+        "draft/exercise1/answers.toml. Keep the one that counts"
     }
 
 

@@ -17,6 +17,7 @@ class ClassResults:
         exercises: the exercises' names, in order.
         roster: student -> the row of the roster, by its header; empty without one.
         header: the roster's header.
+        unused: student -> files that belong to no exercise, one line each.
     """
 
     name: str
@@ -24,6 +25,7 @@ class ClassResults:
     exercises: tuple[str, ...]
     roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     header: tuple[str, ...] = ()
+    unused: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def max_scores(self) -> dict[str, float]:
@@ -48,3 +50,8 @@ def collect_scores(one: GradedStudent) -> dict[str, float]:
 def find_status(one: GradedStudent) -> dict[str, str]:
     """Exercise -> passed, failed, missing or ungradable."""
     return {str(record["exercise"]): str(record["status"]) for record in one.records}
+
+
+def is_whole(one: GradedStudent, results: ClassResults) -> bool:
+    """Whether everything that a student handed in was graded, so that the total counts."""
+    return one.student not in results.unused and "ungradable" not in find_status(one).values()

@@ -78,7 +78,6 @@ def class_(  # noqa: PLR0917 - click passes options by name
     from grader.classroom.class_grading import GradedClass  # noqa: PLC0415 - the same
     from grader.classroom.exports import choose_exports  # noqa: PLC0415 - --help must not wait for it
     from grader.classroom.identity import check_identities  # noqa: PLC0415 - the same
-    from grader.classroom.results import ClassResults  # noqa: PLC0415 - the same
     from grader.classroom.roster import read_class_roster  # noqa: PLC0415 - the same
     from grader.classroom.secret import find_secret  # noqa: PLC0415 - the same
     from grader.course import describe_other_code, find_course  # noqa: PLC0415 - the same
@@ -105,9 +104,7 @@ def class_(  # noqa: PLR0917 - click passes options by name
     if graded is None:
         return INTERRUPTED
     title = name or folder.resolve().stem
-    everybody = _add_absent(graded, known, asked)
-    rows, header = (known.rows, known.header) if known else ({}, ())
-    results = ClassResults(title, everybody, tuple(one.name for one in asked), rows, header)
+    results = _collect_results(title, graded, known, asked=asked, there=there)
     return _write_results(results, out, formats)
 
 
@@ -150,6 +147,8 @@ def _tell_problems(there: "Sequence[Submission]") -> None:
     for one in there:
         if one.problem:
             print_error(f"{one.student}: {one.problem}")
+        elif one.unused:
+            print_error(f"{one.student}: {list_first(one.unused, most=SHOWN, separator='; ')}")
     nameless = [one.student for one in there if one.worked_as]
     if nameless:
         print_error(
@@ -224,29 +223,39 @@ def _run(
     return None
 
 
-def _add_absent(
-    graded: "tuple[GradedStudent, ...]", known: "Roster | None", asked: "Sequence[Exercise]"
-) -> "tuple[GradedStudent, ...]":
-    """Everybody, and whoever is on the roster and handed nothing in."""
+def _collect_results(
+    title: str,
+    graded: "tuple[GradedStudent, ...]",
+    known: "Roster | None",
+    *,
+    asked: "Sequence[Exercise]",
+    there: "Sequence[Submission]",
+) -> "ClassResults":
+    """The results of everybody, and of whoever is on the roster and handed nothing in."""
     from grader.classroom.grading import make_ungraded_student  # noqa: PLC0415 - --help must not wait for it
+    from grader.classroom.results import ClassResults  # noqa: PLC0415 - the same
     from grader.variant import normalize_name  # noqa: PLC0415 - the same
 
     present = {normalize_name(one.student) for one in graded}
-    absent = [name for name in (known.rows if known else ()) if normalize_name(name) not in present]
+    rows, header = (known.rows, known.header) if known else ({}, ())
+    absent = [name for name in rows if normalize_name(name) not in present]
     found = [
         *graded,
         *(make_ungraded_student(name, asked, handed_in=(), reason="") for name in absent),
     ]
-    return tuple(sorted(found, key=lambda one: one.student.casefold()))
+    everybody = tuple(sorted(found, key=lambda one: one.student.casefold()))
+    unused = {one.student: one.unused for one in there if one.unused and not one.problem}
+    names = tuple(one.name for one in asked)
+    return ClassResults(title, everybody, names, rows, header, unused)
 
 
 def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
     from grader.classroom.result_pages import summarize_class, write_pages  # noqa: PLC0415 - --help must not wait
-    from grader.classroom.results import find_status  # noqa: PLC0415 - the same
+    from grader.classroom.results import is_whole  # noqa: PLC0415 - the same
 
     page = write_pages(results, out)
     files = [path for one in formats for path in one.write(results, out)]
-    unread = [one.student for one in results.students if "ungradable" in find_status(one).values()]
+    unread = [one.student for one in results.students if not is_whole(one, results)]
     print_lines(wrap_text(summarize_class(results), lead=""))
     print_lines([style_line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
