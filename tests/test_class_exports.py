@@ -6,6 +6,7 @@ import io
 import json
 import math
 import re
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -131,6 +132,24 @@ def test_the_gradebook_is_safe_for_a_spreadsheet(results, tmp_path):
     assert [row[0] for row in rows[1:]] == ["'=1+1", NASTY[1], NASTY[2], "'@SUM(A1)", NASTY[4]]
     assert [float(row[3]) for row in rows[1:]] == [8, 7, 4, 1, 0]
     assert not any(cell.startswith(("=", "+", "-", "@")) for row in rows for cell in row)
+
+
+def test_canvas_gets_no_points_of_a_student_with_something_not_graded(tmp_path):
+    unread = make_missing_record(Empty(), "ann", status="ungradable", reason="empty")
+    half = GradedStudent("ann", "", (*student("ann", (2.0,)).records, unread))
+    people = some(half, student("ben", (2.0,), (0.0,)), student("cat", (2.0,), (2.0,)))
+    results = replace(people, unused={"cat": ("report.pdf is not a file of any exercise",)})
+    canvas = list_exports()["canvas"]
+    (path,) = canvas.write(results, tmp_path)
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.reader(stream))
+
+    assert [row[-1] for row in rows[2:]] == ["", "2", ""]
+    assert canvas.warn(results) == (
+        "canvas.csv has no points for these students, because some of their work was not graded: "
+        "ann; cat. Check their work, then run this again"
+    )
+    assert not canvas.warn(some(student("ben", (2.0,), (0.0,))))
 
 
 def test_canvas_gets_its_own_columns_back(tmp_path):

@@ -266,10 +266,11 @@ def test_canvas_own_export_is_a_roster(tmp_path):
     path = tmp_path / "canvas.csv"
     path.write_text(
         "Student,ID,SIS User ID,SIS Login ID,Section\n    Points Possible,,,,\n"
-        '"Lee, Ann",17,s17,ann,A\n',
+        '"Lee, Ann",17,s17,ann,A\n"Student, Test",99,,0f1e2d,A\n',
         encoding="utf-8",
     )
 
+    assert [*read_class_roster(path).rows] == ["ann"]
     row = read_class_roster(path).rows["ann"]
     assert (row["Student"], row["ID"], row["SIS User ID"], row["Section"]) == (
         "Lee, Ann", "17", "s17", "A",

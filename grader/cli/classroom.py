@@ -260,6 +260,8 @@ def _write_results(results: "ClassResults", out: Path, formats: "Sequence[Export
     print_lines([style_line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)
     print_lines([style_line(f"In the same folder: {', '.join([*tops, 'students', 'results'])}")])
+    for said in filter(None, (one.warn(results) for one in formats)):
+        print_error(said)
     if unread:
         count = f"{len(unread)} student{'s' if len(unread) > 1 else ''}"
         print_error(f"some work of {count} could not be graded; the overview begins with it")

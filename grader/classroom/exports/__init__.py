@@ -2,7 +2,8 @@
 
 Each module offers ``SUMMARY``, one line for people, and ``write(results, folder)``, which writes
 its files into the folder and returns their paths. One that needs to know more of the students than
-their names offers ``ROSTER``, columns of a roster of which one has to be there.
+their names offers ``ROSTER``, columns of a roster of which one has to be there. One that leaves
+something out offers ``warn(results)``: what, in one line, or nothing.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,12 +26,14 @@ class ExportFormat:
         summary: one line for people.
         write: results and a folder -> the files written there.
         roster: columns of a roster of which it needs one; empty where names are enough.
+        warn: what its files leave out, in one line; empty if nothing.
     """
 
     name: str
     summary: str
     write: Callable[[ClassResults, Path], tuple[Path, ...]]
     roster: tuple[str, ...] = ()
+    warn: Callable[[ClassResults], str] = lambda _: ""
 
 
 def list_exports() -> dict[str, ExportFormat]:
@@ -38,9 +41,12 @@ def list_exports() -> dict[str, ExportFormat]:
     found = sorted(one.name for one in iter_modules(__path__))
     modules = {name: import_module(f"{__name__}.{name}") for name in found}
     return {
-        name: ExportFormat(name, one.SUMMARY, one.write, getattr(one, "ROSTER", ()))
+        name: ExportFormat(
+            name, one.SUMMARY, one.write, getattr(one, "ROSTER", ()),
+            getattr(one, "warn", lambda _: ""),
+        )
         for name, one in modules.items()
-    }
+    }  # fmt: skip
 
 
 def choose_exports(wanted: Sequence[str], *, roster: Roster | None) -> tuple[ExportFormat, ...]:

@@ -1,7 +1,8 @@
 """Canvas's gradebook, to be imported there: its own export as the roster, with one column added.
 
 Canvas finds a student by ID, SIS User ID or SIS Login ID, and makes a new assignment of a column it
-does not know: https://community.canvaslms.com, "How do I import grades in the Gradebook".
+does not know: https://community.canvaslms.com, "How do I import grades in the Gradebook". It leaves
+the points of a student as they are where the cell is empty.
 """
 
 import csv
@@ -10,11 +11,13 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.csv_cells import escape_formula
-from grader.classroom.results import ClassResults, collect_scores
+from grader.classroom.results import ClassResults, collect_scores, is_whole
+from sim.support.printable import list_first
 
 SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
 ROSTER = ("ID", "SIS User ID", "SIS Login ID")  # Canvas finds nobody by the name alone
 IDENTITY = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+SHOWN = 5  # names in one line
 
 
 def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
@@ -33,5 +36,17 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
         row = {name.strip().casefold(): cell for name, cell in cells.items()}
         row.setdefault("student", one.student)
         who = [row.get(name.casefold(), "") for name in IDENTITY]
-        table.writerow([*map(escape_formula, who), f"{sum(collect_scores(one).values()):g}"])
+        total = f"{sum(collect_scores(one).values()):g}" if is_whole(one, results) else ""
+        table.writerow([*map(escape_formula, who), total])
     return (write_private_file(folder / "canvas.csv", stream.getvalue()),)
+
+
+def warn(results: ClassResults) -> str:
+    """Whose points are left out, in one line; empty if there are all."""
+    names = [one.student for one in results.students if not is_whole(one, results)]
+    if not names:
+        return ""
+    return (
+        "canvas.csv has no points for these students, because some of their work was not graded: "
+        f"{list_first(names, most=SHOWN, separator='; ')}. Check their work, then run this again"
+    )

@@ -15,7 +15,7 @@ from sim.core.errors import BadRequest, Refusal
 
 COLUMN = "student"  # [header of a CSV file] unless the spec names another
 EXAMPLE = "roster.csv"
-NO_STUDENT = "points possible"  # what Canvas writes in the second row of its gradebook
+NO_STUDENT = {"points possible", "student, test"}  # rows of Canvas's gradebook: points, a tester
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,8 @@ class Roster:
     Args:
         path: where it was read.
         header: names of the columns, as written.
-        rows: number of the line, and its cells; empty lines, and Canvas's points, are left out.
+        rows: number of the line, and its cells; empty lines, and rows of Canvas's that are
+            no student's, are left out.
     """
 
     path: Path
@@ -64,7 +65,7 @@ def read_roster(path: Path, *, advice: str) -> Roster:
 
 
 def _names_somebody(row: Sequence[str]) -> bool:
-    canvas = any(cell.strip().casefold() == NO_STUDENT for cell in row)
+    canvas = any(cell.strip().casefold() in NO_STUDENT for cell in row)
     return any(cell.strip() for cell in row) and not canvas
 
 
