@@ -110,7 +110,7 @@ def test_the_same_class_is_graded_the_same_by_one_and_by_four_workers(tmp_path):
         assert run_command(command) == 0
         found.append(contents(out))
 
-    assert len(found[0]) == 20 * 4 + 4  # results, pages, two exports; index, gradebook, …
+    assert len(found[0]) == 20 * 4 + 5  # results, pages, two exports; index, gradebook, …
     assert found[0] == found[1] == found[2]
 
 
@@ -137,6 +137,30 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
     checks = course / "exercises" / "exercise1" / "checks.py"
     checks.write_text(checks.read_text("utf-8") + "\n# another course\n", encoding="utf-8")
     assert left(secret=b"another class's") == ["ann", "ben"]
+
+
+@pytest.mark.usefixtures("course")
+def test_what_a_run_before_wrote_is_gone_and_nothing_else(tmp_path):
+    there = hand_in(tmp_path / "in", ann=RIGHT, bne=HALF)
+    command = ["class", str(there), "--export", "gradescope", "--export", "github"]
+    assert run_command([*command, "--export", "junit"]) == 0
+    out = tmp_path / "in-graded"
+    others = ("students/notes.html", "gradescope/bne/mine.txt", "bne.html")
+    for name in others:
+        (out / name).write_text("mine", encoding="utf-8")
+    (tmp_path / "victim.txt").write_text("mine", encoding="utf-8")
+    with (out / "results" / "written.txt").open("a", encoding="utf-8") as stream:
+        stream.write("../victim.txt\n")
+    (there / "bne").rename(there / "ben")
+
+    assert run_command(command) == 0
+    assert {*contents(out)} == {
+        "index.html", "gradebook.csv", "results/written.txt", *others,
+        *(f"{place}{name}{end}" for name in ("ann", "ben") for place, end in (
+            ("students/", ".html"), ("results/", ".json"), ("github/", ".txt"),
+            ("gradescope/", "/results.json"))),
+    }  # fmt: skip
+    assert (tmp_path / "victim.txt").is_file()
 
 
 @pytest.mark.usefixtures("course")

@@ -44,6 +44,11 @@ def write_pages(results: ClassResults, folder: Path) -> Path:
     return write_private_file(folder / "index.html", text)
 
 
+def list_pages(results: ClassResults, folder: Path) -> tuple[Path, ...]:
+    """The paths of all pages that ``write_pages`` writes."""
+    return (folder / "index.html", *(folder / _name_page(one) for one in results.students))
+
+
 def _load_templates() -> "Environment":
     from sim.report.page_file import load_templates  # noqa: PLC0415 - only who writes pages needs them
 

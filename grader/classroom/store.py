@@ -3,6 +3,8 @@
 import hashlib
 import hmac
 import json
+from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from sim.core.errors import BadRequest
 from sim.support.atomic_file import make_private_folder, write_atomically
 
 RESULTS = "results"
+WRITTEN = "written.txt"  # there: the files of the last run that ended, one path in each line
 
 
 def digest_job(
@@ -85,6 +88,39 @@ class ResultStore:
                 f"the results cannot be written: {error.strerror}",
                 where=str(path),
                 advice="Make room there, then run the same command again: what is graded is kept.",
+            ) from None
+
+    def remove_outdated(self, written: Iterable[Path], *, students: Iterable[str]) -> None:
+        """Remove the files that the run before this one wrote and this one did not.
+
+        Args:
+            written: the files of this run in the folder, besides results.
+            students: whose results are of this run.
+
+        Raises:
+            BadRequest: a file cannot be removed, or the list of files cannot be written.
+        """
+        files = {*written, *(path for path in map(self._path, students) if path.is_file())}
+        now = {path.relative_to(self.folder).as_posix() for path in files}
+        kept = self.folder / RESULTS / WRITTEN
+        before: set[str] = set()
+        with suppress(OSError, ValueError):  # the first run, or a list that somebody changed
+            before = {*kept.read_text(encoding="utf-8").splitlines()}
+        path = kept
+        try:
+            for name in sorted(before - now):
+                path = self.folder / name
+                if path.resolve().is_relative_to(self.folder.resolve()) and path.is_file():
+                    path.unlink()
+                    with suppress(OSError):  # it is not empty
+                        path.parent.rmdir()
+            path = kept
+            write_atomically(kept, "".join(f"{name}\n" for name in sorted(now)), private=True)
+        except OSError as error:
+            raise BadRequest(
+                f"cannot be replaced: {error.strerror}",
+                where=str(path),
+                advice="Close the programs that use it, then run the same command again.",
             ) from None
 
     def _path(self, student: str) -> Path:
