@@ -18,6 +18,7 @@ import json
 import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from grader.exercise import Exercise, list_exercises
@@ -122,6 +123,7 @@ def digest_starter(content: bytes) -> str:
     return hashlib.sha256(content.replace(b"\r\n", b"\n")).hexdigest()
 
 
+@cache
 def read_listed_files(exercise: Exercise) -> dict[str, str]:
     """Name -> digest, of an exercise's files that are listed as starters; empty without a list."""
     try:

@@ -138,7 +138,7 @@ def test_canvas_gets_no_points_of_a_student_with_something_not_graded(tmp_path):
     unread = make_missing_record(Empty(), "ann", status="ungradable", reason="empty")
     half = GradedStudent("ann", "", (*student("ann", (2.0,)).records, unread))
     people = some(half, student("ben", (2.0,), (0.0,)), student("cat", (2.0,), (2.0,)))
-    results = replace(people, unused={"cat": ("report.pdf is not a file of any exercise",)})
+    results = replace(people, remarks={"cat": ("report.pdf is not a file of any exercise",)})
     canvas = list_exports()["canvas"]
     (path,) = canvas.write(results, tmp_path)
     with path.open(encoding="utf-8", newline="") as stream:

@@ -1,5 +1,6 @@
 """A class: what is handed in is found, graded once, the same by any number of workers, and kept."""
 
+import hashlib
 import json
 import os
 import signal
@@ -282,8 +283,34 @@ def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys, re
     assert run_command(["class", str(there), "--roster", str(roster)]) == 1
     rows = (tmp_path / "in-graded" / "gradebook.csv").read_text("utf-8-sig").splitlines()
     points = dict(row.split(",")[:2] for row in rows[1:])
-    assert points == {"Ann": "3", "stranger": "0", "Zoë": "0"}
-    reads(capsys.readouterr().err)
+    page = (tmp_path / "in-graded" / "index.html").read_text("utf-8")
+    said = capsys.readouterr()
+    assert points == {"Ann": "3", "Zoë": "0"}
+    assert said.out.startswith("1 of 2 students handed something in")
+    assert "<b>stranger</b>: stranger does not match any name on the roster." in page
+    assert "1 of 2</td>" in page
+    reads(said.err)
+
+
+def test_an_untouched_starter_is_not_handed_in(course, tmp_path, capsys):
+    starter = b"size = 0\nmore = 1\n"
+    digest = hashlib.sha256(starter).hexdigest()
+    (course / "exercises" / "starters.toml").write_text(
+        f'[exercise1]\n"answers.toml" = "{digest}"\n', encoding="utf-8"
+    )
+    there = hand_in(tmp_path / "in", ann=RIGHT, ben="", cat="", dan="")
+    (there / "ben" / "exercise1" / "answers.toml").write_bytes(starter.replace(b"\n", b"\r\n"))
+    (there / "cat" / "exercise1" / "answers.toml").write_bytes(starter)
+    (there / "cat" / "exercise1" / "answers.docx").write_bytes(b"the answers")
+    (there / "dan" / "exercise1" / "answers.toml").write_bytes(starter + b"# I tried\n")
+
+    assert run_command(["class", str(there)]) == 1
+    status = {
+        name: graded(tmp_path / "in-graded", name)["records"][0]["status"]
+        for name in ("ann", "ben", "cat", "dan")
+    }
+    assert status == {"ann": "passed", "ben": "missing", "cat": "ungradable", "dan": "failed"}
+    assert capsys.readouterr().out.startswith("3 of 4 students handed something in")
 
 
 def test_canvas_own_export_is_a_roster(tmp_path):

@@ -125,9 +125,12 @@ def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
                 every = sum(str(other["reason"]) == reason for other in one.records) > 1
                 exercise = "" if every else str(record["exercise"])
                 found.append({"student": one.student, "exercise": exercise, "why": reason})
-        lines = results.unused.get(one.student, ())
-        found += [{"student": one.student, "exercise": "", "why": line} for line in lines]
-    return found
+    found += [
+        {"student": name, "exercise": "", "why": line}
+        for name, lines in results.remarks.items()
+        for line in lines
+    ]
+    return sorted(found, key=lambda case: case["student"].casefold())
 
 
 def _make_row(one: GradedStudent, results: ClassResults) -> dict[str, Any]:

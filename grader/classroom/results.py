@@ -1,6 +1,6 @@
 """The results of a class: what the overview and every export are made of."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,7 +17,8 @@ class ClassResults:
         exercises: the exercises' names, in order.
         roster: student -> the row of the roster, by its header; empty without one.
         header: the roster's header.
-        unused: student -> files that belong to no exercise, one line each.
+        remarks: student, or a name that is not on the roster -> what a person has to look at
+            besides what could not be graded, one line each.
     """
 
     name: str
@@ -25,7 +26,7 @@ class ClassResults:
     exercises: tuple[str, ...]
     roster: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     header: tuple[str, ...] = ()
-    unused: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    remarks: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
     @property
     def max_scores(self) -> dict[str, float]:
@@ -54,4 +55,4 @@ def find_status(one: GradedStudent) -> dict[str, str]:
 
 def is_whole(one: GradedStudent, results: ClassResults) -> bool:
     """Whether everything that a student handed in was graded, so that the total counts."""
-    return one.student not in results.unused and "ungradable" not in find_status(one).values()
+    return one.student not in results.remarks and "ungradable" not in find_status(one).values()

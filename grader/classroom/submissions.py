@@ -25,7 +25,7 @@ from pathlib import Path, PurePosixPath
 from grader.class_package import PLACE as ISSUED
 from grader.classroom.submission_names import Identities, SubmissionName, parse_name
 from grader.exercise import Exercise
-from grader.package_files import IGNORED, find_imported_modules, read_listed_files
+from grader.package_files import IGNORED, digest_starter, find_imported_modules, read_listed_files
 from grader.submission import LARGEST
 from grader.variant import check_student_name
 from sim.core.errors import BadRequest, Refusal
@@ -465,7 +465,7 @@ class _SortedFiles:
             if not self._has_folders:
                 loose = {**self._of_only.get(exercise.name, {}), **loose}
             for mine in (self._in_folder.get(exercise.name, {}), loose):
-                if mine and exercise.name not in taken:
+                if exercise.name not in taken and not _is_untouched(mine, exercise):
                     taken[exercise.name] = mine
         if self._has_folders:
             those = (file for mine in self._of_only.values() for file in mine.values())
@@ -566,6 +566,15 @@ def _name_given_files(exercise: Exercise) -> frozenset[str]:
     modules = {path.name for path in find_imported_modules(exercise.folder / "checks.py")}
     listed = read_listed_files(exercise).keys() - {*exercise.files, *exercise.companion_files}
     return frozenset({*modules, *listed, *OURS})
+
+
+def _is_untouched(mine: Mapping[str, _TakenFile], exercise: Exercise) -> bool:
+    """Whether all files of an answer are as the course gave them: nothing was handed in."""
+    listed = read_listed_files(exercise)
+    return all(
+        not file.problem and listed.get(name) == digest_starter(file.content)
+        for name, file in mine.items()
+    )
 
 
 def _list_endings(exercise: Exercise) -> set[str]:

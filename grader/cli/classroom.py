@@ -238,15 +238,20 @@ def _collect_results(
 
     present = {normalize_name(one.student) for one in graded}
     rows, header = (known.rows, known.header) if known else ({}, ())
+    strangers = {
+        one.student: one.problem for one in there if known and one.problem
+        and one.student not in rows
+    }  # fmt: skip
     absent = [name for name in rows if normalize_name(name) not in present]
     found = [
-        *graded,
+        *(one for one in graded if one.student not in strangers),
         *(make_ungraded_student(name, asked, handed_in=(), reason="") for name in absent),
     ]
     everybody = tuple(sorted(found, key=lambda one: one.student.casefold()))
-    unused = {one.student: one.unused for one in there if one.unused and not one.problem}
+    remarks = {name: [problem] for name, problem in strangers.items()}
+    remarks |= {one.student: [*one.unused] for one in there if one.unused and not one.problem}
     names = tuple(one.name for one in asked)
-    return ClassResults(title, everybody, names, rows, header, unused)
+    return ClassResults(title, everybody, names, rows, header, remarks)
 
 
 def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
@@ -259,7 +264,8 @@ def _write_results(results: "ClassResults", out: Path, formats: "Sequence[Export
     ResultStore(out).remove_outdated(
         [*list_pages(results, out), *files], students=[one.student for one in results.students]
     )
-    unread = [one.student for one in results.students if not is_whole(one, results)]
+    unread = {one.student for one in results.students if not is_whole(one, results)}
+    unread |= results.remarks.keys()
     print_lines(wrap_text(summarize_class(results), lead=""))
     print_lines([style_line(f"Overview: {page}")])
     tops = dict.fromkeys(path.relative_to(out).parts[0] for path in files)

@@ -24,7 +24,7 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
     for one in results.students:
         points = collect_scores(one)
         unread = [name for name, how in find_status(one).items() if how == "ungradable"]
-        unread += ["unused files"] if one.student in results.unused else []
+        unread += ["unused files"] if one.student in results.remarks else []
         row = [points.get(name, 0.0) for name in results.exercises]
         totals = (f"{sum(points.values()):g}", f"{sum(most.values()):g}", " ".join(unread))
         table.writerow([escape_formula(one.student), *(f"{value:g}" for value in row), *totals])
