@@ -36,11 +36,13 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
         return (given,)
     own = [given / name for name in names if (given / name).is_file()]
     endings = {Path(name).suffix for name in names}
-    like = sorted(file for file in given.iterdir() if file.suffix in endings and _is_filled(file))
+    like = sorted(
+        file for file in given.iterdir() if file.suffix.lower() in endings and _is_filled(file)
+    )
     if own or len(like) == 1:
         return tuple(own or like)
     if not like:
-        what = f"no {' or '.join(sorted(endings))} file in this folder"
+        what = f"{' or '.join(names)} is missing"
         raise UnreadableFile(what, where=str(given), advice="Name the file itself.")
     named = ", ".join(file.name for file in like[:SHOWN]) + (", …" if len(like) > SHOWN else "")
     raise UnreadableFile(  # one answer each: the best of many would be a prize for guessing

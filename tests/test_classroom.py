@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import zipfile
 from pathlib import Path
@@ -290,6 +291,36 @@ def test_a_roster_lists_who_is_absent_and_who_is_a_stranger(tmp_path, capsys, re
     assert "<b>stranger</b>: stranger does not match any name on the roster." in page
     assert "1 of 2</td>" in page
     reads(said.err)
+
+
+def test_no_feedback_names_a_folder_that_is_gone(course, tmp_path, capsys):
+    checks = course / "exercises" / "exercise1" / "checks.py"
+    text = checks.read_text(encoding="utf-8")
+    checks.write_text(f'{text}\nBESIDE = ("fit.py",)\n', encoding="utf-8")
+    there = hand_in(tmp_path / "in", ann="", ben="size = [", cat=RIGHT, dan="", eve="")
+    (there / "cat").rename(there / "cat.old")
+    (there / "cat" / "EXERCISE1").mkdir(parents=True)
+    (there / "cat.old" / "exercise1" / "answers.toml").rename(
+        there / "cat" / "EXERCISE1" / "MY.TOML"
+    )
+    (there / "dan" / "exercise1" / "answers.toml").rename(there / "dan" / "exercise1" / "fit.py")
+    for name in ("a.toml", "b.toml"):
+        (there / "eve" / "exercise1" / name).write_text(HALF, encoding="utf-8")
+    (there / "eve" / "exercise1" / "answers.toml").unlink()
+
+    assert run_command(["class", str(there), "--export", "junit"]) == 1
+    records = {
+        name: graded(tmp_path / "in-graded", name)["records"][0]
+        for name in ("ann", "ben", "cat", "dan", "eve")
+    }
+    assert records["ann"]["reason"].startswith("answers.toml: the file is empty.")
+    assert records["ben"]["reason"].startswith("answers.toml, line 1: ")
+    assert records["cat"]["score"] == 3
+    assert records["dan"]["reason"] == "answers.toml is missing; there is only fit.py"
+    assert records["eve"]["reason"].startswith("2 files here could be the answer (a.toml, b.toml)")
+    assert tempfile.gettempdir() not in json.dumps(records)
+    assert tempfile.gettempdir() not in (tmp_path / "in-graded" / "junit.xml").read_text("utf-8")
+    assert "Traceback" not in capsys.readouterr().err
 
 
 def test_an_untouched_starter_is_not_handed_in(course, tmp_path, capsys):

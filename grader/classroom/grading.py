@@ -1,5 +1,6 @@
 """One student's files, graded: plain data in, plain data out, so that any process can do it."""
 
+import os
 import tempfile
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import nullcontext
@@ -12,12 +13,14 @@ from grader.classroom.bundle import unpack_course
 from grader.classroom.submissions import Files
 from grader.exercise import Exercise, Grade, list_exercises
 from grader.variant import use_class_secret
+from sim.support.printable import list_first
 
 if TYPE_CHECKING:
     from grader.classroom.bundle import CourseBundle
 
 MISSING = "missing"  # the status of an exercise that was not handed in
 NOTHING = "nothing was handed in"
+SHOWN = 3  # names of files in a message
 
 Record = dict[str, Any]  # as JSON holds it
 
@@ -87,12 +90,17 @@ def _grade(exercise: Exercise, job: GradingJob, folder: Path) -> Record:
         )
     if not files:
         return make_missing_record(exercise, student, status=MISSING, reason=NOTHING)
+    endings = {Path(name).suffix for name in exercise.files}
+    if not any(Path(name).suffix.lower() in endings for name in files):
+        needed, there = " or ".join(exercise.files), list_first(sorted(files), most=SHOWN)
+        reason = f"{needed} is missing; there is only {there}"
+        return make_missing_record(exercise, student, status="ungradable", reason=reason)
     try:
         folder.mkdir()
         for name, content in files.items():
             (folder / name).write_bytes(content)
         grade = exercise.grade(folder, student=job.numbers_owner, run=job.run)
-        return make_grade_record(replace(grade, student=student))
+        return make_grade_record(replace(grade, student=student), folder=folder)
     except MemoryError:
         reason = "grading it needed more memory than this computer has"
         return make_missing_record(exercise, student, status="ungradable", reason=reason)
@@ -133,17 +141,27 @@ def make_missing_record(exercise: Exercise, student: str, *, status: str, reason
     return {**head, "status": status, "file": "", "reason": reason, "checks": checks}
 
 
-def make_grade_record(grade: Grade) -> Record:
-    """A grade as plain data; of paths only the file's name, so that it is the same anywhere."""
+def make_grade_record(grade: Grade, *, folder: Path | None = None) -> Record:
+    """A grade as plain data, without the paths of this machine, so that it is the same anywhere.
+
+    Args:
+        grade: what became of the answer.
+        folder: where it lay while it was graded; None takes that of its file.
+    """
     names = ("exercise", "student", "score", "max_score", "status")
-    reason = grade.reason
-    if grade.file is not None:
-        reason = reason.replace(str(grade.file), grade.file.name)
+    place = folder or (grade.file.parent if grade.file else None)
+
+    def shorten(text: str) -> str:
+        return text if place is None else (
+            text.replace(f"{place}{os.sep}", "").replace(f"{place}: ", "")
+        )  # fmt: skip
+
+    checks = [replace(one, seen=shorten(one.seen), hint=shorten(one.hint)) for one in grade.checks]
     return {
         **{name: getattr(grade, name) for name in names},
         "file": grade.file.name if grade.file else "",
-        "reason": reason,
-        "checks": [{**asdict(one), "status": str(one.status)} for one in grade.checks],
+        "reason": shorten(grade.reason),
+        "checks": [{**asdict(one), "status": str(one.status)} for one in checks],
     }
 
 
