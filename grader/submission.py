@@ -150,12 +150,30 @@ def read_answers(path: Path) -> dict[str, object]:
         row = rows[min(number, len(rows)) - 1].strip()
         what = f"{row!r} cannot be read"
         advice = 'Every line is a name, = and a number: kV = 0.5 or, with a unit, kV = "0.5 V·s/m".'
-        if re.search(r"\d,\d", row):
+        if before := _find_same_name(rows[: number - 1], row):
+            what = f"{row.partition('=')[0].strip()} is already answered in line {before}"
+            advice = "Keep the line that counts, and delete the other one."
+        elif re.search(r"\d,\d", row):
             advice = 'Write a decimal point, 0.5, or put quotes around the decimal comma: "0,5".'
         elif re.fullmatch(r"[\w.]+\s*=\s*(#.*)?", row):
             what = f"nothing stands after {row.partition('=')[0].strip()} ="
             advice = 'Write a number there, or "" as long as you have none.'
         raise UnreadableFile(what, where=f"{path}, line {number}", advice=advice) from None
+
+
+def _find_same_name(rows: Sequence[str], row: str) -> int:
+    """The number of the line, of those before a line, that answers the same name; 0 if none does.
+
+    A name may come again in another table: below another line such as ``[arm]``.
+    """
+    name, equals, _ = row.partition("=")
+    for number in range(len(rows), 0, -1):
+        other, also, _ = rows[number - 1].partition("=")
+        if equals and also and other.strip() == name.strip():
+            return number
+        if other.lstrip().startswith("["):
+            break
+    return 0
 
 
 def _check_size(text: str, path: Path) -> None:
