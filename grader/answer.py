@@ -258,7 +258,9 @@ def _find_wrong_numbers(
     )
     for other, one in key.asked.items():
         theirs = _read_value(other, given, key)
-        if other != name and theirs is not None and one.is_right(value) and asked.is_right(theirs):
+        if other == name or theirs is None or one.is_right(theirs):  # theirs stands where it should
+            continue
+        if one.is_right(value) and asked.is_right(theirs):
             says = f"it would be right for {other}, and your {other} for {name}: did you swap them?"
             found += (WrongNumber("swapped", says),)
     return found

@@ -239,6 +239,13 @@ def test_what_a_wrong_recipe_gives_is_recognized():
     assert "the wrong recipe" not in wrong("kA", {"kA": 0.235}, key).hint
 
 
+def test_a_number_is_not_swapped_with_one_that_is_right_where_it_is():
+    key = AnswerKey(ask_gains({"kS": 0.2488, "kV": 2.4, "kA": 0.2239}, position="m"), KEY.scene)
+
+    assert "swap" not in wrong("kS", {"kS": 0.2, "kA": 0.2239}, key).hint
+    assert "swap" in wrong("kS", {"kS": 0.2, "kA": 0.27}, key).hint
+
+
 def test_two_suspects_are_both_named():
     caught = wrong("kV", {"kV": 0.26}, FLYWHEEL_KEY)
 
