@@ -141,6 +141,13 @@ def test_what_is_graded_is_not_graded_again_until_something_changes(course, tmp_
     assert left(secret=b"another class's") == ["ann", "ben"]
 
 
+def test_a_roster_may_have_empty_cells_at_the_ends_of_its_lines(tmp_path):
+    path = tmp_path / "roster.csv"
+    path.write_text("student,mail\nann,a@x, ,\nben\n,,,\n", encoding="utf-8")
+
+    assert [*read_class_roster(path).rows] == ["ann", "ben"]
+
+
 @pytest.mark.usefixtures("course")
 def test_what_a_run_before_wrote_is_gone_and_nothing_else(tmp_path):
     there = hand_in(tmp_path / "in", ann=RIGHT, bne=HALF)
@@ -361,9 +368,9 @@ def test_canvas_own_export_is_a_roster(tmp_path):
 
 @pytest.mark.parametrize(
     "text",
-    ["who\nann\n", "student\nann\nANN\n"],
+    ["who\nann\n", "student\nann\nANN\n", "student\n", "student,mail\nMüller, Zoë,z@x\n"],
 )
-def test_a_roster_of_nobody_or_of_twins_is_refused(tmp_path, text, reads):
+def test_a_roster_that_does_not_say_who_is_who_is_refused(tmp_path, text, reads):
     (tmp_path / "roster.csv").write_text(text, encoding="utf-8")
 
     with pytest.raises(BadRequest) as refused:

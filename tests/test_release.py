@@ -193,6 +193,21 @@ def test_what_cannot_be_released_is_one_line(capsys, command, said):
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("empty_course")
+@pytest.mark.parametrize("text", ["student,mail,team,id\n", "student\nann bauer\nben\n"])
+def test_a_table_is_no_secret(tmp_path_factory, capsys, text):
+    roster = tmp_path_factory.mktemp("class") / "roster.csv"
+    roster.write_text(text, encoding="utf-8")
+    command = ["release", "-o", "out", "--roster", str(roster), "--secret", str(roster)]
+
+    assert run_command(command) == 2
+    assert capsys.readouterr().err == (
+        f"grade: {roster}: this file holds no secret: a secret is one line without commas. "
+        "Name the file with the secret, or, to get a new one, a file that is not there.\n"
+    )
+    assert roster.read_text(encoding="utf-8") == text
+
+
 def test_half_a_course_is_not_released(tmp_path):
     with pytest.raises(BadRequest, match="not the whole course"):
         make_common_package(tmp_path)

@@ -36,7 +36,7 @@ def read_class_roster(path: Path) -> Roster:
     which is what a submission is called: there, that one counts.
 
     Raises:
-        BadRequest: it cannot be read, has no such column, or somebody twice.
+        BadRequest: it cannot be read, has no such column, nobody, or somebody twice.
     """
     roster = read_roster(path, advice="Give the path of a CSV file in UTF-8.")
     columns = COLUMNS[1:] if roster.find_column(["sis login id"]) is not None else COLUMNS
@@ -46,6 +46,12 @@ def read_class_roster(path: Path) -> Roster:
             "the first line names no column for the students",
             where=str(path),
             advice='Write "student" above the column with the names of the students.',
+        )
+    if not roster.rows:
+        raise BadRequest(
+            "there is no student on this roster",
+            where=str(path),
+            advice="Write each student in a line of their own, below the first line.",
         )
     cells = [
         (f"{path}, line {number}", row[place].strip() if place < len(row) else "")

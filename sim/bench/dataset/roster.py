@@ -49,7 +49,7 @@ def read_roster(path: Path, *, advice: str) -> Roster:
         advice: what to do if it cannot be read.
 
     Raises:
-        BadRequest: it cannot be read.
+        BadRequest: it cannot be read, or a row has more cells than the first line.
     """
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -60,8 +60,16 @@ def read_roster(path: Path, *, advice: str) -> Roster:
         ) from None
     table = csv.reader(io.StringIO(text, newline=""), delimiter=_delimiter(text))
     header = tuple(next(table, []))
-    rows = ((table.line_num, tuple(row)) for row in table)
-    return Roster(path, header, tuple(row for row in rows if _names_somebody(row[1])))
+    every = ((table.line_num, tuple(row)) for row in table)
+    rows = tuple(row for row in every if _names_somebody(row[1]))
+    for number, row in rows:
+        if any(cell.strip() for cell in row[len(header) :]):
+            raise BadRequest(
+                f"{len(row)} cells, but the first line has {len(header)}",
+                where=f"{path}, line {number}",
+                advice='Put quotes around a text with a comma: "Doe, Jane".',
+            )
+    return Roster(path, header, rows)
 
 
 def _names_somebody(row: Sequence[str]) -> bool:

@@ -10,6 +10,7 @@ import hashlib
 import hmac
 import json
 import os
+import re
 import secrets
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from sim.core.errors import BadRequest
 
 VARIABLE = "SYSID_SECRET"  # of the environment; holds the secret itself
 FEWEST = 16  # [characters] a shorter secret could be found by trying
+TABLE = re.compile(rb"[\r\n,;\t]")  # a secret is one line; a roster or a log has one of these
 SIZE = 32  # [bytes] of a new one
 
 
@@ -151,7 +153,7 @@ def read_secret(path: Path) -> bytes:
     """The secret in a file; empty if there is no such file.
 
     Raises:
-        BadRequest: the file cannot be read, or is empty.
+        BadRequest: the file cannot be read, is empty, or looks like a table or another text.
     """
     try:
         kept = path.read_bytes().strip()
@@ -168,5 +170,11 @@ def read_secret(path: Path) -> bytes:
             "this file should hold a secret, but it is empty",
             where=str(path),
             advice="Remove it, to get a new one.",
+        )
+    if TABLE.search(kept):
+        raise BadRequest(
+            "this file holds no secret: a secret is one line without commas",
+            where=str(path),
+            advice="Name the file with the secret, or, to get a new one, a file that is not there.",
         )
     return kept
