@@ -94,8 +94,9 @@ def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
     """
     lines = []
     for path in find_files(file, folder=exercise.folder, names=exercise.files):
-        if path.suffix != ".toml":
-            lines.append(style_line(f"{path.name}: {len(read_text(path).splitlines())} lines"))
+        if path.suffix.lower() != ".toml":
+            count = len(read_text(path).splitlines())
+            lines.append(style_line(f"{path.name}: {count} line{'s' if count != 1 else ''}"))
             continue
         answers = read_answers(path)
         there = [name for name, value in answers.items() if value != ""]

@@ -11,6 +11,7 @@ LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or 
 LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000
 LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
 SHOWN = 3  # names of files in a message
+NOT_ANSWERS = {"hints.toml", "starters.toml", "pyproject.toml", "class.toml", "progress.toml"}
 
 
 def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tuple[Path, ...]:
@@ -33,11 +34,16 @@ def find_files(given: Path | None, *, folder: Path, names: Sequence[str]) -> tup
             advice=f"Check the name; the exercise's own file is {folder / names[0]}.",
         )
     if not given.is_dir():
+        if not _may_be_answer(given, names):
+            raise UnreadableFile(
+                "this file cannot be handed in for this exercise",
+                where=str(given),
+                advice=f"Hand in {' or '.join(names)}.",
+            )
         return (given,)
     own = [given / name for name in names if (given / name).is_file()]
-    endings = {Path(name).suffix for name in names}
     like = sorted(
-        file for file in given.iterdir() if file.suffix.lower() in endings and _is_filled(file)
+        file for file in given.iterdir() if _may_be_answer(file, names) and _is_filled(file)
     )
     if own or len(like) == 1:
         return tuple(own or like)
@@ -78,6 +84,12 @@ def find_whole_answer(
         where=str(given),
         advice=f"Put your {names[0]} into the same folder.",
     )
+
+
+def _may_be_answer(file: Path, names: Sequence[str]) -> bool:
+    """Whether a file ends as one of these does, and is not a file that the course has itself."""
+    endings = {Path(name).suffix for name in names}
+    return file.suffix.lower() in endings and file.name not in NOT_ANSWERS
 
 
 def _is_filled(file: Path) -> bool:
@@ -147,10 +159,11 @@ def read_answers(path: Path) -> dict[str, object]:
         found = re.search(r"line (\d+)", str(error))
         number = int(found[1]) if found else text.count("\n") + 1
         rows = text.splitlines()
-        row = rows[min(number, len(rows)) - 1].strip()
+        above = rows[: min(number, len(rows)) - 1]
+        row = rows[len(above)].strip()
         what = f"{row!r} cannot be read"
         advice = 'Every line is a name, = and a number: kV = 0.5 or, with a unit, kV = "0.5 V·s/m".'
-        if before := _find_same_name(rows[: number - 1], row):
+        if before := _find_same_name(above, row):
             what = f"{row.partition('=')[0].strip()} is already answered in line {before}"
             advice = "Keep the line that counts, and delete the other one."
         elif re.search(r"\d,\d", row):

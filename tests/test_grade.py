@@ -11,7 +11,8 @@ from small_course import HALF, RIGHT, answer, lay_out
 
 from grader.cli import run_command
 from grader.course import Standing
-from grader.report import find_next_step, format_points
+from grader.exercise import find_exercise
+from grader.report import find_next_step, format_points, format_receipt
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -176,6 +177,44 @@ def test_a_file_may_be_a_folder_or_any_file(course):
     assert run_command(["exercise1", "mine"]) == 0
     assert run_command(["exercise1", str(elsewhere / "anything.toml")]) == 0
     assert run_command(["exercise1"]) == 1
+
+
+@pytest.mark.parametrize("issued", [False, True], ids=["self-study", "class"])
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("b.ipynb", "b.ipynb: this file cannot be handed in for this exercise. Hand in answers."),
+        ("README.md", "README.md: this file cannot be handed in for this exercise. Hand in "),
+        ("exercises", "exercises: answers.toml is missing. Name the file itself."),
+        ("exercises/starters.toml", "cannot be handed in for this exercise. Hand in answers.toml."),
+    ],
+)
+def test_a_file_that_is_no_answer_is_refused(course, capsys, given, said, issued):
+    (course / "exercises" / "starters.toml").write_text('a = "0"\n', encoding="utf-8")
+    for name in ("b.ipynb", "README.md"):
+        (course / name).write_text("kaputt", encoding="utf-8")
+    if issued:
+        checks = course / "exercises" / "exercise1" / "checks.py"
+        text = checks.read_text(encoding="utf-8")
+        checks.write_text(f"{text}\n\ndef prepare(student, *, say):\n    pass\n", "utf-8")
+        (course / ".course").mkdir()
+        (course / ".course" / "class.toml").write_text('class = "A"\nstudent = "me"\n', "utf-8")
+
+    assert run_command(["exercise1", given]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert said in err
+
+
+def test_one_line_is_one_line(course):
+    place = course / "exercises" / "exercise1" / "Robot.java"
+    checks = place.with_name("checks.py")
+    checks.write_text(checks.read_text("utf-8").replace("answers.toml", place.name), "utf-8")
+    exercise = find_exercise("1", course)
+    for text, said in (("class A {}\n", "Robot.java: 1 line"), ("a\nb\n", "Robot.java: 2 lines")):
+        place.write_text(text, encoding="utf-8")
+        ((span,),) = format_receipt(exercise, None)
+        assert span.text == said
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
