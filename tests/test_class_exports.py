@@ -20,6 +20,7 @@ from grader.classroom.result_pages import summarize_class, write_pages
 from grader.classroom.results import ClassResults
 from grader.exercise import Grade
 from sim.core.errors import BadRequest
+from sim.plot import plot_score_heatmap
 
 NASTY = ("=1+1", 'O\'Neil, "Ann"', "José\u0301", "@SUM(A1)", "<script>alert(1)")
 GRADESCOPE = {  # https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
@@ -232,6 +233,60 @@ def test_pages_are_whole_ask_nobody_and_escape_names(results, tmp_path):
     for link in re.findall(r'href="(students/[^"]+)"', text):
         assert (tmp_path / link).is_file()
     assert "A number means something only with its unit." in text
+
+
+def ungradable(name, exercise, reason):
+    record = make_missing_record(Empty(), name, status="ungradable", reason=reason)
+    return {**record, "exercise": exercise}
+
+
+def test_what_a_person_has_to_check_names_student_and_exercises(tmp_path):
+    asks = "is this a log, or the whole project?"
+    ann = GradedStudent("ann", "", (
+        ungradable("ann", "exercise1", "the file is empty"), ungradable("ann", "exercise2", asks),
+        ungradable("ann", "exercise3", "the file is empty"),
+    ))  # fmt: skip
+    ben = GradedStudent("ben", "", tuple(
+        ungradable("ben", f"exercise{number}", "no name") for number in (1, 2, 3)
+    ))  # fmt: skip
+    people = replace(some(ann, ben), exercises=("exercise1", "exercise2", "exercise3"))
+    text = write_pages(people, tmp_path).read_text("utf-8")
+    page = (tmp_path / "students" / "ann.html").read_text("utf-8")
+
+    assert "<b>ann, exercise1, exercise3</b>: the file is empty</li>" in text
+    assert f"<b>ann, exercise2</b>: {asks}</li>" in text
+    assert "<b>ben</b>: no name</li>" in text
+    assert f"<p>{asks}</p>" in page
+    assert "<p>the file is empty.</p>" in page
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ((2.0, 2.0), "Everything that was graded has all points."),
+        ((2.0, 1.0), "The exercise with the fewest points is exercise2: 50 % on average."),
+    ],
+)
+def test_the_hardest_exercise_is_named_where_points_are_missing(tmp_path, points, said):
+    people = some(student("ann", *((value,) for value in points)))
+
+    assert said in write_pages(people, tmp_path).read_text("utf-8")
+
+
+def test_without_a_grade_no_exercise_is_the_hardest(tmp_path):
+    people = some(GradedStudent("ann", "", (ungradable("ann", "exercise1", "empty"),)))
+    text = write_pages(replace(people, exercises=("exercise1",)), tmp_path).read_text("utf-8")
+
+    assert "Nothing was graded yet." in text
+    assert "nan %" not in text
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_name_that_the_font_lacks_stays_text_without_a_warning():
+    drawn = plot_score_heatmap(["王小明", "ann"], ["exercise1"], [[1.0], [0.5]])
+
+    assert ">王小明</text>" in drawn.svg
+    assert "<text" not in plot_score_heatmap(["ben", "ann"], ["exercise1"], [[1.0], [0.5]]).svg
 
 
 def test_the_summary_counts_people():

@@ -117,14 +117,14 @@ def _list_open_cases(results: ClassResults) -> list[dict[str, str]]:
     """What a person has to look at: whatever could not be graded, with the reason; once each."""
     found = []
     for one in results.students:
-        told: set[str] = set()
+        unread: dict[str, list[str]] = {}  # reason -> exercises
         for record in one.records:
-            reason = str(record["reason"])
-            if record["status"] == "ungradable" and reason not in told:
-                told.add(reason)
-                every = sum(str(other["reason"]) == reason for other in one.records) > 1
-                exercise = "" if every else str(record["exercise"])
-                found.append({"student": one.student, "exercise": exercise, "why": reason})
+            if record["status"] == "ungradable":
+                unread.setdefault(str(record["reason"]), []).append(str(record["exercise"]))
+        for reason, names in unread.items():
+            everything = len(names) > 1 and len(names) == len(one.records)
+            exercises = "" if everything else ", ".join(names)
+            found.append({"student": one.student, "exercise": exercises, "why": reason})
     found += [
         {"student": name, "exercise": "", "why": line}
         for name, lines in results.remarks.items()
@@ -162,7 +162,7 @@ def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "exercise": record["exercise"],
         "points": f"{record['score']:g} of {record['max_score']:g} points",
-        "reason": "" if graded else str(record["reason"]).rstrip("."),
+        "reason": "" if graded else _end_sentence(str(record["reason"])),
         "told": [
             {
                 "mark": MARKS.get(check["status"], "– not looked at:"),
@@ -173,6 +173,10 @@ def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
             for check in checks
         ],
     }
+
+
+def _end_sentence(text: str) -> str:
+    return text if text.endswith((".", "?", "!")) else f"{text}."
 
 
 def _format_percent(value: float) -> str:

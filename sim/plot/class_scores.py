@@ -75,17 +75,28 @@ def plot_score_heatmap(
         axes.set_ylabel(f"{len(students)} students, the best above", color=INK)
     figure.colorbar(drawn, ax=axes, label="share of the points [%]")
     means = _means(table)
-    worst = int(np.nanargmin(means)) if not np.isnan(means).all() else 0
     alt = (
         "Each row is a student, and each column an exercise. The color shows the share of the "
-        f"points. It is white where nothing was graded. The exercise with the fewest points is "
-        f"{exercises[worst]}: {100 * means[worst]:.0f} % on average."
+        f"points. It is white where nothing was graded. {_describe_hardest(exercises, means)}"
     )
     numbers = tuple(
         (name, "" if np.isnan(mean) else f"{100 * mean:.0f}")
         for name, mean in zip(exercises, means, strict=True)
     )
     return Picture(figure, alt, Table(("exercise", "mean share [%]"), numbers))
+
+
+def _describe_hardest(exercises: Sequence[str], means: "np.typing.NDArray[np.float64]") -> str:
+    """A sentence about the exercise with the fewest points, where points are missing at all."""
+    if np.isnan(means).all():
+        return "Nothing was graded yet."
+    worst = int(np.nanargmin(means))
+    if means[worst] >= 1.0:
+        return "Everything that was graded has all points."
+    return (
+        f"The exercise with the fewest points is {exercises[worst]}: "
+        f"{100 * means[worst]:.0f} % on average."
+    )
 
 
 def _means(table: "np.typing.NDArray[np.float64]") -> "np.typing.NDArray[np.float64]":

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import TypeAlias
+from typing import Literal, TypeAlias
+from warnings import catch_warnings, filterwarnings
 
 from matplotlib import rc_context
 from matplotlib.artist import Artist
@@ -52,9 +53,20 @@ class Picture:
 
     @property
     def svg(self) -> str:
-        """The drawing as SVG; the same figure always gives the same text."""
+        """The drawing as SVG; the same figure always gives the same text.
+
+        Where matplotlib's font lacks a sign, for instance of a Chinese name, the text stays text,
+        and whoever shows the drawing takes a font of the computer's.
+        """
+        try:
+            return self._draw_svg("path", missing="error")
+        except UserWarning:
+            return self._draw_svg("none", missing="ignore")
+
+    def _draw_svg(self, text: str, *, missing: Literal["error", "ignore"]) -> str:
         buffer = io.StringIO()
-        with rc_context({"svg.hashsalt": "picture"}):
+        with rc_context({"svg.hashsalt": "picture", "svg.fonttype": text}), catch_warnings():
+            filterwarnings(missing, message=r"Glyph .* missing from", category=UserWarning)
             self.figure.savefig(buffer, format="svg", metadata={"Date": None, "Title": self.alt})
         return buffer.getvalue()
 
