@@ -1,8 +1,8 @@
 """Canvas's gradebook, to be imported there: its own export as the roster, with one column added.
 
 Canvas finds a student by ID, SIS User ID or SIS Login ID, and makes a new assignment of a column it
-does not know: https://community.canvaslms.com, "How do I import grades in the Gradebook". It leaves
-the points of a student as they are where the cell is empty.
+does not know: https://community.canvaslms.com, "How do I import grades in the Gradebook". The cell
+of a student with work that was not graded is empty: a 0 would be a wrong mark.
 """
 
 import csv
