@@ -1,8 +1,13 @@
 """The frame of both commands: what a person sees when something goes wrong, and the exit code."""
 
 import click
+import numpy as np
 import pytest
 
+import sim
+from sim.bench.mechanisms import MECHANISMS
+from sim.bench.routine import Routine
+from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.core.errors import BadRequest
 from sim.support.command_line import run_command
@@ -71,3 +76,38 @@ def test_a_command_alone_prints_its_help_with_line_breaks(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) > 10
     assert max(map(len, lines)) <= 100
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("contaminate", "robot.wpilog", "--fault", "sign-flip", "-o", "robot.wpilog"),
+        ("contaminate", "robot.wpilog", "--fault", "sign-flip", "-o", "../logs/robot.wpilog"),
+        ("contaminate", "robot.wpilog", "--fault", "sign-flip", "-o", "link.wpilog"),
+        ("fit", "robot.wpilog", "--wpilog", "robot.wpilog"),
+        ("fit", "robot.wpilog", "--html", "robot.wpilog"),
+        ("fit", "robot.wpilog", "--plot", "robot.wpilog"),
+        ("fit", "other.wpilog", "robot.wpilog", "--wpilog", "robot.wpilog"),
+        ("fit", "other.wpilog", "--straight", "robot.wpilog", "--mass", "9", "--plot=robot.wpilog"),
+        ("reconcile", "other.wpilog", "--held-out", "robot.wpilog", "--html", "robot.wpilog"),
+        ("simulate", "drivetrain", "-o", "new.csv", "--truth", "new.csv"),
+    ],
+    ids=" ".join,
+)
+def test_no_command_overwrites_what_it_reads(arguments, tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    log = simulate(MECHANISMS["drivetrain"], Routine(timeout=1.0), rng=np.random.default_rng(1))
+    for name in ("robot.wpilog", "other.wpilog"):
+        sim.write(log, folder / name)
+    (folder / "link.wpilog").hardlink_to(folder / "robot.wpilog")
+    before = {path: path.read_bytes() for path in folder.iterdir()}
+
+    assert run_command(sysid, name="sysid", arguments=list(arguments)) == 2
+
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "this would overwrite" in said.err
+    assert said.err.count("\n") == 1
+    assert {path: path.read_bytes() for path in folder.iterdir()} == before

@@ -4,7 +4,13 @@ from pathlib import Path
 
 import click
 
-from sim.cli.options import FAULT_NAMES, FILE, read_logs_together, reading_options
+from sim.cli.options import (
+    FAULT_NAMES,
+    FILE,
+    read_logs_together,
+    reading_options,
+    refuse_overwriting,
+)
 
 
 @click.command()
@@ -41,6 +47,7 @@ def contaminate(
     from sim.inspect.contaminate import contaminate_all, parse_fault_request  # noqa: PLC0415
     from sim.io import write  # noqa: PLC0415
 
+    refuse_overwriting(output, inputs=[file])
     asked = [parse_fault_request(text) for text in faults]
     log = read_logs_together([file], units=units, type=type_, motor=motor, entries=entries)
     log, where = contaminate_all(log, asked, rng=np.random.default_rng(seed))

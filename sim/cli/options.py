@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
+from sim.core.errors import BadRequest
 from sim.core.units import UNITS
 from sim.core.vocabulary import TYPES
 from sim.support.completion import complete_members
@@ -90,6 +91,39 @@ def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:
     else:
         width = max(len(row["name"]) for row in rows)
         click.echo("\n".join(f"{row['name']:{width}}  {row['summary']}" for row in rows))
+
+
+def refuse_overwriting(*outputs: Path | None, inputs: Iterable[Path | None] = ()) -> None:
+    """Refuse an output that would replace an input or another output.
+
+    Args:
+        outputs: the files that the command writes; None is one that was not asked for.
+        inputs: the files that it reads; None is one that was not given.
+
+    Raises:
+        BadRequest: two of them are the same file.
+    """
+    read = [path for path in inputs if path is not None]
+    written: list[Path] = []
+    for path in outputs:
+        if path is None:
+            continue
+        for others, what in ((read, "the log that is read"), (written, "another output")):
+            if any(_is_same_file(path, other) for other in others):
+                raise BadRequest(
+                    f"this would overwrite {what}",
+                    where=str(path),
+                    advice="Give the output another name.",
+                )
+        written.append(path)
+
+
+def _is_same_file(one: Path, other: Path) -> bool:
+    """Whether two paths lead to one file, also through links."""
+    try:
+        return one.samefile(other)
+    except OSError:  # one of them does not exist yet
+        return one.resolve() == other.resolve()
 
 
 def read_logs_together(

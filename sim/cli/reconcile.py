@@ -15,6 +15,7 @@ from sim.cli.options import (
     combine_options,
     read_logs_together,
     reading_options,
+    refuse_overwriting,
 )
 from sim.support.command_line import DONE, NOT_RIGHT, print_error
 
@@ -79,6 +80,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     Exit code 0 means that nothing is missing, or that the missing effects were found; 1 that
     something remains unexplained or ambiguous.
     """
+    refuse_overwriting(html, inputs=[*files, validation, held_out])
     if html is not None:
         from sim.report.page_file import choose_page_path  # noqa: PLC0415 - draws, as all of its folder
 

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import EFFECT_NAMES, FAULT_NAMES, FILE, MECHANISM_NAMES
+from sim.cli.options import EFFECT_NAMES, FAULT_NAMES, FILE, MECHANISM_NAMES, refuse_overwriting
 from sim.core.errors import BadRequest, Refusal
 from sim.core.vocabulary import KINDS
 from sim.physics.battery import CONTROLLERS, Battery
 
 if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
+    from sim.core.log import Log
 
 PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
 
@@ -113,6 +114,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
 
     if seed is not None and seed < 0:
         raise click.BadParameter("a seed is zero or more.", param_hint="'--seed'")
+    refuse_overwriting(output, truth)
     kinds = tuple(kind.strip() for kind in tests.split(",") if kind.strip())
     routine = Routine(ramp=ramp, step=step, timeout=timeout, kinds=kinds)
     # chance has a stream for each thing it decides, so that a fault leaves the motion as it was
@@ -134,8 +136,12 @@ def simulate(  # noqa: PLR0917 - click passes options by name
         if truth:  # the truth of a log that is not there would only mislead
             truth.unlink()
         raise
+    _echo_written(log, output, after="inspect" if faults else "fit")
+
+
+def _echo_written(log: "Log", output: Path, *, after: str) -> None:
+    """Print the doubts about a log, what was written, and the command for it."""
     samples = sum(len(part) for part in log.runs)
-    after = "inspect" if faults else "fit"
     for doubt in log.doubts:
         click.echo(f"warning: {doubt.message}")
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid {after} {output}")

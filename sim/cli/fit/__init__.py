@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.fit.inertia import add_inertia, turning_options
+from sim.cli.fit.layout import choose_layout_path
 from sim.cli.fit.parts import fit_parts, join_parts
 from sim.cli.fit.paste import CONTROLLERS, LANGUAGES, make_paste_text
 from sim.cli.fit.plausibility import (
@@ -23,6 +24,7 @@ from sim.cli.options import (
     as_json,
     combine_options,
     reading_options,
+    refuse_overwriting,
     velocity_options,
 )
 from sim.core.vocabulary import METHODS
@@ -242,8 +244,13 @@ def _write(
 
 
 def _go_together(ctx: click.Context) -> None:
-    """Refuse options that would be ignored."""
-    paste = ctx.params["paste"]
+    """Refuse options that would be ignored, and outputs that would replace an input."""
+    paste, wpilog = ctx.params["paste"], ctx.params["wpilog"]
+    layout = None if wpilog is None else choose_layout_path(wpilog)
+    refuse_overwriting(
+        ctx.params["html"], ctx.params["plot"], wpilog, layout,
+        inputs=[*ctx.params["files"], ctx.params["straight"]],
+    )  # fmt: skip
     given = ctx.get_parameter_source("preset") is not click.core.ParameterSource.DEFAULT
     if paste and given and ctx.params["preset"] != "default":
         raise click.UsageError(

@@ -22,6 +22,11 @@ COLORS = ("#2b66a2", "#e5b31b", "#af2437", "#80588e")  # of its own list, which 
 NO_CONVERSION = {"type": None, "factor": 1}
 
 
+def choose_layout_path(log: Path) -> Path:
+    """The path of the layout file that ``write_layout`` writes beside a log."""
+    return log.with_suffix(SUFFIX)
+
+
 def write_layout(log: Path, tops: Sequence[str]) -> None:
     """Write an AdvantageScope layout beside a log, with tabs for velocities and residuals.
 
@@ -54,7 +59,7 @@ def write_layout(log: Path, tops: Sequence[str]) -> None:
     }
     hub = {"x": 100, "y": 100, "width": 1100, "height": 650, "state": state}
     content = {"hubs": [hub], "satellites": [], "version": VERSION}
-    path = log.with_suffix(SUFFIX)
+    path = choose_layout_path(log)
     try:
         write_atomically(path, json.dumps(content, indent=2))
     except OSError as error:
