@@ -79,21 +79,23 @@ MISCONCEPTIONS: dict[str, Misconception] = {
     ),
     "M-NO-KG-IN-SYSID": Misconception(
         "SysId does find kG, if you choose the type Elevator or Arm. The type Simple has no "
-        "gravity term, so gravity makes the other gains wrong. If the log has only upward runs, "
-        "SysId adds kG to kS. If it has runs in both directions, kV may even be negative.",
+        "gravity term, so gravity makes the other gains wrong: kV may even be negative. From "
+        "upward runs alone, a fit without a gravity term adds kG to kS. (SysId does not accept "
+        "such a log.)",
         lesson="02_gravity",
         section="From a log: choose the analysis type",
     ),
     "M-NOISE-AVERAGES": Misconception(
         "Noise in a column of a fit does not average out: it makes the coefficient of that "
-        "column too small. In SysId's regression the coefficient of the voltage is 1/kA, so kA "
-        "becomes too large. Put the noisiest signal alone on the left side of the equation.",
+        "column too small. If the acceleration is a column, its coefficient is kA, so kA becomes "
+        "too small. Put the noisiest signal alone on the left side of the equation.",
         lesson="07_fit_it_yourself",
         section="Which side is noisy?",
     ),
     "M-REVERSE-WASTE": Misconception(
-        "You need the reverse runs to see whether friction is the same in both directions. Only "
-        "the difference between forward and reverse shows gravity, or a floor that is not level. "
+        "You need the reverse runs to see whether friction is the same in both directions. On an "
+        "elevator, only the difference between forward and reverse shows gravity; on a "
+        "drivetrain, only this difference shows a floor that is not level. "
         "SysId does not accept a log without reverse runs.",
         lesson="03_test_design",
         section="Why reverse? Three reasons",

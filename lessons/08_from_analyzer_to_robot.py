@@ -1039,17 +1039,20 @@ print(f"The truth is {INERTIA:.2f} kg·m².")
 #
 # 1. Copy the log from the robot (lesson 5), look at its plots (lesson 6), then inspect it: `sysid
 #    inspect my_log.wpilog`
-# 2. Fit it with its type, in the unit that your code uses:
+# 2. Fit it with its type:
 #
 #    ```
-#    sysid fit my_log.wpilog --type arm --units radians
+#    sysid fit my_log.wpilog --type arm
 #    ```
+#
+#    The first lines name the unit of the gains: it is the unit of the log. Step 3 converts an arm's
+#    gains to radians. For other mechanisms convert yourself (lesson 1, section 8).
 #
 # 3. Let it write the code, and paste it into a new file:
 #
 #    ```
-#    sysid fit my_log.wpilog --paste java
-#    sysid fit my_log.wpilog --paste python --season 2027
+#    sysid fit my_log.wpilog --type arm --paste java
+#    sysid fit my_log.wpilog --type arm --paste python --season 2027
 #    ```
 #
 # 4. Compute one voltage by hand before you enable. Then use small targets. The robot is on the

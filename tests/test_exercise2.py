@@ -25,7 +25,7 @@ from sim.physics.motors import compute_theoretical_kv, find_motor
 ROOT = Path(__file__).resolve().parents[1]
 OWN = Exercise("exercise2", ROOT / "exercises" / "exercise2")
 CLASS = [f"student {number}" for number in range(50)]
-GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "tight-belt"]  # for a sound mechanism
+GOOD = ["gear-ratio", "wheel-size", "logged-voltage", "dragging-belt"]  # for a sound mechanism
 
 
 def graded(exercise, *, student="ann", **answers):
@@ -97,7 +97,7 @@ def test_between_them_they_get_every_trouble_verdict_and_flag():
     assert {one.verdict for one in variants} == {"bookkeeping", "ok", "watch", "inspect"}
     assert {one.flag for one in variants} == {"fine", "watch", "stop"}
     assert {word for one in variants for word in one.planted} == {
-        *("gear-ratio", "wheel-size", "logged-voltage", "tight-belt", "dry-bearing")
+        *("gear-ratio", "wheel-size", "logged-voltage", "dragging-belt", "dry-bearing")
     }
     assert not all(one.planted for one in variants)
 
@@ -147,7 +147,7 @@ def test_the_file_tells_of_every_planted_trouble_and_of_no_other(copy):
             "gear-ratio": parts["ratio"] != code["ratio"],
             "wheel-size": abs(2.0 * code.get("radius", 0.0) - diameter) > 1e-3,
             "logged-voltage": "commanded" in code["logged_voltage"],
-            "tight-belt": "guitar string" in given["noticed"]["mechanic"],
+            "dragging-belt": "drags over its cover" in given["noticed"]["mechanic"],
             "dry-bearing": "whistles" in given["noticed"]["mechanic"],
         }
 
@@ -206,7 +206,7 @@ def test_a_list_may_be_written_in_many_ways(copy, written, status):
         (["wheel-size", "motor-type", "logged-voltage"], 2),
         (["wheel-size", "motor-type", "mass"], 2),
         (["wheel-size", "mass"], 0),
-        (["wheel-size", "motor-type", "tight-belt"], 2),
+        (["wheel-size", "motor-type", "dragging-belt"], 2),
     ],
 )
 def test_a_list_earns_what_is_good_about_it(copy, listed, points, reads):
@@ -217,7 +217,7 @@ def test_a_list_earns_what_is_good_about_it(copy, listed, points, reads):
     reads(found.hint)
 
 
-@pytest.mark.parametrize("cause", ["tight-belt", "unpowered-motor", "dry-bearing"])
+@pytest.mark.parametrize("cause", ["dragging-belt", "unpowered-motor", "dry-bearing"])
 def test_nothing_that_brakes_explains_a_kv_below_theory(copy, cause):
     student = student_who(lambda one: one.verdict == "bookkeeping" and one.parts.motors > 1)
     found = graded(copy, student=student, inspection=["gear-ratio", cause])["inspection"]
@@ -334,16 +334,16 @@ def allowed(variant, given):
         "gear-ratio": parts["ratio"] != code["ratio"],
         "wheel-size": diameter is not None and abs(2.0 * code["radius"] - diameter) > 1e-3,
         "logged-voltage": "commanded" in code["logged_voltage"],
-        "tight-belt": "guitar" in given["noticed"]["mechanic"],
+        "dragging-belt": "drags over its cover" in given["noticed"]["mechanic"],
         "dry-bearing": "whistles" in given["noticed"]["mechanic"],
     }
     left = {"motor-type", "velocity-unit"} | ({"unpowered-motor"} if parts["motors"] > 1 else set())
     if not any(shown.values()):
         left |= shown.keys() if diameter else shown.keys() - {"wheel-size"}
     elif "too hot" in given["noticed"]["mechanic"]:
-        left |= {"tight-belt", "dry-bearing"}
+        left |= {"dragging-belt", "dry-bearing"}
     left |= {word for word, there in shown.items() if there}
-    braking = {"tight-belt", "dry-bearing", "unpowered-motor"}
+    braking = {"dragging-belt", "dry-bearing", "unpowered-motor"}
     return left - (braking if below else set()), [word for word, there in shown.items() if there]
 
 
@@ -351,7 +351,7 @@ def test_every_list_of_causes_in_every_order_is_graded_by_what_the_file_says(cop
     """A point each for possible causes only, for cheap ones first, and for what the file shows."""
     judge_list = OWN.module.judge_list
     cost = dict.fromkeys(["gear-ratio", "wheel-size", "motor-type", "velocity-unit"], 1)
-    cost |= {"logged-voltage": 2, "unpowered-motor": 2, "tight-belt": 3, "dry-bearing": 3}
+    cost |= {"logged-voltage": 2, "unpowered-motor": 2, "dragging-belt": 3, "dry-bearing": 3}
     words = [*cost, "mass", "constant-friction", "sensor-noise"]
     lists = [list(some) for count in (1, 2, 3) for some in permutations(words, count)]
     lists += [list(some[::way]) for some in combinations(words, 4) for way in (1, -1)]
@@ -410,3 +410,19 @@ def test_twelve_over_rpm_is_told_which_steps_are_missing(copy):
         assert "60 seconds are a minute and the gear ratio" in found.hint
         assert ("one turn of the wheel" in found.hint) == bool(variant.parts.diameter)
         assert found.misconception == "M-UNITS"
+
+
+def test_a_verdict_that_follows_from_a_wrong_difference_is_told_to_correct_that_first(copy):
+    student = student_who(lambda one: one.verdict == "bookkeeping")
+    variant = OWN.module.draw(student)
+    theory = variant.measured / 1.5  # a theory that is much too small
+    answers = {"kV_theory": theory, "difference": 50.0, "verdict": "inspect"}
+
+    found = graded(copy, student=student, **answers)["verdict"]
+    assert found.status == "failed"
+    assert "your verdict fits your difference" in found.hint
+    assert "Correct kV_theory first" in found.hint
+    assert found.misconception == ""
+
+    answers["kV_theory"] = variant.parts.theoretical_kv
+    assert "Correct it first" in graded(copy, student=student, **answers)["verdict"].hint

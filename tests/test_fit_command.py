@@ -206,3 +206,29 @@ def test_sysids_recipe_is_tried_too(fit, drive):
 
     assert code == 0
     assert "position kP" in said
+
+
+def test_units_that_contradict_the_file_are_the_first_thing_said(tmp_path, fit):
+    arm = simulate(MECHANISMS["arm"], Routine(), rng=np.random.default_rng(1))
+    path = tmp_path / "arm.wpilog"
+    sim.write(replace(arm, units="rotations"), path)
+
+    _, out, _ = fit(path, "--type", "arm", "--units", "radians")
+    _, right, _ = fit(path, "--type", "arm")
+
+    first = out.splitlines()[0]
+    assert "the file says rotations" in first
+    assert "--units says radians" in first
+    assert out.count("--units says") == 1
+    assert "the file says" not in right
+
+
+def test_a_friction_beyond_belief_is_no_refusal_about_an_effect(tmp_path, fit):
+    path = tmp_path / "arm.wpilog"
+    made = ["simulate", "arm", "--vary", "--seed", "1", "-o", str(path)]
+    assert run_command(sysid, name="sysid", arguments=made) == 0
+    sim.write(replace(sim.read(path), units="rotations"), path)
+
+    code, _, err = fit(path, "--type", "arm", "--units", "radians")
+
+    assert (code, err) == (0, "")

@@ -375,6 +375,21 @@ def test_javac_and_the_grader_refuse_a_planted_mistake(compiled, mistake):
     assert graders_errors(file)
 
 
+@pytest.mark.parametrize("share", ["get", "getThrottle"])
+def test_the_share_that_a_talon_fx_gets_is_a_number(tmp_path, share):
+    right = (ROOT / "solutions" / "exercise4" / "ExampleSubsystem.java").read_text(encoding="utf-8")
+    old = "Volts.of(m_left.getMotorVoltage().getValueAsDouble())"
+    assert old in right
+    path = tmp_path / "ExampleSubsystem.java"
+    new = f"Volts.of(m_left.{share}() * RobotController.getBatteryVoltage())"
+    needed = "import edu.wpi.first.wpilibj.RobotController;\n"
+    first = right.index("import ")
+    text = (right[:first] + needed + right[first:]).replace(old, new)
+    path.write_text(text, encoding="utf-8")
+
+    assert not [one for one in graders_errors(path) if "signal" in one.message]
+
+
 def graders_errors(path: Path) -> tuple[ParseProblem, ...]:
     """What the grader's own compile check says of a file, whatever the file holds."""
     return find_compile_errors(SymbolTable(Files(path)))

@@ -98,7 +98,7 @@ def test_units_are_read_in_either_language(
             METERS,
             {"units": "inches"},
             ("inches", 1, 0.0254, 0.0254),
-            ["contradicting-units"] * 2,
+            ["contradicting-units"],
             id="a person says otherwise",
         ),
         pytest.param(

@@ -15,6 +15,7 @@ from .drawn import draw
 from .ranked import judge_list
 from .slips import lookalikes, rarer
 from .team import FLAGS, VERDICTS, Variant
+from .team import verdict as find_verdict
 
 FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
@@ -91,18 +92,28 @@ def kv_theory(answers: Answers) -> str | None:
 @check(points=2)
 def difference(answers: Answers) -> None:
     """How far the measured kV is above the theoretical one, in percent."""
-    variant, value = answers.variant, _percent(answers)
-    try:
-        theirs = read_answer_number(answers.given.get("kv_theory"), variant.asked)
-    except WrongAnswer:
-        theirs = 0.0
-    known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
-    if any(_near(value, variant.percent(one), variant) for one in known):
+    variant, value, theirs = answers.variant, _percent(answers), _own_theory(answers)
+    if _is_accepted(value, answers):
         return
     if theirs > 0.0 and _near(value, variant.percent(theirs), variant):
         says = "it follows from your kV_theory, but your kV_theory is not right yet"
         raise WrongAnswer(_shown(value), hint=says, earned=1.0)
     raise WrongAnswer(_shown(value), hint=_about_percent(value, variant))
+
+
+def _own_theory(answers: Answers) -> float:
+    """The student's kV_theory; 0 if it is not a number."""
+    try:
+        return read_answer_number(answers.given.get("kv_theory"), answers.variant.asked)
+    except WrongAnswer:
+        return 0.0
+
+
+def _is_accepted(value: float, answers: Answers) -> bool:
+    """Whether a difference [%] follows from a kV_theory that is right."""
+    variant, theirs = answers.variant, _own_theory(answers)
+    known = (*variant.theories, *((theirs,) if variant.right(theirs) else ()))
+    return any(_near(value, variant.percent(one), variant) for one in known)
 
 
 def _shown(percent: float) -> str:
@@ -167,8 +178,13 @@ def verdict(answers: Answers) -> None:
     right = answers.variant.verdict
     theirs = _own_difference(answers)
     sound = theirs is not None and (theirs < 0.0) == (right == "bookkeeping")
+    off = theirs is not None and not any(_is_accepted(one, answers) for one in (theirs, -theirs))
 
     def why(found: str) -> tuple[str, str]:
+        if off and theirs is not None and found == find_verdict(theirs):
+            first = "it" if answers.variant.right(_own_theory(answers)) else "kV_theory"
+            says = "your verdict fits your difference, but your difference is not right yet."
+            return f"{says} Correct {first} first", ""
         if right == "bookkeeping":
             says = "can a mechanism be faster than its motor's free speed allows?"
             more = "Your difference is below zero: which line of the table in the README is that?"

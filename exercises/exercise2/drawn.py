@@ -31,7 +31,7 @@ BUILT = {  # kind -> motors, how many, ratios, diameters [m]
 }
 CAUSES = ("none", "ratio", "radius", "voltage", "belt")
 FREE_DRAG = (0.035, 0.06)  # [share] that grease and seals cost a sound mechanism
-BAD_DRAG = (0.26, 0.36)  # [share] of what is tight or dry
+BAD_DRAG = (0.26, 0.36)  # [share] of what drags or is dry
 TIRED = (10.7, 11.1)  # [V] of a battery that a duty cycle passes on
 FRICTION = {"fine": (0.12, 0.38), "watch": (0.55, 0.85), "stop": (1.15, 1.35)}  # [V], [kV·speed]
 SPEED = (2.2, 3.4)  # [V] that the typical speed takes
@@ -41,7 +41,7 @@ CLEAR = 0.7  # [%] from a verdict's bound, whichever theory is taken
 APART = 0.045  # [share] two slips, and a slip and the key, are apart
 STIFF = "hard to turn by hand, slowly and fast alike; nothing gets hot"  # friction of kS, not of kV
 BRAKING = {
-    "tight-belt": "a belt is as tight as a guitar string",
+    "dragging-belt": "a belt drags over its cover: easy to turn slowly, hard to turn fast",
     "dry-bearing": "a bearing is dry and whistles",
 }
 MOST_DRAWS = 2000  # a few are enough; so many would be our fault

@@ -18,13 +18,13 @@ KINDS = {  # word -> where to look for it; "" cannot move kV
     "motor-type": "units",
     "logged-voltage": "electrical",
     "unpowered-motor": "electrical",
-    "tight-belt": "mechanical",
+    "dragging-belt": "mechanical",
     "dry-bearing": "mechanical",
     "mass": "",
     "constant-friction": "",
     "sensor-noise": "",
 }
-BRAKES = ("tight-belt", "dry-bearing")
+BRAKES = ("dragging-belt", "dry-bearing")
 RULED_OUT_BY = {  # cause -> what the student's file says about it
     "gear-ratio": "ratio",
     "wheel-size": "radius",

@@ -83,8 +83,10 @@ RECIPES = (
         0.01,
         0.7,
         without="quasistatic-forward",
-        note="Its quasistatic-forward test is missing. The other three are enough: use them all",
-        misconception="M-REVERSE-WASTE",
+        note=(
+            "Its quasistatic-forward test is missing. The other three are enough: use them all; "
+            "loop over the tests that the log has"
+        ),
     ),
 )
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from sim.cli.options import FILE, as_json, read_logs_together, reading_options
+from sim.core.doubt import SHOWN_FIRST
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ def _show(found: "Inspection", *, title: str, runs: int) -> None:
 
 def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
     """The doubts that there is room for, grave ones first, and how many are left out."""
-    ordered = sorted(doubts, key=lambda doubt: not doubt.grave)
+    ordered = sorted(doubts, key=lambda doubt: (not doubt.grave, doubt.code not in SHOWN_FIRST))
     shown = []
     for doubt in ordered:
         text = click.wrap_text(f"warning: {doubt.message}", width=WIDTH, subsequent_indent=" " * 9)

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+SHOWN_FIRST = frozenset({"contradicting-units"})  # codes: what follows depends on their answer
+
 
 @dataclass(frozen=True)
 class Doubt:

@@ -86,7 +86,8 @@ def add_everyday_effects(
     for name, sd in priors.items():
         known = structure.parameters[name]
         shape = known.neutral > 0.0  # how it looks, not how large it is
-        values[name] = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
+        size = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
+        values[name] = min(max(size, known.least), known.most)
     extended = replace(problem, priors=priors)
     wide = extended.evaluate(structure, values, point.nuisance, point.process_noise)
     if first == 0.0:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
+from sim.core.doubt import SHOWN_FIRST
 from sim.core.log import Log
 from sim.core.units import Unit, find_unit
 from sim.feedback import Preset
@@ -41,6 +42,8 @@ def show_fit(
     for doubt in doubts:
         if doubt.grave:
             console.print(f"wrong: {doubt.message}", style="bold")
+        elif doubt.code in SHOWN_FIRST:
+            console.print(f"warning: {doubt.message}", style="bold")
     console.print(f"Verdict: {write_gain_verdict(found, log)}", style="bold")
     console.print(f"{title}: {found.type} mechanism in {per.name}, method {found.method}")
     rows = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -66,7 +69,7 @@ def show_fit(
     for note in notes:
         console.print(note)
     for doubt in doubts:
-        if not doubt.grave:
+        if not doubt.grave and doubt.code not in SHOWN_FIRST:
             console.print(f"warning: {doubt.message}", style="bold")
 
 

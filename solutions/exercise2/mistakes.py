@@ -30,7 +30,7 @@ def wires_first(text: str) -> str:
     sound = 'verdict = "ok"' in text
     found = re.search(r'^inspection = .*?"(.+?)"', text, re.MULTILINE)
     first = found[1] if found else ""
-    words = ("tight-belt", "gear-ratio") if sound else ("velocity-unit", first, "motor-type")
+    words = ("dragging-belt", "gear-ratio") if sound else ("velocity-unit", first, "motor-type")
     return causes(*words)(text)
 
 

@@ -58,7 +58,7 @@ def _causes(given: Mapping[str, Any], *, below: bool) -> list[str]:
     if "commanded" in code["logged_voltage"]:
         return ["logged-voltage", "motor-type"]
     if "hot to touch" in mechanic:
-        return ["dry-bearing" if "bearing" in mechanic else "tight-belt", "motor-type"]
+        return ["dry-bearing" if "bearing" in mechanic else "dragging-belt", "motor-type"]
     if below:
         raise ValueError("kV is below theory, and no line of the file says why")
-    return ["gear-ratio", "logged-voltage", "tight-belt"]
+    return ["gear-ratio", "logged-voltage", "dragging-belt"]

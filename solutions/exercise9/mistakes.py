@@ -175,7 +175,6 @@ MISTAKES = (
         ),
         "function",
         "4 of 5 logs right; drivetrain, every 0.01 s",
-        "M-REVERSE-WASTE",
     ),
     Mistake(
         "differences taken for slopes",

@@ -82,6 +82,7 @@ ARITHMETIC = frozenset({"+", "-", "*", "/", "%"})
 PLAIN_NUMBERS = frozenset(
     {"in", "getValueAsDouble", "baseUnitMagnitude", "magnitude", "getAsDouble"}
 )
+SHARES = frozenset({"get", "getThrottle"})  # numbers, also of a TalonFX
 KEEPS = re.compile(r"mut_?\w+|plus|minus|copy|mutableCopy|unaryMinus|negate")
 
 
@@ -342,7 +343,8 @@ def _of_device(target: Member, scope: Scope, names: SymbolTable) -> str:
     device, type_ = find_device(target.owner, scope, names)
     if not device or not find_quantity(target.name, motor=is_motor(type_)):
         return ""
-    return SIGNAL if ROTATIONS.fullmatch(type_) else NUMBER
+    gives_signal = ROTATIONS.fullmatch(type_) and target.name not in SHARES
+    return SIGNAL if gives_signal else NUMBER
 
 
 def _of_measure(target: Member, scope: Scope, names: SymbolTable, depth: int) -> str:

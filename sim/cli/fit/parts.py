@@ -138,11 +138,13 @@ def _kind(parts: Parts, files: int) -> str:
 
 
 def _explained(refusal: Refusal, log: "Log") -> Refusal:
-    """The refusal of a log, with the advice about its velocity if that cannot be right."""
+    """The refusal of a log, with the advice about its units or velocity if they are doubted."""
     for doubt in log.doubts:
-        if doubt.code == "velocity-scale":
+        if doubt.code in {"velocity-scale", "contradicting-units"}:
             advice = doubt.message.removeprefix(f"{log.source}: ")
-            return refusal.__class__(refusal.what, where=refusal.where, advice=advice.capitalize())
+            return refusal.__class__(
+                refusal.what, where=refusal.where, advice=f"{advice[:1].upper()}{advice[1:]}"
+            )
     return refusal
 
 

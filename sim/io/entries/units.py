@@ -187,6 +187,21 @@ def choose_scale(signals: Mapping[str, Entry], *, options: ReadOptions, where: s
             code, what = problem
             name = signals[signal].name
             doubts.append(Doubt(code, f"{where}: the unit of {name!r} {what}"))
+    others = [
+        (found.units, signals[name].name)
+        for name in ("position", "velocity")
+        if (found := said.get(name)) and found.units != units
+    ]
+    if options.units is not None and others:
+        other, name = others[0]
+        doubts.append(
+            Doubt(
+                "contradicting-units",
+                f"{where}: the file says {other} for {name!r}, but --units says {units}, and "
+                "--units does not convert. If the file is right, the gains are wrong: "
+                "leave out --units.",
+            )
+        )
     if _RATE.search(signals["voltage"].name):
         doubts.append(_rate_doubt(signals["voltage"].name, where))
     if stands_in:
@@ -224,11 +239,8 @@ def _problem(
         )
     if said is None or (said.units == units and said.factor == 1.0):
         return None
-    if said.units != units and ordered:
-        return "contradicting-units", (
-            f"is {text!r}, but it was taken as {units}, as you asked. Leave out --units to follow "
-            "the file."
-        )
+    if said.units != units and ordered and units != VOLTS:
+        return None  # said once, of all signals
     return "converted-units", (
         f"is {text!r} and was converted to {units}. SysId itself does not convert: there, log all "
         "signals in one unit, and velocities per second."

@@ -94,8 +94,8 @@ def _units(
     if options.units:
         doubt = Doubt(
             "contradicting-units",
-            f"{where} says its positions are in {found}; they are taken as {options.units}, as you "
-            "asked. Leave out the units to follow the file.",
+            f"{where}: the file says {found}, but --units says {options.units}, and --units does "
+            "not convert. If the file is right, the gains are wrong: leave out --units.",
         )
         return options.units, (doubt,) if found is not None and known != options.units else ()
     if found is None:
