@@ -1,5 +1,6 @@
 """What ``sysid inspect`` prints: a paragraph for each kind of fault, and nothing that misleads."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.inspect import LINES
 from sim.cli.inspect import inspect as command
+from sim.core.errors import BadRequest
 from sim.core.log import Log
 from sim.inspect.contaminate import contaminate
 from sim.inspect.detect_faults import inspect
@@ -219,3 +221,70 @@ def test_a_drivetrain_that_cannot_be_is_in_another_unit(scale, words):
     assert (fault.fault, fault.where.run) == ("unit-error", None)
     assert words in fault.evidence
     assert inspect(replace(log, mechanism="shooter")).is_clean
+
+
+# Several files
+
+
+def inspected(folder, *options, **logs):
+    """What the command prints about some logs, each in a file of its own."""
+    for name, log in logs.items():
+        write(log, folder / f"{name}.wpilog")
+    files = [str(folder / f"{name}.wpilog") for name in logs]
+    shown = CliRunner().invoke(command, [*files, *options], standalone_mode=False)
+    return shown.return_value, shown.output
+
+
+@pytest.mark.parametrize("fault", ["unit-error", "encoder-slip", "sign-flip"])
+def test_each_of_several_files_has_the_faults_that_it_has_alone(fault, tmp_path):
+    bad = contaminate(bench(), fault, rng=np.random.default_rng(1)).log
+    _, alone = inspected(tmp_path, "--json", bad=bad)
+    _, others = inspected(tmp_path, "--json", first=bench(seed=1), bad=bad, last=bench(seed=2))
+
+    def listed(text, offset):
+        return [
+            (one["fault"], one["run"] + offset, one["start_s"], one["confidence"])
+            for one in json.loads(text)["faults"]
+        ]
+
+    assert listed(alone, 4) == listed(others, 0) != []
+
+
+def test_which_runs_are_of_which_file_is_said(tmp_path):
+    bad = contaminate(bench(), "encoder-slip", rng=np.random.default_rng(1)).log
+
+    _, said = inspected(tmp_path, first=bench(seed=1), bad=bad)
+
+    flat = "".join(said.split())
+    assert "Runs0to3:" in flat
+    assert "first.wpilog;runs4to7:" in flat
+
+
+def test_files_with_one_test_each_are_one_log(tmp_path):
+    log = bench()
+    parts = {run.test: replace(log, runs=(run,)) for run in log.runs}
+    code, said = inspected(tmp_path, **parts)
+    assert code == 0, said
+
+    parts.pop("dynamic-reverse")
+    _, said = inspected(tmp_path, **parts)
+    assert said.count("missing-test") == 1
+    assert "missing-test: dynamic-reverse" in said
+
+
+def test_a_test_that_another_file_holds_is_not_missing(tmp_path):
+    log = bench()
+
+    code, said = inspected(
+        tmp_path, three=replace(log, runs=log.runs[:3]), one=replace(log, runs=log.runs[3:])
+    )
+
+    assert code == 0, said
+
+
+def test_a_file_that_is_given_twice_is_refused(tmp_path):
+    write(bench(), tmp_path / "log.wpilog")
+    path = str(tmp_path / "log.wpilog")
+
+    with pytest.raises(BadRequest, match=r"log\.wpilog: this file is given twice"):
+        CliRunner().invoke(command, [path, path], standalone_mode=False, catch_exceptions=False)

@@ -100,6 +100,17 @@ def test_noise_in_a_column_of_accelerations_makes_ka_too_small(reads):
     assert means[-1] < 0.3
 
 
+def test_noise_makes_the_ka_of_sysids_regression_too_large():
+    means = [
+        np.mean([share(recorded(velocity_noise=noise, seed=seed)) for seed in range(4)])
+        for noise in (0.005, 0.02, 0.04)  # [m/s]
+    ]
+
+    assert means[0] == pytest.approx(1.0, abs=0.03)
+    assert means == sorted(means)
+    assert means[-1] > 1.5
+
+
 def test_a_heavier_robot_needs_more_ka_and_no_more_ks_by_itself(reads):
     reads(MISCONCEPTIONS["M-HEAVIER-MORE-KS"].says)
 

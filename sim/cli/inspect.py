@@ -1,17 +1,18 @@
 """``sysid inspect``."""
 
 import json
+from itertools import accumulate
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from sim.cli.options import FILE, as_json, read_logs_together, reading_options
+from sim.cli.options import FILE, as_json, read_each_log, reading_options
 from sim.core.doubt import SHOWN_FIRST
 from sim.support.command_line import DONE, NOT_RIGHT
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from sim.core.doubt import Doubt
     from sim.inspect.detect_faults import Inspection
@@ -47,24 +48,34 @@ def inspect(
     Exit code 0 means that no fault was found; 1 that there is a fault, or that the log could not
     be checked.
     """
-    from sim.inspect.detect_faults import inspect as look  # noqa: PLC0415 - --help must not wait for it
+    from sim.inspect.detect_faults import inspect_together  # noqa: PLC0415 - --help must not wait for it
 
-    log = read_logs_together(files, units=units, type=type_, motor=motor, entries=entries)
-    found = look(log)
+    logs = read_each_log(files, units=units, type=type_, motor=motor, entries=entries)
+    found = inspect_together(logs)
     if as_json:
         click.echo(json.dumps(found.to_json(), allow_nan=False))
     else:
-        _show(found, title=", ".join(str(file) for file in files), runs=len(log.runs))
+        _show(found, runs={str(file): len(log.runs) for file, log in zip(files, logs, strict=True)})
     return DONE if found.is_clean else NOT_RIGHT
 
 
-def _show(found: "Inspection", *, title: str, runs: int) -> None:
-    """One paragraph for each kind of fault, the worst first; then the doubts, on one screen."""
+def _show(found: "Inspection", *, runs: "Mapping[str, int]") -> None:
+    """One paragraph for each kind of fault, the worst first; then the doubts, on one screen.
+
+    Args:
+        found: what to show.
+        runs: name of each file -> how many runs it has.
+    """
     kinds = found.group_by_kind()
     count = len(kinds)
     said = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
-    click.echo(f"{title}: {runs} run{'s' * (runs != 1)}, {said}.")
+    total = sum(runs.values())
+    click.echo(f"{', '.join(runs)}: {total} run{'s' * (total != 1)}, {said}.")
     room = LINES - 2  # the title, and the sentence about what is left out
+    if count and len(runs) > 1:
+        lines = click.wrap_text(_name_runs(runs), width=WIDTH).splitlines()
+        click.echo("\n".join(lines))
+        room -= len(lines)
     for left, kind in zip(range(count - 1, -1, -1), kinds, strict=True):
         head, *body = _paragraph(kind)
         if 2 + len(body) + 2 * left > room:
@@ -75,6 +86,17 @@ def _show(found: "Inspection", *, title: str, runs: int) -> None:
             click.echo(line)
         room -= 2 + len(body)
     _show_doubts(found.doubts, room=room, cut=any(len(kind) > PLACES for kind in kinds))
+
+
+def _name_runs(runs: "Mapping[str, int]") -> str:
+    """Which runs are of which file, as ``Runs 0 to 3: a.wpilog; runs 4 to 7: b.wpilog``."""
+    ends = list(accumulate(runs.values()))
+    parts = [
+        f"runs {end - count} to {end - 1}: {name}" if count > 1 else f"run {end - 1}: {name}"
+        for (name, count), end in zip(runs.items(), ends, strict=True)
+    ]
+    text = "; ".join(parts)
+    return f"{text[:1].upper()}{text[1:]}."
 
 
 def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:

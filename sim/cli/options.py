@@ -118,6 +118,19 @@ def refuse_overwriting(*outputs: Path | None, inputs: Iterable[Path | None] = ()
         written.append(path)
 
 
+def refuse_duplicates(files: Sequence[Path]) -> None:
+    """Refuse a file that is given twice: its samples would count twice.
+
+    Raises:
+        BadRequest: two of them are the same file.
+    """
+    for index, file in enumerate(files):
+        if any(_is_same_file(file, other) for other in files[:index]):
+            raise BadRequest(
+                "this file is given twice", where=str(file), advice="Name each file once."
+            )
+
+
 def _is_same_file(one: Path, other: Path) -> bool:
     """Whether two paths lead to one file, also through links."""
     try:
@@ -126,15 +139,31 @@ def _is_same_file(one: Path, other: Path) -> bool:
         return one.resolve() == other.resolve()
 
 
-def read_logs_together(
+def read_logs_together(files: Iterable[Path], **how: Any) -> "Log":  # noqa: ANN401 - passed on
+    """Read the files of one mechanism as one log.
+
+    Args:
+        files: in any format.
+        how: as ``read_each_log`` takes it.
+
+    Raises:
+        Refusal: as ``read_each_log``, or one file measures a length and another an angle.
+    """
+    first, *more = read_each_log(files, **how)
+    for log in more:
+        first = first.join(log)
+    return first
+
+
+def read_each_log(
     files: Iterable[Path],
     *,
     units: str | None,
     type: str | None,  # noqa: A002 - the field's own word
     motor: str | None,
     entries: Mapping[str, str | None],
-) -> "Log":
-    """Read the files of one mechanism as one log.
+) -> "list[Log]":
+    """Read the files of one mechanism, each as a log.
 
     Args:
         files: in any format.
@@ -144,17 +173,13 @@ def read_logs_together(
         entries: signal -> name of its entry; None looks for it.
 
     Raises:
-        Refusal: a file cannot be read, or one measures a length and another an angle.
+        Refusal: a file cannot be read, or is given twice.
     """
     from sim.io import read  # noqa: PLC0415 - --help must not wait for it
 
     named = {signal: entry for signal, entry in entries.items() if entry}
-    first, *more = [
-        read(file, units=units, type=type, motor=motor, entries=named) for file in files
-    ]
-    for log in more:
-        first = first.join(log)
-    return first
+    refuse_duplicates(files := tuple(files))
+    return [read(file, units=units, type=type, motor=motor, entries=named) for file in files]
 
 
 @dataclass(frozen=True)
@@ -181,10 +206,12 @@ class PartReader:
         """The logs in all files, by the name of the mechanism, side or motor.
 
         Raises:
-            Refusal: a file cannot be read, or one measures a length and another an angle.
+            Refusal: a file cannot be read or is given twice, or one measures a length and another
+                an angle.
         """
         from sim.cli.fit.parts import list_parts  # noqa: PLC0415 - only for a fit
 
+        refuse_duplicates(files)
         return list_parts([(file, self.read_file(file)) for file in files])
 
     def read_file(self, file: Path) -> "dict[str, Log]":

@@ -199,6 +199,11 @@ class Log:
         """[m/s or rad/s] top speed of its fastest run; 0 without runs."""
         return max((run.top_speed for run in self.runs), default=0.0)
 
+    @property
+    def has_both_kinds(self) -> bool:
+        """Whether it holds quasistatic and dynamic tests, so that it can be fitted alone."""
+        return {run.kind for run in self.runs} >= {"quasistatic", "dynamic"}
+
     def list_runs_of_test(self, test: str) -> tuple[Run, ...]:
         """All runs of one test, in order; empty if it was not recorded."""
         return tuple(run for run in self.runs if run.test == test)

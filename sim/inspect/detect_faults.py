@@ -7,8 +7,8 @@ one that explains more of it is kept: damage at one moment has one cause.
 """
 
 import math
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -108,6 +108,69 @@ def inspect(log: Log) -> Inspection:
         found = [damage for fault in FAULTS.values() for damage in _run_detector(fault, features)]
         damages = tuple(sorted(_drop_explained(found), key=_start_of))
         return Inspection(damages, (*log.doubts, *_ordinary(damages), *diagnose_log(features)))
+
+
+def inspect_together(logs: Sequence[Log]) -> Inspection:
+    """Look for every known fault in several logs of one mechanism.
+
+    A log with tests of both kinds is inspected alone, since its gains and its faults are its own.
+    Logs that hold a part of the tests are inspected together with all others. Which tests are
+    missing is asked of all logs together.
+
+    Args:
+        logs: at least one; runs are counted through all of them.
+
+    Raises:
+        BadRequest: one measures a length, the other an angle.
+    """
+    first, *others = logs
+    if not others:
+        return inspect(first)
+    joined = first
+    for log in others:
+        joined = joined.join(log)
+    together = inspect(joined)
+    damages = [one for one in together.damages if _is_absence(one)]
+    doubts: dict[Doubt, list[str]] = {}  # without the name of a file -> of which files
+    offset = 0
+    for log in logs:
+        runs = range(offset, offset + len(log.runs))
+        if log.has_both_kinds:
+            alone = inspect(log)
+            damages += [_of_file(one, log, offset) for one in alone.damages if not _is_absence(one)]
+            for doubt in alone.doubts:
+                message = doubt.message.removeprefix(f"{log.source}: ")
+                doubts.setdefault(replace(doubt, message=message), []).append(log.source)
+        else:
+            damages += [one for one in together.damages if one.where.run in runs]
+        offset = runs.stop
+    if not any(log.has_both_kinds for log in logs):
+        damages += [
+            one for one in together.damages if one.where.run is None and not _is_absence(one)
+        ]
+    if not all(log.has_both_kinds for log in logs):
+        doubts |= {doubt: [] for doubt in together.doubts}
+    named = tuple(_name_files(doubt, sources) for doubt, sources in doubts.items())
+    return Inspection(tuple(sorted(damages, key=_start_of)), named)
+
+
+def _name_files(doubt: Doubt, sources: Iterable[str]) -> Doubt:
+    """A doubt that begins with the files it is about."""
+    files = ", ".join(filter(None, sources))
+    return replace(doubt, message=f"{files}: {doubt.message}") if files else doubt
+
+
+def _is_absence(damage: Damage) -> bool:
+    """Whether a damage is that a test is not in the log."""
+    return damage.where.run is None and bool(damage.where.test)
+
+
+def _of_file(damage: Damage, log: Log, offset: int) -> Damage:
+    """A damage of one log, as one of several: with its run's number among all runs."""
+    if damage.where.run is None:
+        evidence = f"{log.source}: {damage.evidence}" if log.source else damage.evidence
+        return replace(damage, evidence=evidence)
+    return replace(damage, where=replace(damage.where, run=damage.where.run + offset))
 
 
 def _ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:

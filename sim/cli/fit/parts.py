@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from sim.core.doubt import Doubt
 from sim.core.errors import Refusal
-from sim.core.vocabulary import FOUR_TESTS
 
 if TYPE_CHECKING:
     from sim.core.log import Log
@@ -33,7 +32,7 @@ def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     """
     if len(logs) == 1:
         return logs[0][1]
-    if all(_whole(log) for _, motors in logs for log in motors.values()):
+    if all(log.has_both_kinds for _, motors in logs for log in motors.values()):
         stems = [path.stem for path, _ in logs]
         unique = len(set(stems)) == len(stems)
         return {
@@ -146,11 +145,6 @@ def _explained(refusal: Refusal, log: "Log") -> Refusal:
                 refusal.what, where=refusal.where, advice=f"{advice[:1].upper()}{advice[1:]}"
             )
     return refusal
-
-
-def _whole(log: "Log") -> bool:
-    """Whether a log holds tests of both kinds, so that it can be fitted alone."""
-    return {run.kind for run in log.runs} >= {test.rpartition("-")[0] for test in FOUR_TESTS}
 
 
 def _agree(fits: Mapping[str, "Fit"], kind: str) -> str:
