@@ -787,8 +787,8 @@ quick
 #
 # <details><summary>Answer</summary>
 #
-# No, although the gauge says "fine": kS has more than doubled in a week. Compare it with the kS of
-# the right side, and look for the part that rubs.
+# No, although 0.40 V is below both limits of section 7: kS has more than doubled in a week. Compare
+# it with the kS of the right side, and look for the part that rubs.
 # </details>
 #
 # **6.** An intake has τ = 15 ms, and the robot logs every 20 ms. What does that mean for kA?

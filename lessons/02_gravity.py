@@ -158,8 +158,8 @@ print(
 #
 # - In a **cascade**, a lower stage moves, too, at half the carriage's speed: kG/kA is between g and
 #   2·g. (g is the acceleration of gravity.)
-# - A **counterweight** on the other end of the rope adds inertia and takes away weight: the motor
-#   accelerates more mass, but lifts less weight. So kG/kA is below g.
+# - A **counterweight** on the other end of the rope adds mass that must be accelerated, and takes
+#   away weight: the motor accelerates more mass, but lifts less weight. So kG/kA is below g.
 #
 # <details><summary>Want to know why?</summary>
 #
@@ -710,7 +710,7 @@ Table(("log", "kS ± [V]", "kG ± [V]"), tuple(rows), caption="± is one standar
 # > ([sysid issue 492](https://github.com/wpilibsuite/sysid/issues/492))
 # >
 # > **Try it:** look at the table. For the simulated arm, the maintainer is roughly right. For the
-# > elevator he is wrong: only downward tests separate kS from kG.
+# > elevator this is wrong: only downward tests separate kS from kG.
 # </details>
 
 # %%

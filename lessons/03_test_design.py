@@ -463,8 +463,9 @@ guess_lean = Prediction(
 guess_lean
 
 # %%
-lean = Part("asymmetric-friction", {"lean": -0.15})
-uneven = replace(drivetrain, friction=0.30, hidden=(lean,))  # 0.15 V forward, 0.45 V in reverse
+LEAN = -0.15  # [V] on top of 0.30 V: 0.15 V forward, 0.45 V in reverse
+lean = Part("asymmetric-friction", {"lean": LEAN})
+uneven = replace(drivetrain, friction=0.30, hidden=(lean,))
 uneven_log = simulate(uneven, routine, rng=np.random.default_rng(1))
 rows = []
 for way in ("forward", "reverse"):
@@ -474,7 +475,7 @@ for way in ("forward", "reverse"):
 both = fit(uneven_log, method="sysid")
 gains = (both.gains[name] for name in truth)
 rows.append(("all four, SysId's recipe", *gains, both.simulated_velocity_r2))
-rows.append(("truth", "0.15 and 0.45", truth["kV"], truth["kA"], "–"))
+rows.append(("truth", f"{0.30 + LEAN:.2f} and {0.30 - LEAN:.2f}", truth["kV"], truth["kA"], "–"))
 print(guess_lean.reveal("kA"))
 Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²"), tuple(rows))
 
@@ -505,8 +506,8 @@ Table(("runs", "kS [V]", "kV [V·s/m]", "kA [V·s²/m]", "simulated velocity R²
 # > commit](https://github.com/wpilibsuite/allwpilib/blob/79096e63a005e096b2acd4774a8ab145058c24c0/sysid/src/main/native/cpp/view/DataSelector.cpp)).
 # >
 # > **Try it:** look at the row "forward only" in section 4's table. For a *symmetric* drivetrain it
-# > is fine. Now set `lean` to 0 in the code above: do you get the same rows as in the
-# > table of this section?
+# > is fine. Now set `LEAN` to 0 in the code above, and run it again: does each row of this
+# > section's table now show about the same gains?
 # </details>
 
 # %% [markdown]
@@ -710,8 +711,9 @@ Table(
 # ## 9 Plan your tests
 #
 # Now plan a ramp test and a step test for the drivetrain. You let go of the button 0.3 s after the
-# robot passes the mark. Above the picture you see five rules: four rules of exercise 6, and the
-# current limit. Find a plan that follows all five rules in a room of 4 m. Then try a room of 2.5 m.
+# robot passes the mark. Above the picture you see five of the seven rules of exercise 6. (The rule
+# for the smallest step is in section 7.) Find a plan that follows all five rules in a room of 4 m.
+# Then try a room of 2.5 m.
 #
 # **Choose your current limit first.** It protects the motors and the battery. If a step is too
 # large, the limit reduces the voltage at the start. So set the current limit that you will use in a

@@ -713,7 +713,8 @@ print(f"   The lowest simulated velocity R² of all seven programs is {worst:.3f
 # sysid fit FRC_20260214_153000.wpilog --method sysid
 # ```
 #
-# The analysis type is `simple` unless you add `--type elevator` or `--type arm`. When WPILib's
+# `sysid fit` takes the analysis type from the mechanism's name: if *elevator* or *arm* is a word of
+# it, this is the type, otherwise the type is `simple`. `--type` chooses another one. When WPILib's
 # SysId window opens, the type *Elevator* is selected, so check its menu.
 #
 # <details><summary>For mentors: where the log is</summary>

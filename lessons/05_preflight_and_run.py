@@ -200,7 +200,10 @@ print(f"and {lifted['kA'] / TRUTH['kA']:.2f} times the true kA.")
 
 # %% [markdown]
 # Here kV is almost right (a real robot also has less friction on blocks). But kA on blocks only
-# describes wheels and motors. So test on the floor, and compute the space you need.
+# describes wheels and motors. It is not exactly a tenth: on blocks, kA/kV is only 8 ms. That is
+# less than one row of the log, so the fit cannot measure kA well (lesson 1, section 6).
+#
+# So test on the floor, and compute the space you need.
 
 # %% [markdown]
 # ## 3 Doing it: the runway

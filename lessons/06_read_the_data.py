@@ -178,7 +178,8 @@ print(f", {slope[later] / slope[early]:.0%} of it")
 #
 # A *fault* is something that makes a log wrong: it *contaminates* the log. The table lists four
 # classic faults, five more that are common on real robots, and four that are easy to see. Exercise
-# 7 and `sysid inspect` use the same names.
+# 7 and `sysid inspect` use the same names, with a hyphen: `encoder-slip`. Only *velocity filter*
+# and *current limit* are not among theirs: `sysid effects` lists these two.
 #
 # | fault | what happened | what to do |
 # |---|---|---|
@@ -679,7 +680,10 @@ best = max(wrong, key=lambda case: case.fit.acceleration_r2)
 print(guess_count.reveal("nearly all"))
 print(guess_robust.reveal("kA"))
 print(f"{len(passing)} of {len(wrong)} wrong logs have a {SIM} above {GOOD:g}.")
-print("Half of these logs have larger errors than these:", end=" ")
+print(
+    f"In half of the {len(damage)} wrong logs without a changed unit, the errors are larger than",
+    end=" ",
+)
 print(", ".join(f"{gain} {100 * size:.1f} %" for gain, size in typical.items()))
 print(f"The highest {ACC} of a wrong log: {best.fit.acceleration_r2:.2f} ({best.name}).")
 
@@ -833,9 +837,9 @@ quick
 # tight bearing. (It was encoder slip only if the position, a second sensor or the current shows
 # that the mechanism did *not* move.) The few samples of the jump matter a lot, because a fit
 # squares the errors: an error that is three times as large counts nine times as much. So kS is too
-# small or negative, kA is too large, kV hardly changes, and R² stays above 0.9. Find the log
-# "sudden jump" in the table of section 5. Fix the mechanism and run again. A median filter or
-# trimming helps less.
+# small or negative, kA is too large, kV hardly changes, and the simulated velocity R² stays above
+# 0.9. Find the log "sudden jump" in the table of section 5. Fix the mechanism and run again. A
+# median filter or trimming helps less.
 # </details>
 #
 # **3.** "All our R² are above 0.97, so the gains are fine." What do you ask?

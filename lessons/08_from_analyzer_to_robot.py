@@ -828,8 +828,9 @@ Table(
 # measure **with and without** the piece (or compute the second kG), and switch the gains when a
 # sensor detects the piece.
 #
-# With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF and
-# the gears. The next cell makes our elevator's carriage 1.5 times as heavy:
+# With the load, kA and kG grow. kV stays the same, because it comes from the motor's back-EMF (the
+# voltage that a turning motor produces) and the gears. The next cell makes our elevator's carriage
+# 1.5 times as heavy:
 #
 # <details><summary>For mentors: which gains change with the load?</summary>
 #

@@ -33,9 +33,10 @@
 #
 # > V = kS·sgn(v) + kV·v + kA·a
 #
-# This model contains dry friction, back-EMF and inertia, and nothing else. On a real robot, the
-# battery voltage drops, grease sticks, or a sensor is late. Each of these is called an **effect**.
-# WPILib's docs say that this model "is not perfect", but usually good enough.
+# This model contains dry friction, *back-EMF* (the voltage that a turning motor produces) and
+# inertia. On a real robot, the battery voltage drops, grease sticks, or a sensor is late. Each of
+# these is called an **effect**. WPILib's docs say that this model "is not perfect", but usually
+# good enough.
 #
 # <details><summary>For mentors: do the gains describe the real robot?</summary>
 #
@@ -753,8 +754,8 @@ quick
 # wheel, noise.)
 # </details>
 #
-# **3.** You add "cogging" and the gap on your log falls from 1.3 to 1.1. The gap on the validation
-# log rises from 1.4 to 1.6. Do you keep this effect?
+# **3.** You add "cogging" (magnets pull the rotor), and the gap on your log falls from 1.3 to 1.1.
+# The gap on the validation log rises from 1.4 to 1.6. Do you keep this effect?
 #
 # <details><summary>Answer</summary>
 #

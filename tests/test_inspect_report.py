@@ -288,3 +288,21 @@ def test_a_file_that_is_given_twice_is_refused(tmp_path):
 
     with pytest.raises(BadRequest, match=r"log\.wpilog: this file is given twice"):
         CliRunner().invoke(command, [path, path], standalone_mode=False, catch_exceptions=False)
+
+
+# One wild reading
+
+
+@pytest.mark.parametrize(("samples", "words"), [(1, "a single sample"), (2, "2 samples")])
+def test_a_wild_reading_is_not_told_as_a_slip(samples, words):
+    log = bench()
+    first = log.runs[0]
+    velocity = first.velocity.copy()
+    velocity[len(first) // 2 : len(first) // 2 + samples] *= 0.3
+    found = inspect(replace(log, runs=(replace(first, velocity=velocity), *log.runs[1:])))
+
+    (damage,) = found.faults
+    assert f"For {words}, the velocity in the log is 70% too low" in damage.evidence
+    assert "wild reading" in damage.evidence
+    assert "shaft" not in damage.evidence + damage.advice
+    assert f"--median {2 * samples + 1}" in damage.advice

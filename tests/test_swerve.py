@@ -231,15 +231,18 @@ def test_half_the_trackwidth_reads_five_as_three_and_a_half():
 
     assert (right.value, right.doubts) == (pytest.approx(5.0, rel=0.01), ())
     assert wrong.value == pytest.approx(3.54, abs=0.03)
-    assert "half the trackwidth was given, a tank's lever" in wrong.doubts[0].message
+    said = wrong.doubts[0].message
+    assert said.startswith("kV turning / kV straight is the lever: your logs give 0.42")
+    assert "but you gave 0.3 m. Probably you gave half the trackwidth T" in said
+    assert said.endswith("Give T/√2 for a square swerve.")
     assert wrong.doubts[0].grave
 
 
 @pytest.mark.parametrize(
     ("times", "says"),
     [
-        (1 / math.sqrt(2), "half the trackwidth was given"),
-        (math.sqrt(2), "the trackwidth was given; a square swerve's lever is T/√2"),
+        (1 / math.sqrt(2), "you gave half the trackwidth T"),
+        (math.sqrt(2), "you gave the trackwidth T. Give T/√2 for a square swerve"),
         (1 / 2 / math.pi, "rotations read as radians"),
         (180 / math.pi, "degrees read as radians"),
         (1.3, "the lever, the wheel's radius or a unit is wrong"),

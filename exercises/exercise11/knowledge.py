@@ -78,9 +78,9 @@ CHECKS = (
                 "M-REVERSE-WASTE",
             ),
             Option(
-                "R² falls below 0.9, so you cannot overlook it.",
-                "With a jump like this, the simulated velocity R² stays above 0.9. So look at "
-                "the plots first, and at R² last",
+                "The simulated velocity R² falls below 0.9, so you cannot overlook it.",
+                "With a jump like this, it stays above 0.9. So look at the plots first, and at R² "
+                "last",
                 "M-R2",
             ),
         ),

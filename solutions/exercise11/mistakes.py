@@ -65,7 +65,7 @@ MISTAKES = (
     chose("KC1_answer", "The log has a gap", "time stamps"),
     chose("KC1_answer", "The mechanism hit", "stays there"),
     chose("KC1_reason", "Almost nothing", "squares the errors", "M-NOISE-AVERAGES"),
-    chose("KC1_reason", "R² falls", "stays above 0.9", "M-R2"),
+    chose("KC1_reason", "The simulated velocity R² falls", "stays above 0.9", "M-R2"),
     chose(
         "KC1_reason", "Nothing, once", "SysId cannot use a log without that run", "M-REVERSE-WASTE"
     ),

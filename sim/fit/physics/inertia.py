@@ -29,9 +29,12 @@ from sim.fit.result import Fit
 ROTORS = 0.03, 0.10  # [share of the mass] that rotors and wheels are worth, as in parts.py
 NEAR = 0.06  # [share] by which the lever that the speeds tell may differ from the one given
 MISTAKEN = (
-    (math.sqrt(2.0), "half the trackwidth was given, a tank's lever; a square swerve's is T/√2"),
-    (1.0 / math.sqrt(2.0), "the trackwidth was given; a square swerve's lever is T/√2"),
-    (0.5, "the trackwidth was given; a tank's lever is half of it"),
+    (
+        math.sqrt(2.0),
+        "you gave half the trackwidth T, the lever of a tank drive. Give T/√2 for a square swerve",
+    ),
+    (1.0 / math.sqrt(2.0), "you gave the trackwidth T. Give T/√2 for a square swerve"),
+    (0.5, "you gave the trackwidth. Give half of it for a tank drive"),
     *FACTORS,
 )
 """The lever that the speeds tell over the one given, and the mistake that makes it."""
@@ -179,8 +182,8 @@ def _lever_doubts(turn: Fit, go: Fit, seen: float, lever: float) -> list[Doubt]:
     return [
         Doubt(
             "lever",
-            f"A wheel runs at R·ω, so kV of turning over kV of going straight is the lever: "
-            f"{seen:.3g} m, and {lever:.3g} m was given. Probably {cause}.",
+            f"kV turning / kV straight is the lever: your logs give {seen:.3g} m, but you gave "
+            f"{lever:.3g} m. Probably {cause}.",
             grave=True,
         )
     ]

@@ -78,17 +78,41 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             continue
         if _stands_at_its_end(features, run.position[anomaly.begin + first : anomaly.begin + last]):
             continue
+        evidence, advice = _explain(
+            abs(loss), low=loss > 0, samples=last - first, lasts=end - start
+        )
         yield Damage(
             fault="encoder-slip",
             where=LogInterval(anomaly.run, run.test, start, end),
             confidence=share,
-            evidence="From one sample to the next, the velocity in the log becomes "
-            f"{abs(loss):.0%} too {'low' if loss > 0 else 'high'}. After {end - start:.2f} s it is "
-            "right again. No motor changes its speed that fast, so the sensor slipped on "
-            "its shaft.",
-            advice="Fix the sensor to its shaft, and run this test again. Until then, cut these "
-            "seconds out.",
+            evidence=evidence,
+            advice=advice,
         )
+
+
+def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str, str]:
+    """Evidence and advice: of a slip, or of single wild readings, which move no shaft."""
+    off = f"{loss:.0%} too {'low' if low else 'high'}"
+    if samples < FEWEST:
+        some, window = ("a single sample", 3) if samples == 1 else (f"{samples} samples", 5)
+        return (
+            (
+                f"For {some}, the velocity in the log is {off}; the samples before and after are "
+                "right. This is a wild reading of the sensor, not a slip."
+            ),
+            (
+                f"Cut this reading out, or add --method sysid --median {window} to the fit. If it "
+                "happens often, check the sensor and its cable."
+            ),
+        )
+    return (
+        (
+            f"From one sample to the next, the velocity in the log becomes {off}. After {lasts:.2f} s "
+            "it is right again. No motor changes its speed that fast, so the sensor slipped on its "
+            "shaft."
+        ),
+        "Fix the sensor to its shaft, and run this test again. Until then, cut these seconds out.",
+    )
 
 
 def _stands_at_its_end(features: LogFeatures, position: Array) -> bool:
