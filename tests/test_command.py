@@ -1,5 +1,9 @@
 """The frame of both commands: what a person sees when something goes wrong, and the exit code."""
 
+import os
+import subprocess
+from dataclasses import replace
+
 import click
 import numpy as np
 import pytest
@@ -10,7 +14,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.core.errors import BadRequest
-from sim.support.command_line import run_command
+from sim.support.command_line import quote_path, run_command
 
 
 def command(outcome):
@@ -111,3 +115,92 @@ def test_no_command_overwrites_what_it_reads(arguments, tmp_path, monkeypatch, c
     assert "this would overwrite" in said.err
     assert said.err.count("\n") == 1
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [
+        ("log.wpilog", "log.wpilog"),
+        ("2026/log-1.wpilog", "2026/log-1.wpilog"),
+        ("élévateur 李.wpilog", '"élévateur 李.wpilog"'),
+        ("my log.csv", '"my log.csv"'),
+    ],
+)
+def test_a_path_that_a_shell_would_split_is_quoted(name, word):
+    assert quote_path(name) == word
+
+
+@pytest.mark.skipif(os.sep != "/", reason="what a POSIX shell reads")
+@pytest.mark.parametrize("name", ["a b", "$HOME", 'a"b', "a`b", "a\\b", "a\\$b", "it's"])
+def test_a_posix_shell_reads_a_quoted_path_as_it_was(name):
+    shown = subprocess.run(
+        ["/bin/sh", "-c", f"printf %s {quote_path(name)}"],
+        capture_output=True, encoding="utf-8", check=True, timeout=20,
+    )  # fmt: skip
+
+    assert shown.stdout == name
+
+
+def test_the_next_command_quotes_a_name_with_a_space(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    made = ["simulate", "drivetrain", "-o", "my log.csv", "--seed", "1", "--timeout", "2"]
+    damaged = ["contaminate", "my log.csv", "--fault", "missing-test@dynamic-reverse"]
+
+    assert run_command(sysid, name="sysid", arguments=made) == 0
+    assert 'Next: sysid fit "my log.csv"' in capsys.readouterr().out
+    assert run_command(sysid, name="sysid", arguments=[*damaged, "-o", "less of it.csv"]) == 0
+    said = capsys.readouterr().out
+    assert said.splitlines()[0] == "missing-test: dynamic-reverse"
+    assert 'Next: sysid inspect "less of it.csv"' in said
+
+
+@pytest.mark.parametrize("suffix", ["wpilog", "csv"])
+def test_a_number_that_no_mechanism_has_is_refused(suffix, tmp_path, capsys):
+    log = simulate(MECHANISMS["drivetrain"], Routine(timeout=2.0), rng=np.random.default_rng(1))
+    path = tmp_path / f"log.{suffix}"
+    sim.write(log, path)
+
+    assert run_command(sysid, name="sysid", arguments=["fit", str(path), "--pick", "3"]) == 2
+    said = capsys.readouterr().err
+    assert "it holds one mechanism, so there is no number 3. Leave out --pick." in said
+    assert run_command(sysid, name="sysid", arguments=["fit", str(path), "--pick", "1"]) == 0
+
+
+def change_runs(**change):
+    """A drivetrain's log with a signal times a factor."""
+    log = simulate(MECHANISMS["drivetrain"], Routine(step=3.5), rng=np.random.default_rng(1))
+    runs = (
+        replace(run, **{name: factor * getattr(run, name) for name, factor in change.items()})
+        for run in log.runs
+    )
+    return replace(log, runs=tuple(runs))
+
+
+def test_times_in_milliseconds_are_told_to_be_given_in_seconds_and_nothing_else(tmp_path, capsys):
+    path = tmp_path / "log.csv"
+    sim.write(change_runs(time=1000.0), path)
+
+    assert run_command(sysid, name="sysid", arguments=["fit", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert said.strip().endswith("Give times in seconds.")
+    assert "--velocity-scale" not in said
+    assert run_command(sysid, name="sysid", arguments=["inspect", str(path)]) == 1
+    assert capsys.readouterr().out.splitlines()[0].endswith("4 runs, not inspected.")
+
+
+@pytest.mark.parametrize(
+    ("factor", "says", "grave"),
+    [(1 / 12, "probably a duty cycle", False), (1000.0, "probably millivolts", True)],
+)
+def test_a_voltage_that_is_no_voltage_is_told_first(factor, says, grave, tmp_path, capsys):
+    path = tmp_path / "log.csv"
+    sim.write(change_runs(voltage=factor), path)
+
+    fitted = run_command(sysid, name="sysid", arguments=["fit", str(path)])
+    first = capsys.readouterr().out.partition("Verdict")[0]
+    inspected = run_command(sysid, name="sysid", arguments=["inspect", str(path)])
+    said = " ".join(capsys.readouterr().out.split())
+
+    assert says in first
+    assert says in said
+    assert (fitted, inspected) == ((1, 1) if grave else (0, 0))

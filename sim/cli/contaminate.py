@@ -11,6 +11,7 @@ from sim.cli.options import (
     reading_options,
     refuse_overwriting,
 )
+from sim.support.command_line import quote_path
 
 
 @click.command()
@@ -53,6 +54,8 @@ def contaminate(
     log, where = contaminate_all(log, asked, rng=np.random.default_rng(seed))
     write(log, output)
     for name, _, stretch in where:
-        place = f"{stretch.test} {stretch.start:.2f} to {stretch.end:.2f} s"
-        click.echo(f"{name}: {place if stretch.test else 'the whole log'}")
-    click.echo(f"{output}: written. Next: sysid inspect {output}")
+        place = stretch.test or "the whole log"
+        if stretch.run is not None and stretch.test:
+            place += f" {stretch.start:.2f} to {stretch.end:.2f} s"
+        click.echo(f"{name}: {place}")
+    click.echo(f"{output}: written. Next: sysid inspect {quote_path(output)}")

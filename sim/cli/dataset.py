@@ -7,7 +7,7 @@ import click
 
 from sim.cli.options import FILE
 from sim.core.errors import BadRequest
-from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error
+from sim.support.command_line import DONE, INTERRUPTED, NOT_RIGHT, print_error, quote_path
 
 if TYPE_CHECKING:
     from sim.bench.dataset.plan import LogJob
@@ -170,5 +170,6 @@ def _write_example(path: Path) -> int:
             where=str(path),
             advice="Name a new file, in a folder you may write to.",
         ) from None
-    click.echo(f"{path}: an example. Edit it, then: sysid dataset {path} -o {path.stem}")
+    following = f"sysid dataset {quote_path(path)} -o {quote_path(path.stem)}"
+    click.echo(f"{path}: an example. Edit it, then: {following}")
     return DONE

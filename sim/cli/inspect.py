@@ -69,6 +69,8 @@ def _show(found: "Inspection", *, runs: "Mapping[str, int]") -> None:
     kinds = found.group_by_kind()
     count = len(kinds)
     said = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
+    if any(doubt.code == "odd-clock" for doubt in found.doubts):
+        said = f"not inspected{f', {said}' * bool(count)}"
     total = sum(runs.values())
     click.echo(f"{', '.join(runs)}: {total} run{'s' * (total != 1)}, {said}.")
     room = LINES - 2  # the title, and the sentence about what is left out

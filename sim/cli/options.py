@@ -176,10 +176,12 @@ def read_each_log(
         Refusal: a file cannot be read, or is given twice.
     """
     from sim.io import read  # noqa: PLC0415 - --help must not wait for it
+    from sim.io.voltage import check_voltage  # noqa: PLC0415 - the same
 
     named = {signal: entry for signal, entry in entries.items() if entry}
     refuse_duplicates(files := tuple(files))
-    return [read(file, units=units, type=type, motor=motor, entries=named) for file in files]
+    logs = [read(file, units=units, type=type, motor=motor, entries=named) for file in files]
+    return [check_voltage(log) for log in logs]
 
 
 @dataclass(frozen=True)
@@ -222,12 +224,14 @@ class PartReader:
         """
         from sim.io import read_motors  # noqa: PLC0415 - --help must not wait for it
         from sim.io.velocity import check_velocity, scale_velocity  # noqa: PLC0415 - the same
+        from sim.io.voltage import check_voltage  # noqa: PLC0415 - the same
 
         named = {signal: entry for signal, entry in self.entries.items() if entry}
         logs = read_motors(
             file, units=self.units, type=self.type, motor=self.motor, entries=named,
             ignore_velocity=self.velocity is None, pick=self.pick,
         )  # fmt: skip
+        logs = {name: check_voltage(log) for name, log in logs.items()}
         factor = self.velocity
         if factor is None:
             return logs

@@ -11,6 +11,7 @@ from sim.cli.options import EFFECT_NAMES, FAULT_NAMES, FILE, MECHANISM_NAMES, re
 from sim.core.errors import BadRequest, Refusal
 from sim.core.vocabulary import KINDS
 from sim.physics.battery import CONTROLLERS, Battery
+from sim.support.command_line import quote_path
 
 if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
@@ -144,7 +145,8 @@ def _echo_written(log: "Log", output: Path, *, after: str) -> None:
     samples = sum(len(part) for part in log.runs)
     for doubt in log.doubts:
         click.echo(f"warning: {doubt.message}")
-    click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: sysid {after} {output}")
+    following = f"sysid {after} {quote_path(output)}"
+    click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: {following}")
 
 
 def _fed(mechanism: "Mechanism", battery: str | None, controller: str) -> "Mechanism":

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-SHOWN_FIRST = frozenset({"contradicting-units"})  # codes: what follows depends on their answer
+SHOWN_FIRST = frozenset({"contradicting-units", "not-volts"})  # all that follows depends on these
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from typing import Protocol
 import numpy as np
 
 from sim.core.doubt import Doubt
-from sim.core.errors import BadSample
+from sim.core.errors import BadRequest, BadSample
 from sim.core.log import LARGEST, Array, Log, Run
 
 HEAD = 4096  # [bytes] how much of a file `recognizes` is shown
@@ -65,6 +65,20 @@ class Format(Protocol):
 
     def read(self, path: Path, options: ReadOptions) -> Log:
         """Read a file of this format into a log."""
+
+
+def refuse_pick(pick: int | None, *, where: str) -> None:
+    """Refuse the number of a mechanism in a file that holds only one.
+
+    Raises:
+        BadRequest: the number is not 1.
+    """
+    if pick not in {None, 1}:
+        raise BadRequest(
+            f"it holds one mechanism, so there is no number {pick}",
+            where=where,
+            advice="Leave out --pick.",
+        )
 
 
 def warn_of_motor_choice(motor: str | None, *, where: str) -> tuple[Doubt, ...]:

@@ -14,6 +14,7 @@ from sim.core.log import Array, Log, Run
 SAME = 0.02  # [share of its spread] a velocity nearer to a straight line of the position is it
 UNLIKE = 0.3  # [the same] farther than this from the slope of the position it is no velocity
 SCALE = 0.1  # by so much the velocity's integral may differ from the way that the position went
+SLOWEST = 1.0  # [s] between samples; other clocks do not tell seconds
 FEWEST = 10  # samples of a log of which anything is said
 PAUSED = 2.5  # [frames] a position that stays longer stands still; a shorter time is one frame
 
@@ -79,6 +80,8 @@ def check_velocity(log: Log) -> Log:
             "position was taken for the velocity. Log the velocity in the robot's code.",
         )
         return differentiate_position(log).add_doubts(doubt)
+    if max(float(np.median(np.diff(run.time))) for run in runs) > SLOWEST:
+        return log  # its times are no seconds, and so its velocities look scaled
     share = _scale(runs)
     if share is None or abs(share - 1.0) <= SCALE:
         return log

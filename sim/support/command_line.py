@@ -3,6 +3,7 @@
 import codecs
 import io
 import os
+import re
 import sys
 from collections.abc import Sequence
 
@@ -65,6 +66,22 @@ def print_error(said: str, *, name: str) -> None:
     """
     plain = make_printable(click.unstyle(said))  # what other programs say may be colored
     click.echo(f"{name}: {' '.join(plain.split())}", err=True)
+
+
+def quote_path(path: str | os.PathLike[str]) -> str:
+    """A path as one word of a command line: in double quotes, where a shell would split it.
+
+    Double quotes work in PowerShell, cmd and POSIX shells.
+
+    Args:
+        path: of a file that a suggested command names.
+    """
+    text = os.fspath(path)
+    if re.fullmatch(r"[A-Za-z0-9_./:~+-]+", text.replace(os.sep, "/")):
+        return text
+    if os.sep == "/":
+        text = re.sub(r'([\\$`"])', r"\\\1", text)
+    return f'"{text}"'
 
 
 def _sentence(error: Exception, *, name: str) -> str:

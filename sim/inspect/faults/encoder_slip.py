@@ -107,9 +107,9 @@ def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str
         )
     return (
         (
-            f"From one sample to the next, the velocity in the log becomes {off}. After {lasts:.2f} s "
-            "it is right again. No motor changes its speed that fast, so the sensor slipped on its "
-            "shaft."
+            f"From one sample to the next, the velocity in the log becomes {off}. After "
+            f"{lasts:.2f} s it is right again. No motor changes its speed that fast, so the sensor "
+            "slipped on its shaft."
         ),
         "Fix the sensor to its shaft, and run this test again. Until then, cut these seconds out.",
     )

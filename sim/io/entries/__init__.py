@@ -33,7 +33,7 @@ from sim.io.entries.state import (
     find_run_intervals,
     find_state_entries,
 )
-from sim.io.format import ReadOptions
+from sim.io.format import ReadOptions, refuse_pick
 
 
 def assemble_log(
@@ -103,8 +103,22 @@ def _found(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> _Me
     if by_name:
         options = replace(options, type=find_type_in_name(state.mechanism) or None)
     intervals, strange = find_run_intervals(state, where=where)
+    if options.pick is not None and not _has_choice(entries, options=options, where=where):
+        refuse_pick(options.pick, where=where)
     motors, doubts, intervals = find_motors(state, entries, intervals, options=options, where=where)
     return _Mechanism(state, intervals, motors, options, by_name, (*doubts, *strange))
+
+
+def _has_choice(entries: Sequence[Entry], *, options: ReadOptions, where: str) -> bool:
+    """Whether there are several mechanisms, of which a number chooses one."""
+    unpicked = replace(options, pick=None)
+    try:
+        state = _state(entries, options=unpicked, where=where)
+        intervals, _ = find_run_intervals(state, where=where)
+        find_motors(state, entries, intervals, options=unpicked, where=where)
+    except BadRequest:
+        return True
+    return False
 
 
 def _log(found: _Mechanism, motors: tuple[MotorEntries, ...], *, where: str) -> Log:

@@ -18,7 +18,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.io.entries import assemble_log, assemble_motor_logs
 from sim.io.entries.entry import Entry
-from sim.io.format import HEAD, ReadOptions, make_run, warn_of_motor_choice
+from sim.io.format import HEAD, ReadOptions, make_run, refuse_pick, warn_of_motor_choice
 from sim.io.formats.csv.entries import is_export, read_entries
 from sim.io.formats.csv.table import EXTRA, KNOWN, NEEDED, CsvTable, open_table, read_header
 
@@ -69,6 +69,7 @@ def read(path: Path, options: ReadOptions) -> Log:
     if _exported(path):
         log, _ = assemble_log(read_entries(path), options=options, where=str(path))
         return log
+    refuse_pick(options.pick, where=str(path))
     table = open_table(path, entries=options.entries)
     tests, codes = table.group_by_test()
     signals = {"time": table.parse_column("time_s")}

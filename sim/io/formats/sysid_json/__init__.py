@@ -15,7 +15,7 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.core.log import Array, Log
 from sim.core.units import find_unit
-from sim.io.format import ReadOptions, make_run, warn_of_motor_choice
+from sim.io.format import ReadOptions, make_run, refuse_pick, warn_of_motor_choice
 from sim.io.formats.sysid_json.drivetrain import SIDES, read_drivetrain
 from sim.io.formats.sysid_json.file_header import FileHeader, read_header
 from sim.io.formats.sysid_json.rows import (
@@ -92,6 +92,7 @@ class _Document:
                 where=where,
                 advice="Leave out --state, --voltage, --position and --velocity.",
             )
+        refuse_pick(options.pick, where=where)
         document = load_json(path)
         said = read_header(document, options, where=where)
         tables, doubts = parse_tables(document, where=where)
