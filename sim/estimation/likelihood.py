@@ -437,7 +437,8 @@ class PredictionErrorProblem:
         model = point.structure.model(point.values)
         moved = point.nuisance.shift_positions(np.full(len(self.records), self.noise.position))
         starts = self.predict_errors(model, moved, point.kalman_filter)
-        starts = (starts - point.innovations) / self.noise.position
+        with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
+            starts = (starts - point.innovations) / self.noise.position
         changes = [self.whiten(point, starts)]
         if self.varying_friction:
             changes.append(self._compute_friction_change(point))
