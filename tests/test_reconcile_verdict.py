@@ -205,8 +205,8 @@ def test_of_effects_that_stand_in_for_one_another_the_one_that_closed_the_gap_is
     [
         ({"drag": 0.9, "spring": 0.2}, "spring"),
         ({"drag": 0.2, "spring": 0.9}, "drag"),
-        ({"drag": 0.2}, "drag"),  # the spring was not tried alone, and half closes as the last one
-        ({"drag": 0.9}, "spring"),
+        ({"drag": 0.9}, "drag"),  # the spring was not promising alone, so it closes nothing alone
+        ({"spring": 0.9}, "spring"),
     ],
 )
 def test_the_most_important_effect_closes_most_of_the_gap_as_the_first_and_as_the_last(

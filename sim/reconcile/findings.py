@@ -79,8 +79,8 @@ def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
     """Effect -> [1] of the velocity gap that it closes: the largest is the most important.
 
     What it closes as the first effect and as the last one differs, so the geometric mean of both
-    counts, as in the Shapley value of two effects. For an effect that was not tried alone, what it
-    closes as the last one counts.
+    counts, as in the Shapley value of two effects. An effect that was not compared in the first
+    round, because others were more promising, is taken to close nothing alone.
 
     Args:
         done: the base and the rounds.
@@ -91,7 +91,7 @@ def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
         name = one.candidate.effect
         with_, bare = compare_gaps(one, done[-1])
         last = compute_log_ratio(with_.velocity, bare.velocity)
-        first = compute_log_ratio(alone[name], 1.0) if name in alone else last
+        first = compute_log_ratio(alone.get(name, 1.0), 1.0)
         found[name] = 1.0 - math.exp(0.5 * (first + last))
     return found
 
