@@ -149,3 +149,13 @@ def test_the_command_writes_it(target, tmp_path, capsys):
     assert said.count("public final class") == 1
     per = WHEEL if target == "phoenix6" else 1.0
     assert values(said)["kV"] / per == pytest.approx(2.524, rel=0.01)
+
+
+def test_a_negligible_error_is_not_a_number_of_many_zeros():
+    errors = {"kS": 1e-5, "kV": 1e-5, "kA": 0.0011}
+
+    code = write_controller_code(found("simple", errors=errors), target="yagsl")
+
+    assert "[V] ± less than 0.1%" in code
+    assert "[V·s/m] ± less than 0.1%" in code
+    assert "[V·s²/m] ± 0.0011" in code

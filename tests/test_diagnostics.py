@@ -157,3 +157,25 @@ def test_what_is_known_of_a_real_log_is_said(shared, file, code, words):
     log = sim.read(shared / "data" / "real" / f"{file}.json")
 
     assert words in doubts_by_code(log)[code]
+
+
+def test_what_the_tools_make_of_a_late_velocity_is_said():
+    # SysId's measurement delay enters its feedback gains only; its kA stays too large.
+    message = doubts_by_code(each(drawn("turret"), lambda run: late(run, by=0.06)))["velocity-lags"]
+
+    assert "`sysid fit` takes this delay into account. WPILib's SysId does not" in message
+    assert "changes only the feedback gains" in message
+
+
+def test_the_voltage_per_speed_is_in_the_unit_of_the_log():
+    log = each(
+        drawn("turret"), lambda run: scaled(run, 0.85 if run.direction == "forward" else 1.0)
+    )
+
+    radians, degrees = (
+        doubts_by_code(replace(log, units=name))["back-emf-differs"]
+        for name in ("radians", "degrees")
+    )
+
+    assert " V per rad/s, reverse" in radians
+    assert " V per deg/s, reverse" in degrees

@@ -4,6 +4,7 @@ import json
 import math
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +17,10 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import FOUR_TESTS, Log, Run
+from sim.core.units import UNITS
 from sim.fit import fit as any_fit
+from sim.fit.identifiability import refuse_unidentifiable, refuse_unrelated
+from sim.fit.sysid_doubts import _doubt_signs, warn_of_uncertain_gains
 
 fit = partial(any_fit, method="sysid")
 
@@ -287,3 +291,42 @@ def test_any_table_of_numbers_gives_finite_gains_or_a_refusal(volts, speeds, typ
         return
     assert all(math.isfinite(value) for value in found.gains.values())
     json.dumps(found.to_json(), allow_nan=False)
+
+
+def test_a_refusal_names_the_file(drive):
+    run = drive.list_runs_of_test("dynamic-forward")[0]
+    still = change(drive, "dynamic-forward", voltage=0 * run.voltage)
+
+    with pytest.raises(NotIdentifiable, match="^drive.csv: dynamic-forward never applies"):
+        fit(replace(still, source="drive.csv"))
+
+
+def test_warnings_about_gains_are_in_the_unit_of_the_log():
+    degrees = UNITS["degrees"]
+    gains, errors = {"kS": 0.0, "kA": 0.0188}, {"kS": 0.21, "kA": 0.0121}
+
+    said = [one.message for one in warn_of_uncertain_gains(gains, errors, per=degrees)]
+
+    assert [one.partition(":")[0] for one in said] == [
+        "kS = 0 ± 0.21 V",
+        "kA = 0.00033 ± 0.00021 V·s²/deg",
+    ]
+
+
+def test_a_negative_gain_is_in_the_unit_of_the_log():
+    gains, errors = {"kS": 0.1, "kV": 1.0, "kA": -0.18}, {"kS": 0.1, "kV": 0.1, "kA": 0.1}
+
+    (doubt,) = _doubt_signs(gains, errors, per=UNITS["degrees"])
+
+    assert doubt.message.startswith("kA = -0.00314 V·s²/deg is negative: ")
+
+
+def test_refusals_about_size_have_units(drive):
+    degrees = Log(drive.runs, units="degrees")
+    followed = SimpleNamespace(r2=0.1, rmse=math.pi, top_speed=2.0 * math.pi)
+
+    with pytest.raises(NotIdentifiable, match="is 180 deg/s, with a top speed of 360 deg/s"):
+        refuse_unrelated(followed, log=degrees)
+    gains = {"kS": 0.1, "kV": 1.0, "kA": 0.1}
+    with pytest.raises(NotIdentifiable, match=r"determine kA \(± 0.017 V·s²/deg\)"):
+        refuse_unidentifiable(gains, dict(kS=0.0, kV=0.0, kA=1.0), log=degrees, type="simple")

@@ -15,9 +15,10 @@ from sim.bench.mechanisms import MECHANISMS
 from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
+from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.fit import fit
-from sim.fit.pooled import pool_fits, pool_values
+from sim.fit.pooled import merge_doubts, pool_fits, pool_values
 from sim.support.command_line import run_command
 
 ROUTINE = Routine(ramp=0.5, step=4.0, timeout=4.0)
@@ -231,3 +232,18 @@ def test_parts_that_agree_are_weighted_by_their_errors():
 
     assert value == pytest.approx(1.02)
     assert error == pytest.approx(0.8**0.5 * 0.1, rel=1e-6)
+
+
+def test_doubts_that_name_their_own_part_are_all_said_without_its_name_before():
+    found = fit(recorded())
+    one, other = (
+        replace(found, doubts=(Doubt("unsigned", f"a.json, {side}, dynamic-reverse: no sign."),))
+        for side in ("left", "right")
+    )
+
+    said = [doubt.message for doubt in merge_doubts({"left": one, "right": other})]
+
+    assert said == [
+        "a.json, left, dynamic-reverse: no sign.",
+        "a.json, right, dynamic-reverse: no sign.",
+    ]

@@ -11,7 +11,9 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli import sysid
 from sim.core.doubt import Doubt
+from sim.feedback import PRESETS
 from sim.fit import fit
+from sim.report.fit_terminal import show_fit
 from sim.report.gain_verdicts import write_gain_verdict
 from sim.support.command_line import run_command
 
@@ -94,3 +96,30 @@ def test_a_grave_doubt_makes_no_gain_usable(reads):
     grave = replace(FOUND, doubts=(Doubt("x", "It cannot be.", grave=True),))
 
     reads(write_gain_verdict(grave, LOG))
+
+
+@pytest.mark.parametrize(
+    ("code", "ends"),
+    [
+        ("model-strays", "But a simulation with these gains does not follow the log well;"),
+        ("low-simulated-r2", "But a simulation with these gains does not follow the log well;"),
+        ("stale-velocity", "But kA may be wrong by more than that;"),
+        ("fast-mechanism", "But kA may be wrong by more than that;"),
+    ],
+)
+def test_a_warning_about_usable_gains_is_in_the_verdict(code, ends):
+    errors = FOUND.errors | {"kA": 0.01}
+    sure = replace(FOUND, errors=errors, doubts=(Doubt(code, "It is."),))
+
+    said = write_gain_verdict(sure, LOG)
+
+    assert said == f"{USABLE}, kA usable (± 2 %). {ends} read the warnings."
+
+
+def test_an_acceleration_r2_of_zero_has_no_sign(capsys):
+    show_fit(
+        replace(FOUND, acceleration_r2=-0.0002), preset=PRESETS["default"], title="a", log=LOG,
+        tried=(),
+    )  # fmt: skip
+
+    assert "acceleration R² 0.000," in capsys.readouterr().out

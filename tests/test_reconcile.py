@@ -229,7 +229,7 @@ def test_a_single_log_is_split_run_by_run_and_it_is_said():
     story = told({"log": sessions["log"]})
 
     assert named(story) == ["gravity-cosine"]
-    assert story.how.startswith("Only one log was given: an effect is accepted if it helps")
+    assert story.how.startswith("No validation log was given: an effect is accepted if it helps")
 
 
 def test_a_search_that_is_cut_short_claims_nothing_and_says_so():

@@ -22,7 +22,7 @@ from sim.reconcile.cross_validation import Gap, count_noise_floors
 from sim.reconcile.findings import make_findings
 from sim.reconcile.judgement import judge_effects
 from sim.reconcile.model_selection import WIDENS
-from sim.reconcile.remarks import list_remarks, select_reported_rounds
+from sim.reconcile.remarks import _describe_small_share, list_remarks, select_reported_rounds
 from sim.reconcile.residual_tests.repeatability import RepeatedResidual
 from sim.reconcile.residual_tests.spectrum import SpectralPeak
 from sim.reconcile.residual_tests.summary import ResidualSummary
@@ -370,3 +370,8 @@ def test_a_time_limit_is_told_where_another_effect_could_be_major(problem, gap, 
 
     assert remainder is told
     assert ("time limit of 20 s" in remains) is told
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.2, "only 20%"), (0.002, "less than 1%")])
+def test_a_small_probability_is_never_zero(share, said):
+    assert _describe_small_share(share) == said

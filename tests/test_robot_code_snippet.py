@@ -181,8 +181,8 @@ def test_an_arm_counted_in_turns_is_pasted_per_radian_and_says_so(units, languag
     assert "angle from horizontal [rad] = measured * kRadiansPerUnit + kAngleOffset" in text
     assert read["kRadiansPerUnit"] == UNITS[units].si
     # The same volts for the same error: what the table of the fit says per turn, per radian.
-    volts = turned.feedback()["position"].kp / UNITS[units].si
-    assert read["kPositionP"] == pytest.approx(volts, rel=5e-3)
+    volts = turned.feedback()["velocity"].kp / UNITS[units].si
+    assert read["kVelocityP"] == pytest.approx(volts, rel=5e-3)
 
 
 def test_an_arm_in_radians_needs_no_conversion():
@@ -318,3 +318,15 @@ def test_an_error_far_below_what_a_model_leaves_out_is_not_printed():
 
     assert "e-07" not in code
     assert "± less than 0.1%" in code
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_gains_that_are_no_good_start_are_not_in_the_code(language):
+    # An elevator whose position loop is slow with SysId's gains, as `sysid fit` says.
+    stiff = {"kS": 0.14, "kV": 34.6, "kA": 0.114, "kG": 0.0711}
+
+    code = write_robot_code(found("elevator", gains=stiff), language=language)
+
+    assert "No gains for the position loop: SysId's suggestion is no good start." in code
+    assert "kPositionP" not in code
+    assert "kVelocityP" in code

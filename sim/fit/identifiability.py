@@ -7,8 +7,10 @@ import numpy as np
 
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Log
+from sim.core.units import Unit, convert_gains, find_unit
 from sim.estimation.measurements import RunMeasurements
 from sim.fit.open_loop_fallback import OpenLoopReplay
+from sim.fit.result import format_gain_unit
 
 TELLS = 0.08  # [share of a gain] of a larger standard error, three are a quarter: no answer
 FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else
@@ -63,8 +65,12 @@ def refuse_unidentifiable(
     ]
     if not unknown:
         return
+    per = find_unit(log.units)
+    sizes = convert_gains(errors, factor=per.si)
     each = [
-        f"{name} (± {errors[name]:.2g})" if math.isfinite(errors[name]) else name
+        f"{name} (± {sizes[name]:.2g} {format_gain_unit(name, per)})"
+        if math.isfinite(sizes[name])
+        else name
         for name in unknown
     ]
     said = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
@@ -89,15 +95,17 @@ def refuse_unrelated(followed: OpenLoopReplay, *, log: Log, hint: str = "") -> N
     """
     if followed.r2 >= FOLLOWS:
         return
+    per = find_unit(log.units)
     raise NotIdentifiable(
-        "no gains describe this log: the error of the best simulation is "
-        f"{_size(followed.rmse)}, with a top speed of {_size(followed.top_speed)}",
+        "no gains describe this log: the velocity error of the best simulation is "
+        f"{_size(followed.rmse, per)}, with a top speed of {_size(followed.top_speed, per)}",
         where=log.source,
         advice=hint
-        or "Inspect the log for damage, check its type and units, then run `sysid reconcile` to"
-        " find the missing effect.",
+        or "Run `sysid inspect` to look for faults, check the type and the units, then run `sysid "
+        "reconcile` to find the missing effect.",
     )
 
 
-def _size(error: float) -> str:
-    return f"{error:.2g}" if math.isfinite(error) else "any amount"
+def _size(speed: float, per: Unit) -> str:
+    """A speed [m/s or rad/s] in the unit of the log's owner."""
+    return f"{speed / per.si:.3g} {per.symbol}/s" if math.isfinite(speed) else "any amount"

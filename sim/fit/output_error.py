@@ -381,7 +381,7 @@ def _make_result(
             *warn_of_opposed_signs(way),
             *warn_of_lags(window, lag),
             *said,
-            *warn_of_uncertain_gains(signed, errors),
+            *warn_of_uncertain_gains(signed, errors, per=find_unit(log.units)),
         ),
     )
 

@@ -114,6 +114,8 @@ def _merged(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
     kinds = {tuple(doubts) for doubts in several.values()}
     if len(kinds) == 1 and len(several) == whole:
         return list(next(iter(kinds)))
+    if all(f", {name}, " in one.message for name, doubts in several.items() for one in doubts):
+        return [one for doubts in several.values() for one in doubts]  # each names its part
     worst = max(several.values(), key=lambda doubts: any(doubt.grave for doubt in doubts))
     first, *others = several
     names = f"{first} and {len(others)} more" if len(others) > 1 else ", ".join(several)

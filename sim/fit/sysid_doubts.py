@@ -6,14 +6,20 @@ import numpy as np
 
 from sim.core.doubt import Doubt
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Array, Log, Run
+from sim.core.units import Unit, convert_gains, find_unit
 from sim.fit.metrics import SimulationScore
 from sim.fit.regression import Regression
+from sim.fit.result import format_gain_unit
 from sim.fit.sysid_rows import NEAR_TOP, PreparedRows
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
 STALE = 0.6  # [share of accelerating samples] that repeat; up to a half costs no bias, see _stale
 SURELY = 2.0  # [standard errors] further below zero than this is no accident of noise
+DETERMINES = (
+    "Repeat the quasistatic tests with a slower ramp.",
+    "Repeat the dynamic tests, and log every loop.",
+)  # kS, kV, kG and kA
 UNSURE = 0.5  # [share of a gain] a standard error this large leaves even its sign in doubt
 
 
@@ -31,8 +37,8 @@ def list_sysid_doubts(
     return (
         *_doubt_repeats(log),
         *_doubt_stale_velocities(log),
-        *_doubt_signs(found.gains, found.errors),
-        *warn_of_uncertain_gains(found.gains, found.errors),
+        *_doubt_signs(found.gains, found.errors, per=find_unit(log.units)),
+        *warn_of_uncertain_gains(found.gains, found.errors, per=find_unit(log.units)),
         *_doubt_uncertain_gains(found.r2, simulated),
         *_doubt_slow_steps(prepared.velocity_delay, found.gains),
     )
@@ -94,7 +100,9 @@ def _rise_changes(run: Run) -> Array:
     return np.asarray(np.diff(run.velocity[moving : top + 1]))
 
 
-def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
+def _doubt_signs(
+    gains: Mapping[str, float], errors: Mapping[str, float], *, per: Unit
+) -> list[Doubt]:
     if gains["kV"] < 0 and gains["kA"] < 0:
         return [
             Doubt(
@@ -113,10 +121,11 @@ def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> lis
         "a velocity that follows?",
         "kG": "gravity should pull the mechanism back. Is forward up in this log?",
     }
+    shown = convert_gains(gains, factor=per.si)
     return [
         Doubt(
             "negative-gain",
-            f"{gain} = {gains[gain]:.3g} is negative: {why}.",
+            f"{gain} = {shown[gain]:.3g} {format_gain_unit(gain, per)} is negative: {why}.",
             grave=gains[gain] + SURELY * errors[gain] < 0,
         )
         for gain, why in cause.items()
@@ -124,13 +133,22 @@ def _doubt_signs(gains: Mapping[str, float], errors: Mapping[str, float]) -> lis
     ]
 
 
-def warn_of_uncertain_gains(gains: Mapping[str, float], errors: Mapping[str, float]) -> list[Doubt]:
-    """A warning about gains whose error is about as large as their value."""
+def warn_of_uncertain_gains(
+    gains: Mapping[str, float], errors: Mapping[str, float], *, per: Unit
+) -> list[Doubt]:
+    """A warning about gains whose error is about as large as their value.
+
+    Args:
+        gains: in SI units.
+        errors: one standard error of each, in SI units.
+        per: the unit of position of the log's owner, which the message is in.
+    """
+    shown, sizes = (convert_gains(numbers, factor=per.si) for numbers in (gains, errors))
     return [
         Doubt(
             "unsure-gain",
-            f"{gain} = {gains[gain]:.2g} ± {error:.1g}: this log hardly determines {gain}. A "
-            "longer or harder test would.",
+            f"{gain} = {shown[gain]:.2g} ± {sizes[gain]:.2g} {format_gain_unit(gain, per)}: this "
+            f"log does not show whether {gain} differs from 0. {DETERMINES[gain == 'kA']}",
         )
         for gain, error in errors.items()
         if gain != "offset_rad" and error > UNSURE * abs(gains[gain])

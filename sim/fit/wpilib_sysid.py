@@ -1,6 +1,6 @@
 """WPILib SysId's recipe from end to end (method ``sysid``)."""
 
-from sim.core.errors import BadRequest
+from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import DIRECTIONS, FOUR_TESTS, Log
 from sim.core.units import find_unit
 from sim.fit.metrics import score_simulated_velocity
@@ -29,8 +29,12 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
             where=log.source,
             advice="Add --units radians, rotations or degrees, or --type elevator.",
         )
-    prepared = prepare_rows(log, median=median)
-    found = regress_acceleration(prepared.rows, type=type)
+    try:
+        prepared = prepare_rows(log, median=median)
+        found = regress_acceleration(prepared.rows, type=type)
+    except NotIdentifiable as refusal:
+        where = refusal.where or log.source
+        raise NotIdentifiable(refusal.what, where=where, advice=refusal.advice) from refusal
     forward, reverse = (
         score_simulated_velocity(
             [prepared.raw[f"{kind}-{way}"] for kind in ("quasistatic", "dynamic")],

@@ -31,8 +31,8 @@ LOG_USES: Mapping[str, str] = {
         "No held-out log was given: the gap is shown on the validation log, which was also used "
         "to choose the effects."
     ),
-    "log": "Only one log was given: an effect is accepted if it helps to predict each run from the "
-    "others. The gap is shown on the fitted log itself.",
+    "log": "No validation log was given: an effect is accepted if it helps to predict each run "
+    "from the others. The gap is shown on the fitted runs themselves.",
 }
 PHASE_NOTE = (
     "Where in its free play each run began is estimated from that run itself, because no log "

@@ -26,7 +26,7 @@ CONTRADICTED = (
 
 UNLIKELY = (
     "With {} the model fits this log better. The probability that the mechanism really has this "
-    "effect is only {}, so the model leaves it out."
+    "effect is {}, so the model leaves it out."
 )
 
 
@@ -52,7 +52,7 @@ def list_remarks(
         said.append(f"In the last model there is also a little {what}: {why}.")
     unlikely = _list_unlikely(judged)
     doubted = [name for name in rest if name not in kept and name in unlikely]
-    said += [UNLIKELY.format(name, f"{unlikely[name]:.0%}") for name in doubted]
+    said += [UNLIKELY.format(name, _describe_small_share(unlikely[name])) for name in doubted]
     if outside := [name for name in rest if name not in {*kept, *doubted}]:
         what = " and ".join(outside)
         said.append(
@@ -82,6 +82,12 @@ def select_reported_rounds(
         or (one.candidate.effect not in unlikely and is_narrower_with(one, done[-1]))
     )
     return done[: last + 1]
+
+
+def _describe_small_share(share: float) -> str:
+    """A share that is called small: ``only 12%``, or ``less than 1%`` instead of zero."""
+    shown = f"{share:.0%}"
+    return "less than 1%" if shown == "0%" else f"only {shown}"
 
 
 def _list_unlikely(judged: Sequence[JudgedEffect]) -> dict[str, float]:

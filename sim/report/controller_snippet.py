@@ -18,6 +18,7 @@ from sim.fit import Fit
 from sim.report.robot_code_snippet import (
     ORDER,
     SPELLINGS,
+    format_code_error,
     make_class_name,
     refuse_impossible_gains,
     round_to_error,
@@ -159,7 +160,7 @@ def _constants(found: Fit, converted: Conversion) -> Iterator[str]:
     for gain in ORDER[found.type]:
         error, scale = found.errors[gain], converted.factor if gain in units else 1.0
         value = round_to_error(found.gains[gain], error)
-        known = f" ± {error * scale:.2g}" if math.isfinite(error) else ""
+        known = format_code_error(found.gains[gain] * scale, error * scale)
         factor = times if gain in units else ""
         unit = units.get(gain, "V")
         yield f"public static final double {gain} = {value}{factor};  // [{unit}]{known}"

@@ -57,7 +57,7 @@ def show_fit(
     console.print(
         f"simulated velocity R² {found.simulated_velocity_r2:.3f}, "
         f"RMSE {found.simulated_velocity_rmse:.3g} {per.symbol}/s; "
-        f"acceleration R² {found.acceleration_r2:.3f}, "
+        f"acceleration R² {found.acceleration_r2:z.3f}, "
         f"RMSE {found.acceleration_rmse:.3g} {per.symbol}/s²"
     )
     if tried:

@@ -20,6 +20,8 @@ only while the speed changes.
 """
 VOLTS = 0.05  # [V] the same for kS and kG: less than what carpet and temperature change
 ANGLE = 0.05  # [rad] the same for an arm's angle
+STRAYS = {"model-strays", "low-simulated-r2"}  # doubts about all gains
+UNSURE_KA = {"fast-mechanism", "low-acceleration-r2", "slow-measurement", "stale-velocity"}
 SMALL_STEP = 3.0  # [V] a dynamic test below it hardly rises above friction
 
 
@@ -45,7 +47,18 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
     groups = [
         ", ".join(several) + (f": {what}" if what else "") for what, several in others.items()
     ]
-    return "; ".join([", ".join(usable), *groups] if usable else groups) + "."
+    said = "; ".join([", ".join(usable), *groups] if usable else groups) + "."
+    return f"{said}{_caution(found, usable)}"
+
+
+def _caution(found: Fit, usable: Sequence[str]) -> str:
+    """A sentence if a warning says that usable gains may be wrong by more than their errors."""
+    codes = {doubt.code for doubt in found.doubts}
+    if usable and codes & STRAYS:
+        return " But a simulation with these gains does not follow the log well; read the warnings."
+    if codes & UNSURE_KA and any(one.startswith("kA") for one in usable):
+        return " But kA may be wrong by more than that; read the warnings."
+    return ""
 
 
 def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from sim.core.errors import BadRequest
 from sim.core.units import Unit, find_unit
 from sim.feedback import PRESETS
 from sim.fit import Fit
+from sim.fit.feedback_trial import try_feedback_gains
 
 DIGITS = 5  # a robot's gain deserves no more: what the model leaves out is larger than its noise
 FINEST = 1e-3  # [share of a gain] smaller errors are noise alone, and no gain is known so well
@@ -261,10 +262,18 @@ def _feedback(found: Fit, write: Language) -> Iterator[str]:
     loops = found.feedback()
     if not loops:
         yield f"{write.comment} The fit suggests no feedback gains."
+    tried = try_feedback_gains(found, PRESETS["default"])
+    bad = {trial.loop for trial in tried if not trial.is_good}
     for loop, gains in loops.items():
         held = f"({per.symbol}/s)" if loop == "velocity" else per.symbol
         if min(gains.kp, gains.kd) < 0.0:
             yield f"{write.comment} No gains for the {loop} loop: the delay is too long for them."
+            continue
+        if loop in bad:
+            yield (
+                f"{write.comment} No gains for the {loop} loop: SysId's suggestion is no good "
+                "start. sysid fit says why."
+            )
             continue
         yield (
             f"{write.comment} To start from, added to the feedforward: PIDController of the "
@@ -281,10 +290,15 @@ def _counts_in(found: Fit) -> Unit:
     return find_unit("radians" if found.type == "arm" else found.units)
 
 
+def format_code_error(value: float, error: float) -> str:
+    """One standard error as the end of a comment; empty if it is not known."""
+    if not math.isfinite(error):
+        return ""
+    return f" ± {error:.2g}" if error >= FINEST * abs(value) else f" ± less than {FINEST:.1%}"
+
+
 def _line(write: Language, name: str, value: float, error: float, per: str) -> str:
     """One constant with its unit, and its error where it has one."""
-    known = ""
-    if math.isfinite(error):
-        known = f" ± {error:.2g}" if error >= FINEST * abs(value) else f" ± less than {FINEST:.1%}"
+    known = format_code_error(value, error)
     constant = write.constant.format(name=name, value=round_to_error(value, error))
     return f"{constant}  {write.comment} [{per}]{known}"

@@ -162,7 +162,7 @@ def fit(  # noqa: PLR0917 - click passes options by name
     log = join_parts(parts)
     find = partial(find_gains, type=type_ or "", method=method, median=median)
     pooled = fit_parts(parts, find, files=len(files))
-    found, notes = check_against_physics(pooled.found, log, parts=built), pooled.notes
+    found, notes = check_against_physics(pooled.found, log, parts=built, notes=pooled.notes)
     if not (as_json or paste):
         found, more = compare_directions_alone(found, log, patient=html is not None)
         notes = (*more, *notes)

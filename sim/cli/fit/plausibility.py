@@ -31,14 +31,24 @@ def read_motor_parts(
     return Parts(found, count, ratio, radius=radius, load=load)
 
 
-def check_against_physics(found: "Fit", log: "Log", *, parts: "Parts | None") -> "Fit":
-    """The fit with the doubts of the plausibility checks before its own."""
+def check_against_physics(
+    found: "Fit", log: "Log", *, parts: "Parts | None", notes: tuple[str, ...] = ()
+) -> "tuple[Fit, tuple[str, ...]]":
+    """The fit with the doubts of the plausibility checks before its own, and its notes.
+
+    Args:
+        found: the gains, in any unit.
+        log: where they come from.
+        parts: what the mechanism was built from; the gains of theory are then the first note.
+        notes: what is well, a sentence each.
+    """
     import numpy as np  # noqa: PLC0415 - --help must not wait for it
 
-    from sim.fit.physics import check_plausibility  # noqa: PLC0415
+    from sim.fit.physics import check_plausibility, compare_with_theory  # noqa: PLC0415
 
     period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
-    return _doubted(found, *check_plausibility(found, parts=parts, period=period), first=True)
+    doubts = check_plausibility(found, parts=parts, period=period)
+    return _doubted(found, *doubts, first=True), (*compare_with_theory(found, parts), *notes)
 
 
 def compare_directions_alone(

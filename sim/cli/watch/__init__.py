@@ -210,7 +210,7 @@ def _show_end(live: "LiveFit") -> None:
     from sim.report.fit_terminal import show_fit  # noqa: PLC0415 - the same
 
     preset = PRESETS["default"]
-    found = check_against_physics(update.pooled.found, update.log, parts=None)
+    found, _ = check_against_physics(update.pooled.found, update.log, parts=None)
     found, notes = compare_directions_alone(found, update.log, patient=False)
     tried = try_feedback_gains(found := found.in_log_units(), preset, own=None)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))

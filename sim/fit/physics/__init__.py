@@ -13,10 +13,17 @@ from sim.core.errors import BadRequest
 from sim.fit.physics.compare import compare_directions, compare_parts, compare_sides
 from sim.fit.physics.parts import Parts, fit_in_si
 from sim.fit.physics.self_consistency import check_friction, check_gravity, check_timescale
-from sim.fit.physics.theory import check_theory
+from sim.fit.physics.theory import check_theory, describe_theory
 from sim.fit.result import Fit
 
-__all__ = ["Parts", "check_plausibility", "compare_directions", "compare_parts", "compare_sides"]
+__all__ = [
+    "Parts",
+    "check_plausibility",
+    "compare_directions",
+    "compare_parts",
+    "compare_sides",
+    "compare_with_theory",
+]
 
 
 def check_plausibility(
@@ -46,6 +53,17 @@ def check_plausibility(
     )
     strays = any(doubt.code in {"model-strays", "small-misfit"} for doubt in found.doubts)
     return tuple(map(_advise_model_first, doubts)) if strays else doubts
+
+
+def compare_with_theory(found: Fit, parts: Parts | None) -> tuple[str, ...]:
+    """A sentence with the kV and kA of theory; none without parts or with a kV below zero.
+
+    Args:
+        found: the fit, in any unit.
+        parts: what the mechanism was built from.
+    """
+    si = fit_in_si(found)
+    return (describe_theory(si, parts),) if parts is not None and si.gains["kV"] > 0.0 else ()
 
 
 def _advise_model_first(doubt: Doubt) -> Doubt:

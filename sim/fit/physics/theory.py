@@ -50,6 +50,30 @@ def check_theory(found: Fit, parts: Parts) -> list[Doubt]:
     return [*_kv(found, parts), *_ka(found, parts)]
 
 
+def describe_theory(found: Fit, parts: Parts) -> str:
+    """The kV and kA of theory, and which share of them a fit has.
+
+    Args:
+        found: the fit in SI units, with kV above zero.
+        parts: motor, gearing and load.
+    """
+    per = find_unit(found.log_units)
+    size = f"{parts.load or 0.0:g} {'kg·m²' if find_unit(found.units).angular else 'kg'}"
+    names = {"kV": "12 V divided by the free speed", "kA": f"{size}, without the rotors"}
+    values = {"kV": parts.kv} | ({} if parts.ka is None else {"kA": parts.ka})
+    theory = " and ".join(
+        f"{name} {value * per.si:.3g} {format_gain_unit(name, per)} ({names[name]})"
+        for name, value in values.items()
+    )
+    shares = " and ".join(
+        f"{name} is {found.gains[name] / value:.0%}" for name, value in values.items()
+    )
+    return (
+        f"In theory, {parts.count} × {parts.motor.name} have {theory}. In this log, {shares} of "
+        "the theory."
+    )
+
+
 def _kv(found: Fit, parts: Parts) -> list[Doubt]:
     kv, error = found.gains["kV"], found.errors["kV"]
     if kv <= 0.0:

@@ -46,16 +46,16 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
                 " Look for a part that rubs, or choose another --type.",
             )
         )
-    apart = abs(forward.kv - reverse.kv)
+    apart, per = abs(forward.kv - reverse.kv), find_unit(features.log.units)
     noise = SIGMAS * float(np.hypot(forward.kv_error, reverse.kv_error))
     if apart > max(APART_KV * kv, noise):
         doubts.append(
             Doubt(
                 "back-emf-differs",
-                f"Forward takes {forward.kv:.4g} V per unit of speed, reverse {reverse.kv:.4g}: "
-                f"they differ by {apart / kv:.0%}. The load differs between the directions, or "
-                "the sensor reads one direction differently. Plot voltage against velocity, and "
-                "trust kV only to this difference.",
+                f"Forward takes {forward.kv * per.si:.3g} V per {per.symbol}/s, reverse "
+                f"{reverse.kv * per.si:.3g}: they differ by {apart / kv:.0%}. The load "
+                "differs between the directions, or the sensor reads one direction differently. "
+                "Plot voltage against velocity, and trust kV only to this difference.",
             )
         )
     return doubts

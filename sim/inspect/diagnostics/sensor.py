@@ -40,9 +40,10 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
         Doubt(
             "velocity-lags",
             f"The velocity is about {round(lag / TELLS) * TELLS * 1000.0:.0f} ms later than the "
-            f"position: most likely the motor controller averages it{likely}. kA and the "
-            "feedback gains will be wrong unless you know this delay. Shorten the filter, or "
-            "enter the delay in SysId.",
+            f"position: most likely the motor controller averages it{likely}. `sysid fit` "
+            "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "
+            "measurement delay that you enter there changes only the feedback gains. Shorten the "
+            "filter of the motor controller.",
         )
     ]
 
