@@ -187,11 +187,14 @@ def judge_number(
     away = abs(value - asked.expected)
     near = asked.describe_tolerance(full, asked.band.full)
     far = "far " if away > LITTLE * partial else ""
-    earned, verdict = 0.0, f"{far}outside the accepted {near}. {START_AGAIN}"
+    by_hand = not key.scene.computed
+    earned, verdict = 0.0, f"{far}outside the accepted {near}"
     if away <= partial:
         wider = asked.describe_tolerance(partial, asked.band.partial)
         earned = HALF * points
-        verdict = f"close: within {wider}, not yet within {near}. Did you round too early?"
+        verdict = f"close: within {wider}, not yet within {near}"
+    if by_hand:
+        verdict += f". {'Did you round too early?' if earned else START_AGAIN}"
     slips = diagnose_number(name, given, key)
     codes = {slip.misconception for slip in slips}
     said = _describe_wrong_number(name, value, slips)

@@ -28,6 +28,7 @@ WHEEL = re.compile(r"diameter|radius", re.IGNORECASE)
 ONE_TURN = re.compile(r"per_?(turn|rot|rev)|circumference|conversion|factor", re.IGNORECASE)
 CLOSE = 1e-6  # relative
 LONGEST = 2.0  # [m] no wheel or drum lays so much behind it in one rotation of its motor
+LARGE = 1000.0  # [m] from here on a length is written without decimals
 SHARE = 1 / 6  # of the log's points: one wrong signal
 
 
@@ -322,10 +323,15 @@ def _describe_unit_slip(one: LoggedSignal) -> str:
         )
     elif one.native != "pulse" and per_second > LONGEST:
         hint = (
-            f"One rotation would be {per_second:.3g} m. Multiply by the meters of one rotation, "
-            "and do not divide by them."
+            f"One rotation would be {_meters(per_second)} m. Multiply by the meters of one "
+            "rotation, and by nothing else; do not divide by them."
         )
     return hint
+
+
+def _meters(length: float) -> str:
+    """Three digits, and no powers of ten: a learner reads this."""
+    return f"{length:.3g}" if length < LARGE else f"{length:.0f}"
 
 
 def _describe_angular_slip(one: LoggedSignal, per_second: float, *, bare: bool) -> str:

@@ -11,6 +11,7 @@ LARGEST = 1_000_000  # [bytes] robot code and answers are far smaller; a log or 
 LARGEST_ANSWERS = 64_000  # [bytes] of a file of answers; the longest solved one has 3,000
 LONGEST_LINE = 2_000  # [characters] of it: reading a key takes the square of its length
 SHOWN = 3  # names of files in a message
+_BARE_WORDS = re.compile(r"[\w.]+\s*=\s*\[?\s*[A-Za-z][\w\s,-]*\]?\s*(#.*)?")  # no quotes
 NOT_ANSWERS = {"hints.toml", "starters.toml", "pyproject.toml", "class.toml", "progress.toml"}
 
 
@@ -168,6 +169,8 @@ def read_answers(path: Path) -> dict[str, object]:
             advice = "Keep the line that counts, and delete the other one."
         elif re.search(r"\d,\d", row):
             advice = 'Write a decimal point, 0.5, or put quotes around the decimal comma: "0,5".'
+        elif _BARE_WORDS.fullmatch(row):
+            advice = 'Put quotes around each word: "word", or in a list ["word", "word"].'
         elif re.fullmatch(r"[\w.]+\s*=\s*(#.*)?", row):
             what = f"nothing stands after {row.partition('=')[0].strip()} ="
             advice = 'Write a number there, or "" as long as you have none.'

@@ -49,6 +49,8 @@ class Scene:
         period: [s] between two samples; 0 if there are none.
         lookalikes: gain -> numbers of wrong methods, in the unit of the answer.
         rarer: the same, of recipes that are suspected only where nothing else explains a number.
+        computed: whether a program computed the number from the log: no pocket calculator, data
+            sheet or rounding is behind it.
     """
 
     angular: bool = False
@@ -58,6 +60,7 @@ class Scene:
     period: float = 0.0
     lookalikes: Mapping[str, tuple[Lookalike, ...]] = field(default_factory=dict)
     rarer: Mapping[str, tuple[Lookalike, ...]] = field(default_factory=dict)
+    computed: bool = False
 
 
 @dataclass(frozen=True)
@@ -138,6 +141,8 @@ def _explain_by_factors(
 
 def _list_factors(scene: Scene, *, velocity: bool, unit: str) -> Iterator[_Factor]:
     """The factors a number may be off by; kS and kG have no velocity in their unit."""
+    if scene.computed:
+        return
     if unit.startswith("V"):
         duty = "12 V is a full battery. Did you use an output between -1 and 1 in place of volts?"
         yield _Factor(12.0, WrongNumber("duty", duty, "M-DUTY"))

@@ -179,11 +179,15 @@ def test_a_wrong_sign_or_a_missing_term_is_named(copy, student):
     variant = OWN.module.draw(student)
     friction, speed, _ = variant.terms("backward")
     kick, _, push = variant.terms("accelerating")
+    at = variant.moments["braking"]
+    crossed = variant.gains["kV"] * at.acceleration + variant.gains["kA"] * at.velocity
+    crossed += variant.gains["kS"]
     cases = (
         ("backward", speed - friction, "friction opposes the motion"),
         ("backward", -(speed + friction), "v is negative"),
         ("accelerating", kick + push, "kV·v is missing"),
         ("forward", 243.5, "no battery"),
+        ("braking", crossed, "did you swap kV and kA?"),
     )
     for name, volts, says in cases:
         found = graded(copy, f"{name} = {volts:.4f}", name, student=student)

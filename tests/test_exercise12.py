@@ -156,6 +156,14 @@ def test_a_name_that_is_nearly_one_is_asked_about(tmp_path):
     assert "Did you mean stribeck?" in check.hint
 
 
+def test_a_parameter_that_an_effect_does_not_have_is_named(tmp_path):
+    text = 'effects = ["delay"]\ndelay.late = 0.03\n'
+    check = grade_answer(text, "ann", tmp_path)["held-out"]
+
+    assert check.seen == "delay.late, which is no parameter of delay"
+    assert "It has delay.lag." in check.hint
+
+
 def test_a_value_beyond_physics_is_no_crash(tmp_path):
     text = 'effects = ["delay"]\ndelay.lag = -1\n'
 

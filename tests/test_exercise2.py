@@ -412,6 +412,17 @@ def test_twelve_over_rpm_is_told_which_steps_are_missing(copy):
         assert found.misconception == "M-UNITS"
 
 
+def test_volts_for_each_radian_and_a_counted_motor_are_named(copy):
+    for student in CLASS[:20]:
+        parts = OWN.module.draw(student).parts
+        if parts.diameter:
+            value = parts.theoretical_kv * parts.diameter / 2.0
+            found = graded(copy, student=student, kV_theory=value)["kv-theory"]
+            assert "How far does it go in one radian?" in found.hint, student
+            half = graded(copy, student=student, kV_theory=parts.theoretical_kv / 2.0)["kv-theory"]
+            assert ("do not turn faster than one" in half.hint) == (parts.motors == 2), student
+
+
 def test_a_verdict_that_follows_from_a_wrong_difference_is_told_to_correct_that_first(copy):
     student = student_who(lambda one: one.verdict == "bookkeeping")
     variant = OWN.module.draw(student)

@@ -340,6 +340,22 @@ def test_a_part_of_a_plan_that_is_next_to_nothing_earns_nothing(copy, part):
     assert "Choose a number above 0.001" in found.hint
 
 
+def test_a_timeout_in_milliseconds_is_told_the_limit(copy):
+    plan = written("shooter", DRAWN.sound(OWN.module.draw("ann").machines["shooter"]))
+    found = grade_answer(copy, **plan | {"shooter_timeout": "4000"})["shooter"]
+
+    assert found.hint == "No test may be longer than 10 s. Is this in milliseconds? Write seconds."
+
+
+def test_a_ramp_that_is_let_go_too_early_is_told_where_the_mark_is(copy):
+    for student in ("ann", "ben", "zoë"):
+        machine = OWN.module.draw(student).machines["drivetrain"]
+        plan = written("drivetrain", replace(DRAWN.sound(machine), release=0.1, timeout=10.0))
+        found = grade_answer(copy, student=student, **plan)["drivetrain"]
+
+        assert "m; your mark is at 0.1 m" in found.hint
+
+
 @pytest.mark.parametrize("extreme", ["1e-300", "1e-9", "1e4", "1e300"])
 def test_extreme_numbers_are_told_what_is_wrong(copy, extreme):
     plan = written("drivetrain", DRAWN.sound(OWN.module.draw("ann").machines["drivetrain"]))

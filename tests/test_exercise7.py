@@ -182,6 +182,16 @@ def test_what_a_line_earns(line, damage, points):
     assert (result.hint == "") == (points == 2.0)
 
 
+def test_the_same_advice_for_two_faults_is_given_once():
+    line = (
+        "encoder-slip dynamic-forward 1 to 2 filter + stuck-sensor dynamic-forward 2.5 to 3 filter"
+    )
+    two = case(SLIP, ("stuck-sensor", 2, 23.5, 24.0))
+    hint = SCORED.scored(LINE.read_claims(line), two, points=2.0).hint
+
+    assert hint.count("filter helps if") == 1
+
+
 def test_half_a_sample_off_is_forgiven_where_damage_is_short():
     short = case(("wheel-slip", 2, 21.0, 21.12))
 

@@ -104,10 +104,11 @@ def test_what_is_lost_costs_half_a_point_for_each_test():
     [
         (dict(keep={}), "ka", "you keep samples in which a hard", ""),
         (dict(median=1), "ka", "Single readings are far off", ""),
+        (dict(median=2), "ka", "Two readings have no middle one", ""),
         (dict(median=15), "ka", "A median of so many samples flattens", "M-FILTER-FREE"),
         (dict(threshold=0.0), "ks", "You keep samples from before the mechanism", ""),
         (dict(keep=dict.fromkeys(STEPS, (0.2, 0.5))), "ka", "first rise", "M-TRIM-PRETTY"),
-        (dict(threshold=1e6), "kv", "You cut away too much", "M-TRIM-PRETTY"),
+        (dict(threshold=1e6), "kv", "Compare your threshold with the largest", "M-TRIM-PRETTY"),
         (
             dict(keep=dict.fromkeys(RAMPS, (0.0, 2.0))),
             "reach",

@@ -259,3 +259,39 @@ def test_names_of_answers_may_be_written_in_small_letters(copy):
     seen = [check.seen for check in copy.grade(None, student="ann").checks[:3]]
 
     assert all(said.startswith("1 V") for said in seen)
+
+
+NAIVE = """import numpy as np
+
+
+def fit(time, voltage, position, velocity, test):
+    a = {slope}
+    known = np.column_stack([np.sign(velocity), velocity, a])
+    ks, kv, ka = np.linalg.lstsq(known, voltage, rcond=None)[0]
+    return {{"{ks}": ks, "kV": kv, "kA": ka}}
+"""
+
+
+@pytest.mark.parametrize(
+    "slope", ["np.gradient(velocity, time)", "np.gradient(velocity, 0.02)", "velocity / 12"]
+)
+def test_a_number_that_a_program_computed_is_not_blamed_on_a_calculator(copy, slope):
+    hint = grade_answer(copy.folder, NAIVE.format(slope=slope, ks="kS")).hint
+
+    assert not any(words in hint for words in ("round", "battery", "diameter", "started from"))
+    assert "Check four steps: take the tests one by one" in hint
+
+
+def test_a_function_with_the_numbers_of_one_log_is_told_to_compute(copy):
+    text = "def fit(**columns):\n    return {'kS': 0.2, 'kV': 2.5, 'kA': 0.2}\n"
+    check = grade_answer(copy.folder, text)
+
+    assert "the same gains for every log" in check.seen
+    assert check.hint.startswith("Each log is of another mechanism. Compute the gains")
+
+
+def test_a_gain_under_another_name_is_shown_the_names(copy):
+    check = grade_answer(copy.folder, NAIVE.format(slope="np.gradient(velocity, time)", ks="ks"))
+
+    assert "no kS; your function returned ks, kV, kA" in check.seen
+    assert check.hint.startswith("Return all three under these names")

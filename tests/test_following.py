@@ -86,6 +86,13 @@ def test_a_wrong_gain_is_told_by_what_it_does(kind, changes, reads):
     reads(followed(kind, **changes).description)
 
 
+def test_a_drivetrain_that_moves_on_its_own_does_not_climb():
+    plant, believed = Plant("simple", DRIVE), Plant("arm", ARM)
+    one = follow_profile(plant, believed, UP, name="drivetrain", symbol="m")
+
+    assert "When the drivetrain should stand still, it moves on about" in one.description
+
+
 @pytest.mark.parametrize("size", [1e300, -1e300])
 @pytest.mark.parametrize("gain", ["kS", "kG", "kV", "kA"])
 def test_no_number_is_too_large(gain, size):

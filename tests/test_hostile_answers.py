@@ -135,3 +135,15 @@ def test_a_function_that_cannot_be_read_is_said_and_is_nobodys_fault(content, an
 
     assert (found.status, function.status, function.points) == ("failed", "not-reached", 0.0)
     assert "fit.py" in function.seen
+
+
+@pytest.mark.parametrize(
+    "row",
+    ["verdict = inspect", "steps = [run-tests, place-gains]  # in order", "release = timeout"],
+)
+def test_a_word_without_quotes_is_told_to_get_them(tmp_path, row):
+    path = tmp_path / "answers.toml"
+    path.write_text(f"{row}\n", encoding="utf-8")
+
+    with pytest.raises(UnreadableFile, match="Put quotes around each word"):
+        read_answers(path)

@@ -132,6 +132,11 @@ def _wholes(variant: Variant, name: str) -> list[Guess]:
     ]
     if name != "backward":
         found.append((-volts, WrongNumber("sign", "the size is right, the sign is not")))
+    at, gains = variant.moments[name], variant.gains
+    if at.acceleration:
+        crossed = variant.terms(name)[0] + gains["kV"] * at.acceleration + gains["kA"] * at.velocity
+        says = "did you swap kV and kA? kV belongs to the velocity, kA to the acceleration"
+        found.append((crossed, WrongNumber("crossed", says)))
     for other in MOMENTS:
         if other != name:
             says = f"that would be right for {other}. Did you swap two answers?"

@@ -66,8 +66,9 @@ EVERYDAY = (
             ),
             Option(
                 "kS",
-                "kS comes from friction in bearings and gears. A brace changes kS very little. "
-                "Look for the term that contains the acceleration",
+                "kS comes from friction: in bearings, in gears, and between wheels and carpet. A "
+                "brace makes it only a little larger. Look for the term that contains the "
+                "acceleration",
                 "M-HEAVIER-MORE-KS",
             ),
             Option(

@@ -204,7 +204,10 @@ def held_out(answers: Answers) -> str | None:
     if shrunk >= SHRINK:
         hint = "you are close. Is an effect missing, or is a parameter not yet right?"
         raise WrongAnswer(seen, hint=hint, earned=2.0)
-    hint = "a large gap remains. Are the parameters those of your own log, in its units?"
+    hint = (
+        "a large gap remains. Are the parameters those of your own log, in its units? Or is an "
+        "effect missing, or another one that looks alike?"
+    )
     if after > WORSE * before:
         hint = (
             "on runs that it was not fitted to, your model is worse than gains alone. It only "

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.answer import AskedNumber, Band, read_answer_number
-from grader.check import WrongAnswer
+from grader.check import WrongAnswer, shorten
 
 if TYPE_CHECKING:
     from sim.core.units import Unit
@@ -82,9 +82,25 @@ def parts_of(names: tuple[str, ...], given: Mapping[str, object], per: "Unit") -
         if not isinstance(table, dict):
             lines = ", ".join(f"{name}.{one.name} = …" for one in known)
             raise WrongAnswer(f"no parameters of {name}", hint=f"Write a line for each: {lines}.")
+        _require_known(name, table, [one.name for one in known])
         values = {one.name: _value(name, one, table.get(one.name), per) for one in known}
         parts.append(Part(name, values))
     return parts
+
+
+def _require_known(name: str, table: Mapping[str, object], known: list[str]) -> None:
+    """Refuse a parameter that the effect does not have.
+
+    Raises:
+        WrongAnswer: there is one.
+    """
+    for other in table:
+        if other not in known:
+            own = " and ".join(f"{name}.{one}" for one in known)
+            raise WrongAnswer(
+                f"{name}.{shorten(other)}, which is no parameter of {name}",
+                hint=f"It has {own}. Copy the lines that try_it.py prints.",
+            )
 
 
 def _value(name: str, known: "Parameter", raw: object, per: "Unit") -> float:

@@ -49,6 +49,8 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
         found.append((parts.theoretical_kv * coded / parts.ratio, says, ""))
     if parts.diameter:
         radius = "a factor of 2: did you mix up diameter and radius?"
+        if parts.motors == 2:
+            radius += " Or did you count the motors? Two motors do not turn faster than one"
         around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
         still = "that is volts for each turn of the wheel in a second. How far does one turn go?"
         found += [(parts.theoretical_kv * times, radius, GEARING) for times in (0.5, 2.0)]
@@ -56,6 +58,8 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
             (parts.theoretical_kv * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)
         ]
         found += [(parts.theoretical_kv * math.pi * parts.diameter, still, GEARING)]
+        angle = "that is volts for each rad/s of the wheel. How far does it go in one radian?"
+        found += [(parts.theoretical_kv * parts.diameter / 2.0, angle, GEARING)]
     else:
         turn = "2π = 6.28. Is this per radian? Write it per rotation"
         found += [

@@ -17,7 +17,7 @@ from .drawn import Variant, draw
 from .outcome import outcome
 from .plan import Machine, Plan, dynamic, quasistatic
 from .preflight import CHOICES, judge_all, judge_choice, judge_steps
-from .rules import broken
+from .rules import LONGEST, broken
 
 FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
@@ -176,6 +176,10 @@ def _positive(
         raise
     if not LEAST < value <= most:
         hint = f"Choose a number above {LEAST:g}, at most {most:.0f} {unit}."
+        if what == "timeout" and value > most:
+            hint = (
+                f"No test may be longer than {LONGEST:g} s. Is this in milliseconds? Write seconds."
+            )
         raise WrongAnswer(f"{name}: {value:g} {unit}", hint=hint)
     return value
 

@@ -97,6 +97,9 @@ def _too_slow(slow: Test, end: str) -> Broken:
     says = f"your ramp reaches {share:.1f} % of the free speed at {end}; at least 25 %"
     run = slow.place(slow.when(slow.speed, QUARTER * machine.free))
     if machine.travel is None or run <= machine.travel:
+        if slow.by_mark:
+            says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; your mark is at "
+            says += f"{slow.release:g} {machine.symbol}"
         return Broken(says)
     says += f". To reach that, your ramp needs {run:.1f} {machine.symbol}; you have "
     return Broken(f"{says}{machine.travel:g} {machine.symbol}", SLOW)

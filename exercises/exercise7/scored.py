@@ -42,7 +42,8 @@ def scored(claims: Sequence[Claim], case: Case, *, points: float) -> Scored:
         share += earned / len(case.damage)
         says += [hint] if hint else []
     says += [_alarm(claim) for claim in alarms]
-    return Scored(max(points * share - FALSE_ALARM * len(alarms), 0.0), " ".join(says))
+    hint = " ".join(dict.fromkeys(says))
+    return Scored(max(points * share - FALSE_ALARM * len(alarms), 0.0), hint)
 
 
 def _paired(

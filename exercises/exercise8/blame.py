@@ -21,6 +21,10 @@ SHORT = (
     "Single readings are far off, also in the steps, and SysId takes one of them for the "
     "largest acceleration. What removes a single wrong reading?"
 )
+EVEN = (
+    "Two readings have no middle one, so a window of 2 is their mean, and half of a wrong reading "
+    "stays. What is the smallest window with a middle?"
+)
 HIGH = "Your threshold drops good samples, in which the mechanism moves."
 LOW = (
     "You keep samples from before the mechanism moves: there, the voltage causes neither "
@@ -67,7 +71,9 @@ def _repairs(reference: Preparation, given: Preparation) -> Iterator[tuple[Prepa
 
 
 def _median(reference: Preparation, given: Preparation) -> Said:
-    return (LONG, "M-FILTER-FREE") if given.median > reference.median else (SHORT, "")
+    if given.median > reference.median:
+        return LONG, "M-FILTER-FREE"
+    return (EVEN, "") if given.median == 2 else (SHORT, "")
 
 
 def _threshold(reference: Preparation, given: Preparation) -> Said:

@@ -128,11 +128,12 @@ def _gain(name: str, answers: Answers) -> None:
     preparation, variant = _preparation(answers), answers.variant
     try:
         found = fitted(variant.log, preparation)
-    except Refusal as refusal:
+    except Refusal:
         raise WrongAnswer(
             "no fit: too little is left of your log",
             hint="You cut away too much: a part of a test is too short, or the threshold is too "
-            f"high. The fit says: {refusal}",
+            "high. Compare your threshold with the largest velocity of each quasistatic test, and "
+            "your times with the length of each test",
             misconception="M-TRIM-PRETTY",
         ) from None
     value, asked = found.gains[name], variant.asked[name]

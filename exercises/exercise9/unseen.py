@@ -34,6 +34,10 @@ STEPS = {"drivetrain": 1.8}  # [V] other than usual: four Krakens spin the wheel
 SECONDS = 10.0  # for all five; the solution takes a tenth of one
 MOST_DRAWS = 100
 ROOM = 0.6  # [share of the band] an honest fit stays within: there are many honest ways to fit
+FOUR_STEPS = (
+    "Check four steps: take the tests one by one, divide by the difference of the times, leave out "
+    "the rows that stand still, and put the noisiest column on the left side of the fit"
+)
 REMEMBERED = 32  # answers whose numbers are kept, for a file that is graded again as it was
 PRINTED = 120  # [characters] of a learner's own prints that are shown
 
@@ -124,7 +128,7 @@ def _draw(student: str, number: int, recipe: Recipe) -> Hidden:
         asked = ask_gains(convert_gains(built.gains, factor=per.si), position=per.symbol)
         if _fair(log, asked, si=per.si, noisy=recipe.noisy):
             around = scene(built, log, asked, ramp=RAMP, period=recipe.period)
-            around = replace(around, ratio=1.0, motors=1)  # a function knows of neither
+            around = replace(around, computed=True)  # a function knows only the log
             return Hidden(recipe, _table(log, si=per.si), AnswerKey(asked, around))
     raise RuntimeError(f"no solvable log {number} for {student!r}")
 
@@ -206,15 +210,27 @@ def judge_function(path: Path, *, student: str, points: float, run: bool) -> str
     of = derive_student_seed(student, "exercise9")
     logs, outcome = hidden(student, of), _outcome(text, student, of)
     wrong = [found for found in map(_judge_log, logs, outcome.answers) if found]
+    same = _same_for_all([answer.numbers for answer in outcome.answers])
     printed = _printed(outcome.printed)
     if not wrong:
         return printed or None
-    told = _telling(wrong)
+    told = same or _telling(wrong)
     right = len(logs) - len(wrong)
     told.seen = f"{right} of {len(logs)} logs right; {told.seen}"
     told.hint += f". {printed}" if printed else ""
     told.earned = points * right / len(logs)
     raise told
+
+
+def _same_for_all(returned: Sequence[Mapping[str, float]]) -> WrongAnswer | None:
+    """What to say of a function that returns the same gains for every log, if it does."""
+    if not returned[0] or any(numbers != returned[0] for numbers in returned):
+        return None
+    return WrongAnswer(
+        "the same gains for every log",
+        hint="Each log is of another mechanism. Compute the gains from the columns that your "
+        "function gets",
+    )
 
 
 @dataclass(frozen=True)
@@ -248,6 +264,8 @@ def _telling(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
         told.why.hint = ". ".join(part for part in (verdict, recipe.note) if part)
         if len(wrong) == 1:  # it is this log's own difficulty
             told.why.misconception = recipe.misconception
+    elif told.judged and told.why.hint:
+        told.why.hint += f"{'' if told.why.hint.endswith('?') else '.'} {FOUR_STEPS}"
     return told.why
 
 
@@ -270,6 +288,10 @@ def _judge_gain(name: str, log: Hidden, answer: "CallResult") -> Miss | None:
         if answer.refused[name] == "None":
             hint = f"Your function does not find {name} yet: it returns None"
         return Miss(log, WrongAnswer(f"{name} = {answer.refused[name]}", hint=hint))
+    if name not in answer.numbers:
+        listed = ", ".join((*answer.numbers, *answer.refused)) or "nothing"
+        hint = 'Return all three under these names: {"kS": ..., "kV": ..., "kA": ...}'
+        return Miss(log, WrongAnswer(f"no {name}; your function returned {listed}", hint=hint))
     one, value, period = log.key.asked[name], answer.numbers.get(name), log.recipe.period
     # a kA of 0.02 s is too large by as much as samples are closer
     if value and name == "kA" and period != USUAL and one.is_right(value * period / USUAL):

@@ -61,7 +61,8 @@ class FollowedProfile:
         drift = self.position[end] - self.position[0]
         if abs(drift) <= SEEN * self._way():
             return ""
-        way = "sinks" if drift < 0.0 else "climbs"
+        ways = ("sinks", "climbs") if self.place in BESIDE else ("moves back", "moves on")
+        way = ways[drift > 0.0]
         told = f"When it should stand still, it {way} {self._size(drift)}"
         if self.position[end] in self.stops:
             return f"{told} and reaches its hard stop."

@@ -257,6 +257,14 @@ MISTAKES = (
         "no velocity of left",
     ),
     Mistake(
+        "ticks for meters",
+        JAVA,
+        replace_text(("METERS_PER_ROTATION = 0.0472", "METERS_PER_ROTATION = 2048")),
+        "units",
+        "One rotation would be 2048 m",
+        "M-UNITS",
+    ),
+    Mistake(
         "one side's numbers under both names",
         JAVA,
         replace_text(

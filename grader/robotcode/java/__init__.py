@@ -23,6 +23,13 @@ SECONDS_PER_BYTE = 3e-6  # and this for its length; Java takes a twentieth
 
 _CLASS = re.compile(r"\b(class|interface|enum|record)\s+\w+[^;:]*\{")
 _DECIMAL_COMMA = re.compile(r"(?<=[=(*/+-])\s*\d+,\d+\b")
+_PYTHON = re.compile(r"^[ \t]*(def \w+\(.*:|class \w+.*:|from [\w.]+ import .*)$", re.MULTILINE)
+# The end of a statement that lacks its semicolon; no header, annotation, comment or condition.
+_STATEMENT = re.compile(
+    r"\s*(?!@|/|\*|(if|for|while|else|do|try|switch|public|private|protected|class)\b).*[\w)\]\"]"
+)
+_TEXT = re.compile(r'"[^"]*"')
+_COMMENT = {"//", "/*", "*/", "* ", "*"}
 _POINT = "a decimal number has a point in Java, not a comma:{}"
 _LANGUAGE = Language(tree_sitter_java.language())
 
@@ -99,17 +106,40 @@ def _problems(root: Tree, lowering: IrBuilder, text: str) -> tuple[ParseProblem,
         if tree.is_missing and bracket is not None and tree.type in "()[]{}":
             continue  # the parser's repair of the same mistake, farther from its cause
         if tree.is_missing:
-            found.append(ParseProblem(f"a '{tree.type}' is missing", tree.start_point[0] + 1))
+            line = _find_code_line(text, tree.start_point[0])
+            found.append(ParseProblem(f"a '{tree.type}' is missing", line))
         elif tree.is_error and bracket is not None and _around(tree, bracket):
             continue  # what the parser made of it
         elif tree.is_error:
             row = tree.start_point[0]
             comma = _DECIMAL_COMMA.search(text.split("\n")[row])
             said = _POINT.format(comma[0]) if comma else _misread(lowering.source_text(tree))
-            found.append(ParseProblem(said, row + 1))
+            before = _find_no_semicolon(text, *tree.start_point)
+            found.append(before or ParseProblem(said, row + 1))
         elif tree.has_error:
             waiting.extend(reversed(tree.children))
     return tuple(dict.fromkeys(found))
+
+
+def _find_code_line(text: str, row: int) -> int:
+    """The last line, counted from 1, up to a row, counted from 0, that is no comment."""
+    lines = [line.strip() for line in text.split("\n")[: row + 1]]
+    code = (at for at in range(row, -1, -1) if lines[at] and lines[at][:2] not in _COMMENT)
+    return next(code, row) + 1
+
+
+def _find_no_semicolon(text: str, row: int, column: int) -> ParseProblem | None:
+    """The statement before an error, if the error begins a line and that statement has no end."""
+    lines = text.split("\n")
+    if lines[row][:column].strip() or not lines[row][column : column + 1].isidentifier():
+        return None
+    above = [_TEXT.sub('""', line).partition("//")[0].rstrip() for line in lines[:row]]
+    code = "".join(above)
+    number = next((at for at in range(row, 0, -1) if above[at - 1]), 0)
+    within = code.count("(") > code.count(")")  # there, a comma or an operator is missing
+    if within or not number or not _STATEMENT.fullmatch(above[number - 1]):
+        return None
+    return ParseProblem("a ';' is missing at the end of this line", number)
 
 
 def _around(tree: Tree, cause: ParseProblem) -> bool:
@@ -121,6 +151,8 @@ def _without_a_class(text: str) -> list[ParseProblem]:
     if _CLASS.search(text):
         return []
     first = next((at for at, line in enumerate(text.split("\n"), 1) if line.strip()), 1)
+    if _PYTHON.search(text):
+        return [ParseProblem("this is Python, and a .java file must contain Java", first)]
     return [ParseProblem(_misread(text.split("\n")[first - 1]), first)]
 
 

@@ -1,6 +1,7 @@
 """RobotPy text to the common syntax, with Python's own parser."""
 
 import ast
+import re
 import warnings
 from pathlib import Path
 
@@ -9,6 +10,8 @@ from grader.robotcode.facts import ParseProblem
 from grader.robotcode.python.expressions import EXPRESSIONS
 from grader.robotcode.python.statements import STATEMENTS
 from grader.robotcode.python.to_ir import IrBuilder
+
+_JAVA = re.compile(r"^[ \t]*(package [\w.]+;|import [\w.]+;|public class )", re.MULTILINE)
 
 
 def parse(text: str, path: Path) -> ir.Module:
@@ -27,8 +30,10 @@ def parse(text: str, path: Path) -> ir.Module:
             warnings.simplefilter("ignore")  # a doubtful escape is the learner's own affair
             tree = ast.parse(text)
     except SyntaxError as error:
-        said = error.msg.partition(";")[0]
-        problem = ParseProblem(f"this is not Python: {said}", max(error.lineno or 1, 1))
+        said = f"this is not Python: {error.msg.partition(';')[0]}"
+        if _JAVA.search(text):
+            said = "this is Java, and a .py file must contain Python"
+        problem = ParseProblem(said, max(error.lineno or 1, 1))
     except (RecursionError, MemoryError, ValueError):
         problem = ParseProblem("the code is nested deeper than Python itself can read", 1)
     else:
