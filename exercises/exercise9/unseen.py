@@ -265,7 +265,7 @@ def _telling(wrong: Sequence[Sequence[Miss]]) -> WrongAnswer:
         if len(wrong) == 1:  # it is this log's own difficulty
             told.why.misconception = recipe.misconception
     elif told.judged and told.why.hint:
-        told.why.hint += f"{'' if told.why.hint.endswith('?') else '.'} {FOUR_STEPS}"
+        told.why.hint += f"{'' if told.why.hint.endswith(('.', '?')) else '.'} {FOUR_STEPS}"
     return told.why
 
 
