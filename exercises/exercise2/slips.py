@@ -48,18 +48,7 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
         says = "this uses the ratio in the code. Use the real ratio"
         found.append((parts.theoretical_kv * coded / parts.ratio, says, ""))
     if parts.diameter:
-        radius = "a factor of 2: did you mix up diameter and radius?"
-        if parts.motors == 2:
-            radius += " Or did you count the motors? Two motors do not turn faster than one"
-        around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
-        still = "that is volts for each turn of the wheel in a second. How far does one turn go?"
-        found += [(parts.theoretical_kv * times, radius, GEARING) for times in (0.5, 2.0)]
-        found += [
-            (parts.theoretical_kv * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)
-        ]
-        found += [(parts.theoretical_kv * math.pi * parts.diameter, still, GEARING)]
-        angle = "that is volts for each rad/s of the wheel. How far does it go in one radian?"
-        found += [(parts.theoretical_kv * parts.diameter / 2.0, angle, GEARING)]
+        found += _slips_of_a_wheel(variant)
     else:
         turn = "2π = 6.28. Is this per radian? Write it per rotation"
         found += [
@@ -72,6 +61,23 @@ def lookalikes(variant: Variant) -> tuple[Lookalike, ...]:
         many = "four motors share the work, but none of them turns faster for it"
         found += [(parts.theoretical_kv * times, many, "") for times in (0.25, 4.0)]
     return _named(found)
+
+
+def _slips_of_a_wheel(variant: Variant) -> list[Lookalike]:
+    """What slips between a wheel's turns and its way make of kV_theory."""
+    kv, diameter = variant.parts.theoretical_kv, variant.parts.diameter
+    radius = "a factor of 2: did you mix up diameter and radius?"
+    if variant.parts.motors == 2:
+        radius += " Or did you count the motors? Two motors do not turn faster than one"
+    around = "2π = 6.28. One turn of a wheel is how many meters of ground?"
+    turn = "that is volts for each turn of the wheel in a second. How far does one turn go?"
+    angle = "that is volts for each rad/s of the wheel. How far does it go in one radian?"
+    return [
+        *((kv * times, radius, GEARING) for times in (0.5, 2.0)),
+        *((kv * times, around, UNITS) for times in (2 * math.pi, 0.5 / math.pi)),
+        (kv * math.pi * diameter, turn, GEARING),
+        (kv * diameter / 2.0, angle, GEARING),
+    ]
 
 
 def rarer(variant: Variant) -> tuple[Lookalike, ...]:
