@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from sim.physics.effects import EFFECTS
 from sim.reconcile.judgement import list_rival_scores
+from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
     FEATURES,
     FILE,
@@ -33,6 +34,15 @@ PLAIN = Evidence(
     once=0.0,
     damaged=0.0,
 )  # of an effect that is worth 150 and closes a quarter of the gap
+
+
+@pytest.mark.parametrize("kv", [0.5, 2.0])
+def test_a_little_drag_is_on_any_robot_and_counts_at_the_free_speed(kv):
+    little, much = ({"kV": kv, "drag.drag": volts * (kv / 12.0) ** 2} for volts in (0.8, 1.8))
+
+    assert is_ordinary_size("drag", little)
+    assert not is_ordinary_size("drag", much)
+    assert compute_log_size("drag", much) == pytest.approx(math.log(2.0), abs=1e-3)
 
 
 def test_every_feature_has_its_coefficient():
@@ -72,7 +82,7 @@ def test_the_size_is_told_in_everyday_sizes(times):
     # The largest everyday lag, times a factor, is that factor in everyday sizes.
     lag = EFFECTS["delay"].parameters[0]
     largest = max(
-        (n for n in range(1, 2000) if EFFECTS["delay"].is_ordinary({lag.name: n * 1e-5})),
+        (n for n in range(1, 2000) if EFFECTS["delay"].is_ordinary({lag.name: n * 1e-5}, {})),
     )
 
     found = compute_log_size("delay", {f"delay.{lag.name}": times * largest * 1e-5})

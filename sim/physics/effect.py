@@ -152,7 +152,8 @@ class Effect:
         simpler: the effect with fewer parameters that does about the same; empty if there is none.
         same_in_motion: the effect that is the same wherever the mechanism moves; empty if none is.
         simplify: its parameters, from this one's and what a log shows.
-        is_ordinary: whether it is as small, with these parameters, as on any robot in good order.
+        is_ordinary: whether it is as small, with these parameters and beside these gains, as on any
+            robot in good order.
     """
 
     name: str
@@ -179,7 +180,9 @@ class Effect:
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
         default=lambda _values, _seen: {}
     )
-    is_ordinary: Callable[[Mapping[str, float]], bool] = field(default=lambda _: False)
+    is_ordinary: Callable[[Mapping[str, float], Mapping[str, float]], bool] = field(
+        default=lambda _, __: False
+    )
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -166,7 +166,8 @@ def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[Weighed
 def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     """Whether an effect is no larger than on any healthy robot."""
     known = EFFECTS[effect]
-    return known.is_ordinary({name: values[f"{effect}.{name}"] for name in known.names})
+    own = {name: values[f"{effect}.{name}"] for name in known.names}
+    return known.is_ordinary(own, values)
 
 
 def compare_scores(now: Candidate, other: Candidate) -> float:

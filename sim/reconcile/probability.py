@@ -93,7 +93,7 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
 
     Args:
         effect: its name.
-        values: of a model, ``effect.parameter`` -> value.
+        values: of a model, its gains and ``effect.parameter`` -> value.
     """
     known = EFFECTS[effect]
 
@@ -102,7 +102,8 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
             {
                 one.name: one.neutral + (values[f"{effect}.{one.name}"] - one.neutral) / times
                 for one in known.parameters
-            }
+            },
+            values,
         )
 
     low, high = -FARTHEST, FARTHEST

@@ -31,7 +31,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     yield {"lean": float(lean)}
 
 
-def is_ordinary(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
     """Whether any robot has as much: no gear and no bearing is alike both ways."""
     return abs(values["lean"]) <= EVERYDAY
 

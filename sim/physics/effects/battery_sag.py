@@ -39,7 +39,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     yield {"share": 6.0}
 
 
-def is_ordinary(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
     """Whether any robot has as much: a good battery with good plugs."""
     return values["share"] <= EVERYDAY
 

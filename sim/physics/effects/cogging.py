@@ -74,7 +74,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         left[max(best - 3, 0) : best + 4] = 0.0
 
 
-def is_ordinary(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
     """Whether any robot has as much: the ripple that teeth and magnets leave in any mechanism."""
     return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
 

@@ -36,7 +36,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     yield {"load": float(load)}
 
 
-def is_ordinary(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
     """Whether any robot has as much: no floor is level, and no gear runs alike both ways."""
     return abs(values["load"]) <= EVERYDAY
 

@@ -39,7 +39,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         yield {"lag": lag}
 
 
-def is_ordinary(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
     """Whether any robot has as much: a CAN bus and a loop of 200 Hz."""
     return values["lag"] <= EVERYDAY
 

@@ -13,6 +13,9 @@ from collections.abc import Iterator, Mapping
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
+EVERYDAY = 0.9  # [V] at the free speed that 12 V give without it
+BATTERY = 12.0  # [V]
+
 
 def force(v: float, drag: float) -> float:
     """[V] force against the motion."""
@@ -28,6 +31,16 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: the share of v·|v| in the voltage residual."""
     (drag,) = seen.fit_columns(seen.velocity * abs(seen.velocity))
     yield {"drag": max(float(drag), 0.05 / max(seen.top_speed, 1e-9) ** 2)}
+
+
+def is_ordinary(values: Mapping[str, float], gains: Mapping[str, float]) -> bool:
+    """Whether any robot has as much.
+
+    Warm motors, a weak battery and a rolling wheel together bend the voltage-velocity line by as
+    much. Of 442 logs with known effects, hidden drag is 1.2 V and more at this speed, and drag that
+    is none is mostly below 1 V.
+    """
+    return values["drag"] * (BATTERY / gains["kV"]) ** 2 <= EVERYDAY
 
 
 EFFECT = Effect(
@@ -54,4 +67,5 @@ EFFECT = Effect(
     example=ordinary_parameters,
     start_values=find_start_values,
     hooks={"force": force},
+    is_ordinary=is_ordinary,
 )

@@ -44,7 +44,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         yield {"extra": max(float(extra), 0.02), "slow": slow}
 
 
-def is_ordinary(values: Mapping[str, float]) -> bool:
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
     """Whether any robot has as much: every gearbox starts a little harder than it runs."""
     return values["extra"] <= EVERYDAY
 
