@@ -53,6 +53,6 @@ def find_status(one: GradedStudent) -> dict[str, str]:
     return {str(record["exercise"]): str(record["status"]) for record in one.records}
 
 
-def is_whole(one: GradedStudent, results: ClassResults) -> bool:
+def is_fully_graded(one: GradedStudent, results: ClassResults) -> bool:
     """Whether everything that a student handed in was graded, so that the total counts."""
     return one.student not in results.remarks and "ungradable" not in find_status(one).values()

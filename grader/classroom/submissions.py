@@ -491,7 +491,7 @@ class _SortedFiles:
         )
 
     def _judge_remaining(self, answered: set[str]) -> tuple[dict[str, str], tuple[str, ...]]:
-        """What remains, where it may be the only answer to an exercise.
+        """The files of no exercise, where one may be the only answer to an exercise.
 
         Args:
             answered: the exercises of which there is an answer.
@@ -534,7 +534,7 @@ def _explain_wrong_files(exercise: Exercise, names: Sequence[str]) -> str:
 
 
 def _is_harmless(path: PurePosixPath) -> bool:
-    """Whether a file that is no answer is the course's or a computer's own, or a log."""
+    """Whether an unused file needs no remark: of the course, of the computer, or a log."""
     name = path.name.casefold()
     return (
         name in COURSE_FILES

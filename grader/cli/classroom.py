@@ -256,7 +256,7 @@ def _collect_results(
 
 def _write_results(results: "ClassResults", out: Path, formats: "Sequence[ExportFormat]") -> int:
     from grader.classroom.result_pages import list_pages, summarize_class, write_pages  # noqa: PLC0415 - --help
-    from grader.classroom.results import is_whole  # noqa: PLC0415 - must not wait for any of these
+    from grader.classroom.results import is_fully_graded  # noqa: PLC0415 - must not wait for any of these
     from grader.classroom.store import ResultStore  # noqa: PLC0415 - the same
 
     page = write_pages(results, out)
@@ -264,7 +264,7 @@ def _write_results(results: "ClassResults", out: Path, formats: "Sequence[Export
     ResultStore(out).remove_outdated(
         [*list_pages(results, out), *files], students=[one.student for one in results.students]
     )
-    unread = {one.student for one in results.students if not is_whole(one, results)}
+    unread = {one.student for one in results.students if not is_fully_graded(one, results)}
     unread |= results.remarks.keys()
     print_lines(wrap_text(summarize_class(results), lead=""))
     print_lines([style_line(f"Overview: {page}")])

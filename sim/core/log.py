@@ -200,7 +200,7 @@ class Log:
         return max((run.top_speed for run in self.runs), default=0.0)
 
     @property
-    def has_both_kinds(self) -> bool:
+    def has_ramps_and_steps(self) -> bool:
         """Whether it holds quasistatic and dynamic tests, so that it can be fitted alone."""
         return {run.kind for run in self.runs} >= {"quasistatic", "dynamic"}
 

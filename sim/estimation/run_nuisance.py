@@ -14,8 +14,8 @@ ON_ONE_SIDE = 2.0 * math.log(3.0)
 BETWEEN = ON_ONE_SIDE + 2.0 * math.log(10.0)
 """[of -2 log L] Prior cost of a phase between them, where only friction holds the motor.
 
-Backlash that a run crosses from its end, and twice as much that it crosses from its middle, push
-the load at the same moment. The prior says that the first is ten times as usual.
+A motor that starts at one end of its backlash, and one that starts in the middle of twice as much
+backlash, reach the load at the same moment. The prior makes the first ten times as likely.
 """
 
 

@@ -135,7 +135,7 @@ def inspect_together(logs: Sequence[Log]) -> Inspection:
     offset = 0
     for log in logs:
         runs = range(offset, offset + len(log.runs))
-        if log.has_both_kinds:
+        if log.has_ramps_and_steps:
             alone = inspect(log)
             damages += [_of_file(one, log, offset) for one in alone.damages if not _is_absence(one)]
             for doubt in alone.doubts:
@@ -144,11 +144,11 @@ def inspect_together(logs: Sequence[Log]) -> Inspection:
         else:
             damages += [one for one in together.damages if one.where.run in runs]
         offset = runs.stop
-    if not any(log.has_both_kinds for log in logs):
+    if not any(log.has_ramps_and_steps for log in logs):
         damages += [
             one for one in together.damages if one.where.run is None and not _is_absence(one)
         ]
-    if not all(log.has_both_kinds for log in logs):
+    if not all(log.has_ramps_and_steps for log in logs):
         doubts |= {doubt: [] for doubt in together.doubts}
     named = tuple(_name_files(doubt, sources) for doubt, sources in doubts.items())
     return Inspection(tuple(sorted(damages, key=_start_of)), named)

@@ -148,7 +148,7 @@ def _with_run_friction(
     track: Track,
     compared: NDArray[np.bool_],
 ) -> Array:
-    """(n, 2) the errors with the friction of each run's own that leaves least of them.
+    """(n, 2) errors, each run with the additional friction that makes its errors smallest.
 
     Each friction is simulated, because friction shifts the phase of cogging nonlinearly. Between
     those that are tried, each run's best is where a parabola is lowest.

@@ -85,7 +85,7 @@ def select_reported_rounds(
 
 
 def _describe_small_share(share: float) -> str:
-    """A share that is called small: ``only 12%``, or ``less than 1%`` instead of zero."""
+    """A small probability as text: ``only 12%``, or ``less than 1%`` instead of zero."""
     shown = f"{share:.0%}"
     return "less than 1%" if shown == "0%" else f"only {shown}"
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from grader.classroom.atomic_files import write_private_file
 from grader.classroom.csv_cells import escape_formula
-from grader.classroom.results import ClassResults, collect_scores, is_whole
+from grader.classroom.results import ClassResults, collect_scores, is_fully_graded
 from sim.support.printable import list_first
 
 SUMMARY = "canvas.csv: to be imported into Canvas; give its own export as --roster"
@@ -36,14 +36,14 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
         row = {name.strip().casefold(): cell for name, cell in cells.items()}
         row.setdefault("student", one.student)
         who = [row.get(name.casefold(), "") for name in IDENTITY]
-        total = f"{sum(collect_scores(one).values()):g}" if is_whole(one, results) else ""
+        total = f"{sum(collect_scores(one).values()):g}" if is_fully_graded(one, results) else ""
         table.writerow([*map(escape_formula, who), total])
     return (write_private_file(folder / "canvas.csv", stream.getvalue()),)
 
 
 def warn(results: ClassResults) -> str:
     """Whose points are left out, in one line; empty if there are all."""
-    names = [one.student for one in results.students if not is_whole(one, results)]
+    names = [one.student for one in results.students if not is_fully_graded(one, results)]
     if not names:
         return ""
     return (

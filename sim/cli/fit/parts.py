@@ -32,7 +32,7 @@ def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     """
     if len(logs) == 1:
         return logs[0][1]
-    if all(log.has_both_kinds for _, motors in logs for log in motors.values()):
+    if all(log.has_ramps_and_steps for _, motors in logs for log in motors.values()):
         stems = [path.stem for path, _ in logs]
         unique = len(set(stems)) == len(stems)
         return {
