@@ -11,6 +11,7 @@ from sim.bench.routine import Routine
 from sim.bench.simulate import simulate
 from sim.cli.reconcile import inspect_damage
 from sim.core.units import find_unit
+from sim.estimation.initial_guess import guess_gains
 from sim.inspect.contaminate import contaminate
 from sim.physics.effects import EFFECTS
 from sim.reconcile import reconcile
@@ -318,3 +319,15 @@ def test_a_run_of_which_nothing_is_believed_is_told_and_left_out():
     assert [(one.effect, one.kind) for one in story.findings] == [
         ("sign-flip", "fault"), ("drag", "effect"),
     ]  # fmt: skip
+
+
+def test_a_limit_of_the_voltage_does_not_leave_the_base_model_without_inertia():
+    # Each step reaches the same speed, so the first guess of kA is negative.
+    robot = MECHANISMS["drivetrain"].hide("voltage-limit", 1.0)
+    log = simulate(robot, Routine(ramp=1.0, step=4.5, timeout=3.0), rng=np.random.default_rng(0))
+
+    story = reconcile(log, type="simple")
+
+    assert guess_gains(log, type="simple")["kA"] < 0.0
+    assert story.chapters[0].model.gains["kA"] > 0.5 * MECHANISMS["drivetrain"].gains["kA"]
+    assert [one.effect for one in story.findings] == ["voltage-limit"]

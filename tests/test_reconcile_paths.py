@@ -190,6 +190,9 @@ def test_a_pair_that_makes_needless_what_was_there_is_a_pair(monkeypatch, pair, 
         (("stribeck", 308.0, 0.74), ("deadband", 237.0, 0.5), "stribeck"),
         (("stribeck", 308.0, 0.74), ("deadband", 140.0, 0.35), "stribeck"),  # not half as likely
         (("spring", 45.0, 0.58), ("drag", 43.0, 0.74), "drag"),  # fewer parameters go first
+        # of an effect and its simpler form, the likelier, which has paid for its parameters
+        (("spring", 45.0, 0.58), ("constant-load", 43.0, 0.58), "spring"),
+        (("constant-load", 45.0, 0.58), ("spring", 43.0, 0.58), "constant-load"),
         # what may be one run's accident has to be far likelier than what lasts
         (("inertia-change", 280.0, 0.9), ("heating", 160.0, 0.9), "heating"),
         (("inertia-change", 300.0, 0.9), ("heating", 160.0, 0.9), "inertia-change"),
@@ -238,9 +241,8 @@ def test_what_happens_once_takes_the_place_of_what_lasts_only_if_it_is_far_likel
     monkeypatch, other, gains, taken
 ):
     one_gap = Gap(1.0, 1.0)
-    alike = (("battery-sag", 425.0), (other, 366.0))
-    tried = tuple(TriedCandidate(name, score, 0.9, admitted=True, why="") for name, score in alike)
-    base = replace(model("", 1000.0, gap=2.0), tried=tried)
+    alike = (("battery-sag", 425.0, True), (other, 366.0, True))
+    base = model("", 1000.0, gap=2.0, others=alike)
     point = replace(
         NOWHERE,
         structure=ModelStructure("simple") + "battery-sag" + "stribeck",

@@ -21,8 +21,18 @@ from sim.reconcile.probability import (
     compute_probability,
     compute_rival_share,
 )
+from sim.reconcile.residual_tests.repeatability import RepeatedResidual
+from sim.reconcile.residual_tests.spectrum import SpectralPeak
+from sim.reconcile.residual_tests.summary import ResidualSummary
+from sim.reconcile.residual_tests.whiteness import NO_WINDOW
 from sim.reconcile.story import TriedCandidate
-from sim.reconcile.thresholds import FARTHEST
+from sim.reconcile.thresholds import (
+    FARTHEST,
+    LARGEST_SIZE,
+    PERIODIC,
+    REPEATED,
+    UNLIKELY_WINDOW,
+)
 
 PLAIN = Evidence(
     likelihood=5.0,
@@ -87,9 +97,32 @@ def test_the_size_is_told_in_everyday_sizes(times):
 
     found = compute_log_size("delay", {f"delay.{lag.name}": times * largest * 1e-5})
 
-    low, high = -FARTHEST, FARTHEST
-    assert low <= found <= high
-    assert found == pytest.approx(math.log(times), abs=0.01)
+    assert -FARTHEST <= found <= LARGEST_SIZE
+    assert found == pytest.approx(min(math.log(times), LARGEST_SIZE), abs=0.01)
+
+
+def test_a_velocity_averaged_over_a_millisecond_is_on_any_robot():
+    assert is_ordinary_size("velocity-filter", {"velocity-filter.window": 0.001})
+    assert not is_ordinary_size("velocity-filter", {"velocity-filter.window": 0.02})
+
+
+@pytest.mark.parametrize(
+    ("window", "repeated", "peak", "ratio"),
+    [
+        (UNLIKELY_WINDOW, 0.0, 0.0, 1.0),
+        (0.0, 2.0 * REPEATED, 0.0, 2.0),
+        (0.5 * UNLIKELY_WINDOW, 0.0, 0.9 * PERIODIC, 0.9),
+    ],
+)
+def test_the_test_that_comes_nearest_to_its_threshold_counts(window, repeated, peak, ratio):
+    left = ResidualSummary(
+        replace(NO_WINDOW, size=window),
+        replace(RepeatedResidual(), size=repeated),
+        replace(SpectralPeak(), size=peak),
+    )
+
+    assert left.largest_ratio == pytest.approx(ratio)
+    assert left.has_structure is (ratio > 1.0)
 
 
 @given(

@@ -52,6 +52,12 @@ def problem():
     )
 
 
+def with_tried(one, reports):
+    """The round, with what was tried on top of it."""
+    weighed = [WeighedCandidate(one.candidate, one.gap, report) for report in reports]
+    return replace(one, candidates=tuple(weighed))
+
+
 def rounds(problem, *gaps, values=GAINS, structure=None):
     """The base and what was added to it, with gaps in noises of the velocity."""
     structure = structure or ModelStructure("simple")
@@ -214,11 +220,11 @@ def test_the_most_important_effect_closes_most_of_the_gap_as_the_first_and_as_th
 ):
     values = {**GAINS, "drag.drag": 0.03, "spring.rate": 0.1, "spring.preload": 0.1}
     base, *steps = added(problem, ("drag", 0.8, 1.0), ("spring", 0.5, 1.0), values=values)
-    tried = tuple(
+    tried = [
         TriedCandidate(name, SURELY, share, admitted=True, why="") for name, share in alone.items()
-    )
+    ]
 
-    found = find_effects(problem, [replace(base, tried=tried), *steps], residuals=ResidualSummary())
+    found = find_effects(problem, [with_tried(base, tried), *steps], residuals=ResidualSummary())
 
     assert found[0].effect == first
     assert {one.effect for one in found} == {"drag", "spring"}
@@ -305,11 +311,12 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     values = {**GAINS, "battery-sag.share": 0.3}
     base, one = added(problem, ("battery-sag", 1.9, 2.0), values=values)
     scores = {"battery-sag": score, **others}
-    tried = tuple(
+    tried = [
         TriedCandidate(name, each, 1.0, admitted=False, why="") for name, each in scores.items()
-    )
+    ]
     plain = rounds(problem, 2.0)[0].candidate
-    done = [replace(base, tried=tried, candidate=plain), replace(one, removal_cost=score)]
+    base = replace(with_tried(base, tried), candidate=plain)
+    done = [base, replace(one, removal_cost=score)]
 
     (judged,) = judge_effects(problem, done, ResidualSummary(), damaged=False)
     found = find_effects(problem, done, residuals=ResidualSummary())

@@ -45,6 +45,8 @@ from sim.reconcile.verdict import reach_verdict
 
 __all__ = ["DamagedInterval", "Story", "reconcile"]
 
+SLOW = 0.5  # [s] time scale kA/kV of a slow mechanism
+
 
 def reconcile(
     log: Log,
@@ -169,22 +171,25 @@ def _make_folds(problem: PredictionErrorProblem, recordings: Recordings) -> tupl
 def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
     """The best estimate without effects.
 
+    It is searched from two values of kA: the guess, and that of a slow mechanism. Where a limit of
+    the voltage or a late velocity hides how the mechanism accelerates, the guess may be negative,
+    and a search from almost no inertia ends at a local minimum.
+
     Raises:
         NotIdentifiable: no gains follow the log.
     """
     guess = clamp_to_physical(recordings.initial_gains)
     structure = ModelStructure(recordings.type)
-    values = {name: guess[name] for name in structure.names}
-    begin = problem.evaluate(
-        structure,
-        values,
-        RunNuisance.at_first_samples(len(problem.records)),
-        problem.noise.velocity**2,
-    )
-    base = minimize_fully(
-        problem,
-        scan_process_noise(problem, levenberg_marquardt(problem, begin, steps=STEPS, enough=1.0)),
-    )
+    nuisance = RunNuisance.at_first_samples(len(problem.records))
+
+    def search(ka: float) -> Estimate:
+        values = {name: {**guess, "kA": ka}[name] for name in structure.names}
+        begin = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
+        found = levenberg_marquardt(problem, begin, steps=STEPS, enough=1.0)
+        return minimize_fully(problem, scan_process_noise(problem, found))
+
+    starts = (guess["kA"], SLOW * guess["kV"])
+    base = min(map(search, starts), key=lambda one: one.cost)
     if not math.isfinite(base.cost):
         parts = "without its damaged parts, " if recordings.damage.excluded else ""
         raise NotIdentifiable(

@@ -81,8 +81,7 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
             continue
         found = score_estimate(problem, minimize(problem, begun), begun.structure.effects[-1])
         gap = compute_validation_gap(problem, found.estimate, data.folds)
-        as_good = found.bic - last.candidate.bic <= EQUAL_SCORE
-        if as_good and not is_wider(gap, last.gap):
+        if found.bic <= last.candidate.bic and not is_wider(gap, last.gap):
             done = _replace_one(done, place, found, gap)
     return done
 

@@ -109,8 +109,8 @@ def rank_candidates(
     best = _best_of_each_effect(gone)[:KEPT]
     if calmer is not None:
         begun = _best_starts(problem, calmer, effects, residual, seeds, heavy=True)
-        shaken = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
-        begun = [*begun[:TRIED_CALM], *shaken]
+        joints = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
+        begun = [*begun[:TRIED_CALM], *joints]
         calm = [
             descend_candidate(problem, one) for starts in begun for _, one in starts if not stop()
         ]

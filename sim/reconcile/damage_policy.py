@@ -11,8 +11,8 @@ FOR_GOOD = ("hard-stop",)
 """Faults after which a run tells nothing more: it leans on a stop."""
 
 OF_THE_RECORD = ("encoder-slip", "voltage-dropout", "stuck-sensor", "sign-flip")
-"""Other faults whose intervals are cut out before anything is fitted. What is left looks
-like missing physics (a soft joint shakes as a slipping wheel does), and the fit decides on it."""
+"""Other faults whose intervals are cut out before anything is fitted. What is left looks like
+missing physics (a soft joint oscillates as a slipping wheel does), and the fit decides on it."""
 
 WHOLE = ("sign-flip",)
 """Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""

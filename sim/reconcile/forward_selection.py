@@ -157,9 +157,8 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
         )
         now = done[-1]
         weighed = weigh_candidates(data, now)
-        tried = tuple(one.report for one in weighed)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
-        done[-1] = now = replace(now, tried=tried, seeds=seeds, candidates=tuple(weighed))
+        done[-1] = now = replace(now, seeds=seeds, candidates=tuple(weighed))
         admitted, quiet = select_admissible(weighed, most=MOST_NUISANCE - now.nuisance_effects)
         if quiet and not any(
             one.report.improvement > COMPARABLE * quiet[0].report.improvement for one in admitted

@@ -22,7 +22,7 @@ from sim.reconcile.probability import (
 )
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import LATEST, LOST, NARROWER, SOONEST
+from sim.reconcile.thresholds import LATEST, LOST, NARROWER, SOONEST, STRUCTURE
 
 
 def judge_effects(
@@ -68,7 +68,7 @@ def judge_effects(
                 name, added, list_rival_scores(before, last.structure.effects, name)
             ),
             later=float(place > 0),
-            structure=float(residuals.has_structure),
+            structure=min(max(residuals.largest_ratio, STRUCTURE[0]), STRUCTURE[1]),
             once=float(EFFECTS[name].has_onset),
             damaged=float(damaged and EFFECTS[name].has_onset),
         )
@@ -101,7 +101,7 @@ def is_contradicted(
     """Whether the largest unexplained residual follows this effect's onset.
 
     A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
-    has it back at another pace. The knock itself is known to a sample, and never explained quite.
+    regains it at another pace. The samples of the impact itself are never explained quite.
     """
     moment = residuals.worst_window
     if not (EFFECTS[effect].has_onset and residuals.has_unlikely_window):

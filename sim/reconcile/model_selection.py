@@ -81,6 +81,8 @@ def is_wider(gap: Gap, before: Gap) -> bool:
 def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     """The likeliest candidate, or one about as likely with fewer parameters.
 
+    Between an effect and its simpler form the BIC decides alone: its price of a parameter is what
+    the richer effect gains by chance.
     Of as many parameters each, about as likely, the one that the validation clearly prefers; or one
     half as likely, if that closes far more of its gap. What may be one run's accident has to be
     likelier than all that lasts by as much as than nothing.
@@ -101,12 +103,11 @@ def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
         best = closest
     top = best.report.improvement
     admitted = [one for one in admitted if one.report.improvement <= top]
-    simpler = EFFECTS[best.candidate.effect].simpler
     near = [
         one
         for one in admitted
         if top - one.report.improvement <= EQUAL_SCORE
-        or (one.candidate.effect == simpler and one.report.improvement > NARROWER * top)
+        and not (one is not best and contains_effect(best.candidate.effect, one.candidate.effect))
     ]
     fewest = min(one.candidate.estimate.structure.free_count for one in near)
     near = [one for one in near if one.candidate.estimate.structure.free_count == fewest]

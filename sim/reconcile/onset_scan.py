@@ -1,9 +1,9 @@
 """Scan all onset times of effects that happen once.
 
-What a little of it would change is simulated from each moment to the end of the run, in all runs at
-the same time; how much of it the innovations ask for, and what that explains, is then a matter of
-sums. An acceleration taken from a noisy velocity does not tell as much: late in a step little is
-accelerated, and yet the position knows.
+A small effect is simulated from each moment to the end of the run, in all runs at the same time. To
+first order, the innovations change in proportion to its size, so the likeliest size and the gain of
+the likelihood follow from sums. An acceleration computed from a noisy velocity says less: late in a
+step the acceleration is small, but the position still shows the difference.
 """
 
 import math
@@ -24,11 +24,11 @@ from sim.physics.model import Part
 from sim.reconcile.search_effort import HALVINGS
 from sim.reconcile.thresholds import CELLS
 
-ECHO = 50  # [samples] in which a knock is heard
+RESPONSE = 50  # [samples] after a sudden loss of speed in which innovations show it
 SHOWN = 2  # moments of each kind that are worth a start
-PROBE = 0.1  # [1] of kA: so little that what it does is in proportion
+PROBE = 0.1  # [1] of kA: so little that the innovations change in proportion to it
 LEAST, MOST = -0.5, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
-HARDLY = 1e-9  # [1] of what it does is no matter of gains and starts
+HARDLY = 1e-9  # [1] of its square below which gains and first samples can do all that it does
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,13 +191,13 @@ class _Scan:
         What takes momentum is looked for where speed is lost, anything else all over the run.
         """
         every = range(len(self.problem.records))
-        knocks = any(kind.values())
-        shares = [0.0] if knocks else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
+        takes_momentum = any(kind.values())
+        shares = [0.0] if takes_momentum else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
         table = [self._sums(kind, share, every) for share in shares]
         later = _Sums(0.0, 0.0, np.zeros(self.kept.shape[1]))
         for run in reversed(every):
             sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
-            if knocks:
+            if takes_momentum:
                 sums += [
                     (one, self._sums(kind, one, (run,))[0]) for one in self._velocity_losses(run)
                 ]
@@ -237,15 +237,16 @@ class _Scan:
     def _velocity_losses(self, run: int) -> list[float]:
         """[1] of a run, about its sharpest loss of speed, which is over too soon for any grid.
 
-        A knock echoes in the innovations until measurements have corrected it, everywhere alike.
+        The innovations after it are correlated with the response to such a loss (a matched filter).
         """
         rest = self.rest[slice(*self._edges[run : run + 2])].reshape(-1, 2)
         speed = self.problem.measured[slice(*self.problem.run_edges[run : run + 2]), 1]
-        echo = self._velocity_response[: len(rest)]
-        size = np.cumsum(np.sum(np.square(echo), axis=1))
-        heard = sum(np.correlate(rest[:, n], echo[:, n], "full")[len(echo) - 1 :] for n in (0, 1))
-        left = np.minimum(np.arange(len(rest), 0, -1), len(echo))
-        lost = -np.asarray(heard) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
+        response = self._velocity_response[: len(rest)]
+        size = np.cumsum(np.sum(np.square(response), axis=1))
+        last = len(response) - 1
+        seen = sum(np.correlate(rest[:, n], response[:, n], "full")[last:] for n in (0, 1))
+        left = np.minimum(np.arange(len(rest), 0, -1), len(response))
+        lost = -np.asarray(seen) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
         time = self.problem.records[run].measurements.time
         within = 0.5 * (time[:-1] + time[1:]) - time[0]
         place = int(np.argmax(lost[1:]))
@@ -260,11 +261,11 @@ class _Scan:
         step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]]) @ (
             np.eye(2) - self.point.kalman_filter.steady
         )
-        off, heard = np.array([0.0, 1.0]), []
-        for _ in range(ECHO):
-            heard.append(off)
+        off, errors = np.array([0.0, 1.0]), []
+        for _ in range(RESPONSE):
+            errors.append(off)
             off = step @ off
-        return self.problem.whiten(self.point, np.array(heard)).reshape(-1, 2)
+        return self.problem.whiten(self.point, np.array(errors)).reshape(-1, 2)
 
     def _fit_size(self, size: float) -> dict[str, float]:
         return {one.name: size for one in self.effect.parameters if one.searched}

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from sim.physics.effects import EFFECTS, find_motion_class
-from sim.reconcile.thresholds import FARTHEST
+from sim.reconcile.thresholds import FARTHEST, LARGEST_SIZE
 
 FILE = Path(__file__).with_name("probability.json")
 
@@ -26,12 +26,13 @@ class Evidence:
         likelihood: ln of the -2 log L that the last model loses without it, at least 0.
         gap: ln of the validation's gap with it over that without it, geometric mean of velocity's
             and position's.
-        size: ln of its size over the largest that is everyday.
+        size: ln of its size over the largest that is everyday, clipped to ``LARGEST_SIZE``.
         rival: score of the best other effect that lasts, over its own, in its round, 0 to 1. What
             is the same wherever the mechanism moves is no other effect.
         later: 1 if another effect that may be a finding was added before it, else 0. It may then
             explain what that one leaves because its form is only about right.
-        structure: 1 if the last model leaves more than noise, else 0.
+        structure: largest result of the residual tests of the last model over its threshold,
+            clipped to ``STRUCTURE``.
         once: 1 if it begins at a moment, else 0.
         damaged: 1 if it begins at a moment and the log is damaged, else 0.
     """
@@ -89,7 +90,10 @@ def compute_log_ratio(with_: float, without: float) -> float:
 
 
 def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
-    """Logarithm of an effect's size over the largest ordinary size, clipped to ``FARTHEST``.
+    """Logarithm of an effect's size over the largest ordinary size.
+
+    It is clipped to -``FARTHEST`` and ``LARGEST_SIZE``, which is also that of an effect without an
+    ordinary size.
 
     Args:
         effect: its name.
@@ -106,7 +110,7 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
             values,
         )
 
-    low, high = -FARTHEST, FARTHEST
+    low, high = -FARTHEST, LARGEST_SIZE
     if is_ordinary(math.exp(low)):
         return low
     if not is_ordinary(math.exp(high)):

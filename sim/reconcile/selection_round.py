@@ -33,7 +33,6 @@ class SelectionRound:
         gap: outside of what was fitted.
         gap_before: the gap without that effect; the same for the base.
         rivals: effects that would have explained as much.
-        tried: the candidates of the next round.
         nuisance_effects: effects of the model that make the log likelier and hardly narrow the gap.
         reported_candidate: the model before the first of those; None if there are none.
         seeds: parameters of the candidates that were likelier than nothing, of all rounds so far.
@@ -48,7 +47,6 @@ class SelectionRound:
     gap: Gap
     gap_before: Gap
     rivals: tuple[str, ...] = ()
-    tried: tuple[TriedCandidate, ...] = ()
     nuisance_effects: int = 0
     reported_candidate: Candidate | None = None
     seeds: Seeds = field(default_factory=dict)
@@ -56,6 +54,11 @@ class SelectionRound:
     without: Candidate | None = None
     gap_without: Gap | None = None
     candidates: tuple[WeighedCandidate, ...] = ()
+
+    @property
+    def tried(self) -> tuple[TriedCandidate, ...]:
+        """The candidates of the next round, as they are told."""
+        return tuple(one.report for one in self.candidates)
 
 
 def choose_reported_estimate(one: SelectionRound) -> Estimate:

@@ -1,9 +1,9 @@
 """Start values for backlash and compliance, from step tests.
 
 Free play and a soft joint show for a moment after each change of voltage, and a slow ramp says
-little of them. They have many valleys: a light motor, a heavy one, a swing that falls in step with
-the samples. So many starts are simulated on the lively runs, the best go downhill there, which
-costs little, and the valleys that these find are tried on all runs.
+little of them. The likelihood has many local minima: a light motor, a heavy one, an oscillation
+whose period is near that of the samples. So many starts are simulated on the step tests, the best
+are optimized there, which takes little time, and the minima that these find are tried on all runs.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,11 +17,11 @@ from sim.reconcile.local_minimum import Begun, rate_starts
 from sim.reconcile.thresholds import LEAST_SCORE
 
 SLOW = "quasistatic"  # tests that say little of them
-MOST = 4  # starts of each kind that go a step downhill on the lively runs
-GO_ON = (4, 4)  # of them that go a second step, and a third
-VALLEYS = 2  # that are tried on all runs
-SAME = 0.2  # [1] by which the parameters of two valleys differ at least
-NEAR = 0.5  # [1] of the best one's gain that another valley gains, to be tried on all runs, too
+MOST = 4  # starts of each kind that are optimized by one step on the step tests
+FURTHER = (4, 4)  # of them, how many are optimized by a second step, and by a third
+MINIMA = 2  # that are tried on all runs
+SAME = 0.2  # [1] by which the parameters of two minima differ at least
+NEAR = 0.5  # [1] of the best gain that another minimum reaches, to be tried on all runs, too
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
 
 
@@ -30,7 +30,7 @@ class TwoBodyStarts:
 
     Args:
         problem: the measurements of all runs.
-        point: the best without what shakes.
+        point: the best without a joint.
     """
 
     def __init__(self, problem: PredictionErrorProblem, point: Estimate) -> None:
@@ -55,7 +55,7 @@ class TwoBodyStarts:
         shows in these runs, and a simulation of all runs takes longest.
 
         Args:
-            structure: with the effect that shakes as its last one.
+            structure: with the joint as its last effect.
             more: values that it adds, one start after another.
             heavy: two bodies of more inertia are tried, too.
         """
@@ -65,17 +65,17 @@ class TwoBodyStarts:
         if heavy:
             tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
         begun = rate_starts(self.problem, self.point, structure, tried, kept=self.kept)
-        gone = self._find_step(_best_of_each(begun, effect))
-        for most in GO_ON:
-            gone = self._find_step(_one_per_valley(gone, names)[:most])
-        best = _one_per_valley(gone, names)
+        optimized = self._step(_best_of_each(begun, effect))
+        for most in FURTHER:
+            optimized = self._step(_one_per_minimum(optimized, names)[:most])
+        best = _one_per_minimum(optimized, names)
         if not best:
             return []
         least = max(NEAR * self._gain(best[0]), LEAST_SCORE)
-        found = [one for one in best if self._gain(one) > least][:VALLEYS]
+        found = [one for one in best if self._gain(one) > least][:MINIMA]
         return [{name: one.values[name] for name in names} for one in found]
 
-    def _find_step(self, points: Iterable[Estimate]) -> list[Estimate]:
+    def _step(self, points: Iterable[Estimate]) -> list[Estimate]:
         return [levenberg_marquardt(self.problem, one, steps=1) for one in points]
 
     def _gain(self, point: Estimate) -> float:
@@ -91,15 +91,15 @@ def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
     return [one for kind in kinds.values() for one in kind[:MOST]]
 
 
-def _one_per_valley(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
-    """The likeliest first, one of each valley."""
+def _one_per_minimum(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
+    """The likeliest first, one near each local minimum."""
     found: list[Estimate] = []
     for one in sorted(points, key=lambda one: one.cost):
-        if not any(_same(one, other, names) for other in found):
+        if not any(_are_near(one, other, names) for other in found):
             found.append(one)
     return found
 
 
-def _same(one: Estimate, other: Estimate, names: Iterable[str]) -> bool:
-    """Whether two points are in one valley."""
+def _are_near(one: Estimate, other: Estimate, names: Iterable[str]) -> bool:
+    """Whether two points lead to one local minimum."""
     return all(isclose(one.values[n], other.values[n], rel_tol=SAME) for n in names)

@@ -20,11 +20,12 @@ OTHERS = ("complete", "unknown", "two")
 SHUFFLED = 20  # cases whose voltage is another's
 REAL, SUBTLE = "real", "subtle"
 
-GIVEN_AS_SIMPLE = {("arm", "gravity-cosine"), ("elevator", "constant-load")}
+ELEVATORS = tuple(name for name, one in MECHANISMS.items() if one.type == "elevator")
+GIVEN_AS_SIMPLE = {("arm", "gravity-cosine"), *((name, "constant-load") for name in ELEVATORS)}
 """Mechanism, effect: gravity itself is what is hidden, so the solver is told type ``simple``."""
 
 LEFT_OUT = {
-    ("elevator", "asymmetric-friction"): "while it moves it is part of kG",
+    **{(name, "asymmetric-friction"): "while it moves it is part of kG" for name in ELEVATORS},
     ("shooter", "gravity-cosine"): "a wheel turns by more than half a turn between two samples",
     ("intake", "gravity-cosine"): "the same",
     ("shooter", "deadband"): "the noise of a wheel's velocity hides how it breaks away",

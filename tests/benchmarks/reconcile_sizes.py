@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from reconcile_plan import FAULTS, GIVEN_AS_SIMPLE, SUBTLE, Case
+from reconcile_plan import ELEVATORS, FAULTS, GIVEN_AS_SIMPLE, SUBTLE, Case
 
 from sim.bench.mechanism import Mechanism
 from sim.bench.mechanisms import MECHANISMS
@@ -90,7 +90,7 @@ def _either_way(name: str, neutral: float = 0.0) -> Shape:
 
 def _load(values: Values, mechanism: Mechanism, _: Scale, __: float, rng: object) -> Values:
     """Weight pulls down; a slope may lean either way."""
-    if mechanism.name == "elevator":
+    if mechanism.name in ELEVATORS:
         return values
     return _either_way("load")(values, rng)
 

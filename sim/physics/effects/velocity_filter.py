@@ -13,6 +13,8 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.velocity_lag import estimate_velocity_lag
 from sim.physics.voltage_residual import VoltageResidual
 
+EVERYDAY = 0.005  # [s]
+
 
 def transform_velocity(
     seen: float, now: int, time: Array, position: Array, velocity: Array, window: float
@@ -51,6 +53,15 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         yield {"window": window}
 
 
+def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
+    """Whether any robot has as much: a velocity is a difference of positions over some time.
+
+    In 288 logs, hidden filters average over 20 ms and more. Filters that are found where none is
+    hidden average over 1 ms.
+    """
+    return values["window"] <= EVERYDAY
+
+
 EFFECT = Effect(
     name="velocity-filter",
     kind="sense",
@@ -71,4 +82,5 @@ EFFECT = Effect(
     inertia_shares=(0.3, 0.1),
     hooks={"transform_velocity": transform_velocity},
     order=1,
+    is_ordinary=is_ordinary,
 )

@@ -39,6 +39,15 @@ class ResidualSummary:
         return self.repeated.size > REPEATED
 
     @property
+    def largest_ratio(self) -> float:
+        """[1] largest result of the residual tests over its threshold."""
+        return max(
+            self.worst_window.size / UNLIKELY_WINDOW,
+            self.peak.size / PERIODIC,
+            self.repeated.size / REPEATED,
+        )
+
+    @property
     def has_structure(self) -> bool:
         """Whether any of the residual tests found structure."""
         return self.has_unlikely_window or self.is_periodic or self.is_repeated
