@@ -136,7 +136,7 @@ def _make_story(
         problem, done, faults, chapters, without=shown.measure_gaps_without(done),
         held_out=shown.held_out, residuals=residuals, per=per,
     )  # fmt: skip
-    chapters = chapters[: len(select_reported_rounds(done, findings, judged))]
+    chapters = chapters[: len(select_reported_rounds(done, findings))]
     verdict, remainder, remains = reach_verdict(
         findings, done, problem, residuals=residuals, cut=cut, per=per
     )

@@ -7,6 +7,7 @@ import numpy as np
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.reconcile.judgement import is_contradicted, is_narrower_with
+from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import JudgedEffect
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
@@ -20,8 +21,8 @@ NO_REVERSAL = (
 )
 
 CONTRADICTED = (
-    "The last model has {} right before the moment that it explains least. It is not named: what "
-    "happened then may be something else."
+    "With {} the model fits this log better, but right after it begins is the moment that is "
+    "explained least. What happened then may be something else, so the model leaves it out."
 )
 
 UNLIKELY = (
@@ -43,7 +44,7 @@ def list_remarks(
     named = {one.effect for one in findings}
     unsure = [name for name in structure.effects if is_contradicted(name, problem, last, residuals)]
     rest = [name for name in structure.effects if name not in {*named, *unsure}]
-    last_shown = select_reported_rounds(done, findings, judged)[-1]
+    last_shown = select_reported_rounds(done, findings)[-1]
     kept = last_shown.candidate.estimate.structure.effects
     said = []
     if inside := [name for name in rest if name in kept]:
@@ -66,20 +67,20 @@ def list_remarks(
 
 
 def select_reported_rounds(
-    done: Sequence[SelectionRound], findings: Sequence[Finding], judged: Sequence[JudgedEffect]
+    done: Sequence[SelectionRound], findings: Sequence[Finding]
 ) -> Sequence[SelectionRound]:
     """The rounds to show: up to the last whose effect is named or, if everyday, narrows the gap.
 
-    An effect that is less likely than not is not shown as if it explained the log.
+    An effect of another size that is not named is not shown as if it explained the log.
     """
     named = {one.effect for one in findings}
-    unlikely = _list_unlikely(judged)
+    values = done[-1].candidate.estimate.values
     last = max(
         n
         for n, one in enumerate(done)
         if n == 0
         or one.candidate.effect in named
-        or (one.candidate.effect not in unlikely and is_narrower_with(one, done[-1]))
+        or (is_ordinary_size(one.candidate.effect, values) and is_narrower_with(one, done[-1]))
     )
     return done[: last + 1]
 
