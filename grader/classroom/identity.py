@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from grader.class_package import PLACE, ClassPackage, parse_class_package
 from grader.classroom.secret import seal_identity
-from grader.classroom.submissions import PROGRESS, Submission
+from grader.classroom.sorted_files import PROGRESS
+from grader.classroom.submissions import Submission
 from grader.course import NOBODY
 from grader.variant import check_student_name, make_folder_name, normalize_name
 from sim.core.errors import BadRequest, Refusal

@@ -21,7 +21,7 @@ from grader.classroom.grading import (
     grade_student,
     make_ungraded_record,
 )
-from grader.classroom.submissions import Files
+from grader.classroom.sorted_files import Files
 from sim.support.work.interrupt import interrupts_blocked_for_children
 from sim.support.work.process_pool import serve_quietly
 
