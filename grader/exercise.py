@@ -11,6 +11,9 @@ A folder ``exercises/exerciseN`` holds ``README.md`` with the task, ``hints.toml
     def prepare(student, *, say) -> None       optional: makes what the learner works on
     BESIDE : tuple[str, ...]                   optional: files to fill in that belong to the one
                                                graded; ``read`` finds them beside its path
+    ANSWER_NAMES : tuple[str, ...]             optional: the names that a file of answers may have;
+                                               any other gets a warning
+    def list_answer_tables() -> tuple          optional: names of tables that it may have, too
     LOG_ENDINGS : tuple[str, ...]              optional: endings of logs of a learner's own robot,
                                                which an answer may name and ``read`` finds there
     def consequence(subject)                   optional: what a wrong answer would do on the robot,
@@ -32,9 +35,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from grader.answer_names import find_unknown_names
 from grader.check import Check, Result, Status, run_checks, skip_check
 from grader.consequence import Consequence
-from grader.submission import find_files, find_whole_answer
+from grader.submission import find_files, find_whole_answer, read_answers, read_text
 from sim.core.errors import BadRequest, Refusal
 
 HINTS = ("concept", "pointer", "step")  # from far to near
@@ -52,6 +56,7 @@ class Grade:
         checks: one result for each check, in the order they are shown.
         file: what was graded.
         reason: why it was ungradable, one line; empty otherwise.
+        warnings: one line for each name in the file that does not count. They cost no points.
     """
 
     exercise: str
@@ -62,6 +67,7 @@ class Grade:
     checks: tuple[Result, ...]
     file: Path | None = None
     reason: str = ""
+    warnings: tuple[str, ...] = ()
 
     @property
     def is_readable(self) -> bool:
@@ -117,6 +123,16 @@ class Exercise:
     def companion_files(self) -> tuple[str, ...]:
         """The files to fill in that belong to the one graded, and stand beside it."""
         return tuple(getattr(self.module, "BESIDE", ()))
+
+    @property
+    def answer_names(self) -> tuple[str, ...]:
+        """The names that the file of answers may have; empty if the exercise does not say."""
+        return (*getattr(self.module, "ANSWER_NAMES", ()), *self.answer_tables)
+
+    @property
+    def answer_tables(self) -> tuple[str, ...]:
+        """Those of them that may have answers of their own below them."""
+        return tuple(getattr(self.module, "list_answer_tables", tuple)())
 
     @property
     def log_endings(self) -> tuple[str, ...]:
@@ -211,7 +227,26 @@ class Exercise:
                 f"the check {broken.id} broke ({broken.seen}). That is a fault of the course, not "
                 "yours: please report it, with your file"
             )
-        return Grade(self.name, student, score, most, status, results, file, reason)
+        warnings = self.find_unknown_names(file)
+        return Grade(self.name, student, score, most, status, results, file, reason, warnings)
+
+    def find_unknown_names(self, file: Path) -> tuple[str, ...]:
+        """A warning for each name in a file of answers that the exercise does not ask for."""
+        known = self.answer_names
+        if not known or file.suffix.lower() != ".toml":
+            return ()
+        try:
+            answers, text = read_answers(file), read_text(file)
+        except Refusal:  # it was readable a moment ago: somebody is saving it
+            return ()
+        return find_unknown_names(
+            answers,
+            known,
+            tables=self.answer_tables,
+            text=text,
+            file=file.name,
+            exercise=self.name,
+        )
 
     def _ungradable(self, reason: str, *, student: str) -> Grade:
         results = tuple(skip_check(one, reason) for one in self.checks)

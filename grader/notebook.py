@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from grader.answer_names import find_similar_name
 from grader.check import Result, Status
 from grader.class_package import explain_no_grading, find_learner, read_class_package
 from grader.consequence import Consequence
@@ -127,9 +128,11 @@ def write_answers(exercise: Exercise, answers: Mapping[str, object]) -> None:
     known = {name.lower(): name for name in there}
     for name in answers:
         if name.lower() not in known:
+            near = find_similar_name(name, [*there])
             listed = ", ".join(there) or "none"
             raise BadRequest(
-                f"{exercise.name} asks for no {name!r}", advice=f"It asks for: {listed}."
+                f"{exercise.name} asks for no {name!r}",
+                advice=f"{f'Did you mean {near}? ' if near else ''}It asks for: {listed}.",
             )
     document = tomlkit.parse(path.read_text(encoding="utf-8-sig"))
     for name, value in answers.items():
@@ -170,7 +173,8 @@ def _render_grade(grade: Grade) -> str:
     head = f"{grade.exercise}: {grade.score:g} of {grade.max_score:g} points, {verdict}"
     rows = "".join(_render_check(result) for result in grade.checks)
     listed = f"<ul style='list-style:none;padding-left:0'>{rows}</ul>"
-    return f"<p><strong>{escape_html(head)}</strong></p>{listed}"
+    warned = "".join(f"<p>{escape_html(one)}</p>" for one in grade.warnings)
+    return f"<p><strong>{escape_html(head)}</strong></p>{warned}{listed}"
 
 
 def _show_consequence(consequence: Consequence | None) -> str:

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -30,6 +30,8 @@ def grade_to_json(grade: Grade) -> str:
     """The grade as one line of JSON, in ASCII so that every terminal keeps it whole."""
     names = ("exercise", "student", "score", "max_score", "status")
     told = {name: getattr(grade, name) for name in names}
+    if grade.warnings:
+        told["warnings"] = grade.warnings
     return json.dumps({**told, "checks": [asdict(result) for result in grade.checks]})
 
 
@@ -69,11 +71,16 @@ def format_checks(grade: Grade, *, plain: bool = False) -> list[Line]:
         grade: what became of the answer.
         plain: as for ``format_grade``.
     """
-    lines = [_format_verdict(grade), style_line()]
+    lines = [_format_verdict(grade), *_format_warnings(grade.warnings), style_line()]
     said: set[str] = set()  # what has been said once is not said again
     for result in grade.checks:
         lines += _format_result(result, said, plain=plain)
     return _replace_signs(lines) if plain else lines
+
+
+def _format_warnings(warnings: Sequence[str]) -> list[Line]:
+    """What in the file does not count, as lines below the verdict."""
+    return [row for one in warnings for row in wrap_text(one, lead="  note  ", style="yellow")]
 
 
 def _replace_signs(lines: list[Line]) -> list[Line]:
@@ -102,6 +109,7 @@ def format_receipt(exercise: Exercise, file: Path | None) -> list[Line]:
         there = [name for name, value in answers.items() if value != ""]
         lines.append(style_line(f"{path.name}: {len(there)} of {len(answers)} answered"))
         lines += [style_line(f"  {name} = {answers[name]}") for name in there]
+        lines += _format_warnings(exercise.find_unknown_names(path))
     return lines
 
 

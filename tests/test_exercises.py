@@ -91,6 +91,7 @@ def test_the_solution_gets_full_marks(name, student, answered, tmp_path):
 
         assert [check for check in result.checks if check.status != "passed"] == []
         assert (result.status, result.score) == ("passed", result.max_score)
+        assert result.warnings == ()
 
 
 @pytest.mark.parametrize("student", STUDENTS)

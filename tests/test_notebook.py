@@ -65,7 +65,7 @@ def test_a_number_of_numpy_is_a_number(size):
 @pytest.mark.parametrize(
     ("answers", "said"),
     [
-        ({"colour": "green"}, "asks for no 'colour'. It asks for: size, color."),
+        ({"colour": "green"}, "asks for no 'colour'. Did you mean color?"),
         ({"size": object()}, "cannot be written down"),
         ({"size": np.array([3, 4])}, "cannot be written down"),
     ],

@@ -19,6 +19,7 @@ from .guess import suspects
 from .outcome import outcome
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = (*MOMENTS, "kV_unit", "largest")
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
 

@@ -16,6 +16,10 @@ from .question import Option, judged
 from .table import DECISIONS, REASONS, ROWS, WRONG, Row
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = (
+    *QUESTIONS, "KC2_volts",
+    *(f"{row.name}{part}" for row in ROWS for part in ("", "_reason")),
+)  # fmt: skip
 HERE = Path(__file__).resolve().parent
 GIVEN = "questions.md"
 ROUNDED = 0.0015  # [share] a slip is named for who writes three digits, too

@@ -39,6 +39,7 @@ __all__ = [  # what try_it.py uses, too
 ]  # fmt: skip
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = ("effects", "gap_before", "gap_after")
 HERE = Path(__file__).resolve().parent
 
 SHRINK = 0.6  # [share of what can be shrunk] for partial marks
@@ -83,6 +84,13 @@ class Answers:
     @cached_property
     def _fitted(self) -> "dict[tuple[str, ...], Model]":
         return {}
+
+
+def list_answer_tables() -> tuple[str, ...]:
+    """The names of all effects, each also with ``_`` for ``-``: ``velocity-filter.lag = 0.02``."""
+    from sim.physics.effects import EFFECTS  # noqa: PLC0415 - numpy only where it is needed
+
+    return tuple({name: None for one in EFFECTS for name in (one, one.replace("-", "_"))})
 
 
 def prepare(student: str, *, say: Callable[[str], None]) -> None:

@@ -17,6 +17,10 @@ from .drive import BATTERY, MODULES, Variant
 from .slips import lookalikes, rarer
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = (
+    "kS", "kV", "kA", "worn", "worn_radius", "lever", "rate_unit", "kA_turning", "inertia",
+    "slip_current", "top_speed", "max_torque",
+)  # fmt: skip
 HERE = Path(__file__).resolve().parent
 RATES = ("volts", "radians-per-second", "degrees-per-second", "rotations-per-second")
 RAMP, TIMEOUT = 0.5, 8.0  # [V/s], [s] of both routines

@@ -18,6 +18,7 @@ from .team import FLAGS, VERDICTS, Variant
 from .team import verdict as find_verdict
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = ("kV_theory", "difference", "verdict", "ks_flag", "inspection")
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
 LARGE = 1000.0  # [%] from here on a difference is shown without decimals

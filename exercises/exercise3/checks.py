@@ -18,6 +18,10 @@ from .outcome import outcome
 from .slips import key_of, offset_slips, turned
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = (
+    "elevator_kG", "elevator_kS", "elevator_type", "elevator_class",
+    "arm_kG", "arm_kS", "arm_type", "arm_class", "arm_offset",
+)  # fmt: skip
 HERE = Path(__file__).resolve().parent
 GIVEN = "given.toml"
 

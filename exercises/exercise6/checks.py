@@ -22,10 +22,16 @@ from .rules import LONGEST, broken
 FILES = ("answers.toml",)
 FILE_MADE = "given.toml"
 HERE = Path(__file__).resolve().parent
+KINDS = ("drivetrain", "elevator", "turret", "shooter")
 POINTS = 1.5  # for a mechanism's plan
 LEAST = 0.001  # of any part of a plan: less than that is nothing
 MOST = {"ramp": ("V/s", 100.0), "step": ("V", 12.0), "timeout": ("s", 600.0)}  # as SysIdRoutine's
 GAINS = {"kS": ("ks", "V"), "kG": ("kg", "V"), "kV": ("kv", "V·s/{}"), "kA": ("ka", "V·s²/{}")}
+ANSWER_NAMES = (
+    *(f"{kind}_{part}" for kind in KINDS for part in (*MOST, "release")),
+    "steps",
+    *CHOICES,
+)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 FILES = ("answers.toml",)
 HERE = Path(__file__).resolve().parent
 POINTS = 2.0  # for each log: 1 for what it is, half for where, half for what to do
+ANSWER_NAMES = tuple(f"log{number:02}" for number in range(1, LOGS + 1))
 
 
 @dataclass(frozen=True)

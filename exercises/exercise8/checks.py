@@ -14,6 +14,7 @@ from .left import Left, left
 from .preparation import POINTS, TESTS, Preparation, earned, fitted, read_preparation
 
 FILES = ("answers.toml",)
+ANSWER_NAMES = (*(test.replace("-", "_") for test in TESTS), "threshold", "median")
 HERE = Path(__file__).resolve().parent
 
 

@@ -35,6 +35,7 @@ REMEMBERED = 32  # learners whose logs are kept while this runs: it takes time t
 MOST_DRAWS = 100  # so many mechanisms in a row that cannot be fitted would be our fault
 
 METRICS = ("acceleration_r2", "simulated_velocity_r2")
+ANSWER_NAMES = ("kS", "kV", "kA", *METRICS)
 PERFECT = "An R² of 1 would mean a model without any error. Write the digits that your fit prints."
 METRIC_BANDS = {"acceleration_r2": 0.05, "simulated_velocity_r2": 0.02}  # one way to compute each
 

@@ -34,6 +34,11 @@ FILES = ("answers.toml",)
 BESIDE = (
     "ExampleSubsystem.java", "RobotContainer.java", "example_subsystem.py", "robotcontainer.py",
 )  # fmt: skip
+ANSWER_NAMES = (
+    "language", "subsystem", "container", "constants",
+    "log", "motor", "ratio", "wheel_diameter", "kS", "kV", "kA", "kG", "kP",
+    "simulated_velocity_r2", "hypothesis", "first_check", "kV_theory", "difference", "verdict",
+)  # fmt: skip
 LOG_ENDINGS = (".wpilog", ".csv", ".json")  # of the learner's own robot, named in the answers
 LANGUAGES = {"java": BESIDE[:2], "python": BESIDE[2:]}
 PLACES = {"subsystem": 0, "container": 1, "constants": 0}  # which of its language's files is usual

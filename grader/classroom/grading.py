@@ -138,7 +138,8 @@ def make_missing_record(exercise: Exercise, student: str, *, status: str, reason
     ]
     most = sum(one.points for one in exercise.checks)
     head = {"exercise": exercise.name, "student": student, "score": 0.0, "max_score": most}
-    return {**head, "status": status, "file": "", "reason": reason, "checks": checks}
+    end = {"file": "", "reason": reason, "warnings": [], "checks": checks}
+    return {**head, "status": status, **end}
 
 
 def make_grade_record(grade: Grade, *, folder: Path | None = None) -> Record:
@@ -161,6 +162,7 @@ def make_grade_record(grade: Grade, *, folder: Path | None = None) -> Record:
         **{name: getattr(grade, name) for name in names},
         "file": grade.file.name if grade.file else "",
         "reason": shorten(grade.reason),
+        "warnings": [*grade.warnings],
         "checks": [{**asdict(one), "status": str(one.status)} for one in checks],
     }
 

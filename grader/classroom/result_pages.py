@@ -17,6 +17,7 @@ from grader.classroom.item_analysis import (
 from grader.classroom.results import ClassResults, collect_scores, find_status
 from grader.misconception import MISCONCEPTIONS
 from grader.variant import make_folder_name
+from sim.support.printable import make_printable
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -163,6 +164,7 @@ def _describe_record(record: Mapping[str, Any]) -> dict[str, Any]:
         "exercise": record["exercise"],
         "points": f"{record['score']:g} of {record['max_score']:g} points",
         "reason": "" if graded else _end_sentence(str(record["reason"])),
+        "warnings": [make_printable(str(one)) for one in record["warnings"]],
         "told": [
             {
                 "mark": MARKS.get(check["status"], "– not looked at:"),

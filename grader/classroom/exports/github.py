@@ -14,6 +14,7 @@ from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
 from grader.variant import make_folder_name
+from sim.support.printable import make_printable
 
 SUMMARY = "github/STUDENT.txt: result=…, a line for $GITHUB_OUTPUT"
 LONGEST = 500  # [characters] of an output, says the reporter
@@ -51,7 +52,9 @@ def _result(one: GradedStudent) -> dict[str, Any]:
 
 def _test(number: int, record: dict[str, Any]) -> dict[str, Any]:
     wrong = [check for check in record["checks"] if check["status"] != "passed"]
-    output = "\n".join(f"{check['description']}: {compose_feedback(check)}" for check in wrong)
+    told = [make_printable(str(text)) for text in record["warnings"]]
+    told += [f"{check['description']}: {compose_feedback(check)}" for check in wrong]
+    output = "\n".join(told)
     return {
         "name": str(record["exercise"]),
         "status": STATUS[str(record["status"])],

@@ -12,6 +12,7 @@ from grader.classroom.feedback_text import compose_feedback
 from grader.classroom.grading import GradedStudent
 from grader.classroom.results import ClassResults
 from grader.variant import make_folder_name
+from sim.support.printable import make_printable
 
 SUMMARY = "gradescope/STUDENT/results.json: as Gradescope reads it"
 
@@ -32,10 +33,14 @@ def write(results: ClassResults, folder: Path) -> tuple[Path, ...]:
 
 
 def _result(one: GradedStudent) -> dict[str, Any]:
+    warnings = [
+        f"{record['exercise']}: {text}" for record in one.records for text in record["warnings"]
+    ]
     return {
         "output_format": "text",
         "visibility": "visible",
         "stdout_visibility": "hidden",
+        **({"output": make_printable("\n".join(warnings))} if warnings else {}),
         "tests": [
             {
                 "name": f"{record['exercise']}: {check['description']}",
