@@ -16,30 +16,43 @@ if TYPE_CHECKING:
 
     from sim.bench.mechanism import Mechanism
 
-LIMITS = {"krakenX60": 80.0, "neoVortex": 80.0, "neo": 60.0, "krakenX44": 60.0}  # [A]
+# Draws differ so much, and the room is so narrow, that many plans fail on another's mechanism.
+LIMITS = {  # [A] that teams set for one motor
+    "krakenX60": (60.0, 80.0, 100.0),
+    "neoVortex": (40.0, 60.0, 80.0),
+    "neo": (40.0, 50.0, 60.0),
+    "krakenX44": (50.0, 60.0, 80.0),
+}
 MOTORS = {
     "drivetrain": ("krakenX60", "neo", "neoVortex"),
-    "elevator": ("neo",),
-    "turret": ("krakenX44",),
-    "shooter": ("krakenX60",),
+    "elevator": ("neo", "neoVortex"),
+    "turret": ("krakenX44", "neo"),
+    "shooter": ("krakenX60", "neo", "neoVortex"),
 }
-SPREAD = {  # where the bench's own draws have no plan: too fast for their travel
-    "elevator": {"ratio": (4.8, 6.2), "load": (15.0, 22.0)},
-    "turret": {"ratio": (60.0, 85.0), "load": (1.2, 2.0)},
-    "shooter": {"load": (0.003, 0.006)},
+SPREAD = {  # wider than the bench's own draws, which have no plan where they are too fast
+    "drivetrain": {"ratio": (5.14, 7.4), "load": (40.0, 65.0)},
+    "elevator": {"ratio": (4.0, 9.0), "radius": (0.016, 0.029), "load": (8.0, 20.0)},
+    "turret": {"ratio": (45.0, 85.0), "load": (0.8, 2.4)},
+    "shooter": {"ratio": (0.8, 1.5), "load": (0.004, 0.008)},
 }
 UNITS = {"drivetrain": "meters", "elevator": "meters", "turret": "rotations"}
-ROOM = {"drivetrain": (2.0, 3.2), "elevator": (1.2, 1.5), "turret": (1.2, 1.6)}  # [times the need]
+ROOM = {  # [times the need]
+    "drivetrain": (1.5, 2.2),
+    "elevator": (1.2, 1.45),
+    "turret": (1.2, 1.4),
+}
+MOST_TRAVEL = {"elevator": 2.0}  # [m] robots have no taller ones
 NOISE = {  # [units/s]
-    "drivetrain": (0.006, 0.012),
-    "elevator": (0.004, 0.008),
+    "drivetrain": (0.004, 0.016),
+    "elevator": (0.003, 0.010),
     "turret": (0.003, 0.006),
-    "shooter": (0.08, 0.15),
+    "shooter": (0.08, 0.25),
 }
 GRIPS = (1.0, 1.1, 1.2)
 REACTION = (0.25, 0.40)  # [s]
-LEAST_TAU = 0.04  # [s] below, samples 20 ms apart can hardly tell kA
-WIDE = 1.3  # [times] the largest step is above the smallest: room for a choice
+LEAST_TAU = 0.045  # [s] below, samples 20 ms apart can hardly tell kA
+MOST_TAU = 0.8  # [s] a ramp of some seconds shows little of a slower one
+WIDE = 1.5  # [times] the largest step is above the smallest: room for a choice
 LASTS = 3.4  # [s] that a sound ramp moves
 BEYOND = 1.12  # [times] the wanted speed that it reaches
 MOST_DRAWS = 500  # a few are enough; so many would be our fault
@@ -69,7 +82,9 @@ def _feasible(student: str, kind: str) -> "tuple[Machine, Mechanism]":
         built = _built(kind, rng)
         machine = _machine(kind, built, rng)
         low, high = steps(machine)
-        if machine.tau > LEAST_TAU and high > WIDE * low and not broken(machine, sound(machine)):
+        fits = (machine.travel or 0.0) <= MOST_TRAVEL.get(kind, math.inf)
+        clear = LEAST_TAU < machine.tau < MOST_TAU and high > WIDE * low
+        if fits and clear and not broken(machine, sound(machine)):
             return machine, built
     raise RuntimeError(f"no plan for {kind} of {student!r}")
 
@@ -96,13 +111,15 @@ def _machine(kind: str, built: "Mechanism", rng: "np.random.Generator") -> Machi
     per = find_unit(UNITS.get(kind, "rotations"))
     found = convert_gains(built.gains, factor=per.si)
     gains = [_rounded(found.get(name, 0.0)) for name in ("kS", "kV", "kA", "kG")]
+    limits = LIMITS[built.motor.name]
+    limit = limits[int(rng.integers(len(limits)))]
     machine = Machine(
         kind,
         per.symbol,
         *gains,
         travel=None,
         stall=built.motor.stall_current,
-        limit=LIMITS[built.motor.name] * (1.5 if kind == "shooter" else 1.0),
+        limit=limit * (1.5 if kind == "shooter" else 1.0),
         noise=float(f"{rng.uniform(*NOISE[kind]):.2g}"),
         grip=GRIPS[int(rng.integers(len(GRIPS)))] if kind == "drivetrain" else 0.0,
         reaction=round(float(rng.uniform(*REACTION)), 2),
