@@ -44,6 +44,8 @@ LANGUAGES = {"java": BESIDE[:2], "python": BESIDE[2:]}
 PLACES = {"subsystem": 0, "container": 1, "constants": 0}  # which of its language's files is usual
 STEP, SIDES = 3.5, 2  # [V] of the dynamic tests, and motors, as the files to fill in have them
 METERS_PER_ROTATION = 0.0472  # of the motor, the same
+MOTORS = ("krakenX60", "falcon500", "krakenX44")  # a TalonFX drives each of them
+SPREAD = {"load": (30.0, 65.0), "friction": (0.10, 0.45)}  # [kg], [V] light to heavy, new to worn
 REMEMBERED = 32  # learners whose logs are kept while this runs
 GOOD = 0.9  # simulated velocity R² below which something is wrong with the data
 LITTLE = 12  # [characters] shorter than which nothing is said
@@ -133,10 +135,16 @@ def _drawn(student: str, _seed: int) -> Any:  # noqa: ANN401 - the same
 
 
 def _draw_drivetrain(rng: "np.random.Generator") -> "Mechanism":
-    """A drivetrain with one motor on each side, and the gears and wheels of the file to fill in."""
-    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    """A drivetrain with one motor on each side, and the gears and wheels of the file to fill in.
 
-    drawn = MECHANISMS["drivetrain"].draw(rng)
+    The file fixes what one turn of the motor is in meters, so the motor makes kV differ.
+    """
+    from sim.bench.mechanisms import MECHANISMS  # noqa: PLC0415 - numpy only where it is needed
+    from sim.physics.motors import find_motor  # noqa: PLC0415 - the same
+
+    plain = MECHANISMS["drivetrain"]
+    motor = find_motor(MOTORS[int(rng.integers(len(MOTORS)))])
+    drawn = replace(plain, motor=motor, spread={**plain.spread, **SPREAD}).draw(rng)
     ratio = 2.0 * math.pi * drawn.radius / METERS_PER_ROTATION
     return replace(drawn, motor_count=SIDES, ratio=ratio)
 
