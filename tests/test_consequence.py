@@ -17,7 +17,6 @@ ROOT = Path(__file__).resolve().parents[1]
 EXERCISES = {one.name: one for one in list_exercises(ROOT)}
 TELLING = ("exercise1", "exercise3", "exercise6", "exercise9", "exercise10")
 PAGE = "<!DOCTYPE html><html lang='en'><head><title>t</title></head><body>{}</body></html>"
-SLOWEST = 0.3  # [s] on top of grading
 
 
 @pytest.fixture
@@ -222,17 +221,16 @@ def test_a_cell_shows_it_below_the_checks(course):
     assert course
 
 
-def test_words_wait_for_no_drawing_library_and_take_little_time(course):
+def test_words_wait_for_no_drawing_library(course):
     right = key("exercise3", "me")
     write(course["exercise3"], **(right | {"elevator_kG": 0.0}))
     code = (
-        "import sys, time; from pathlib import Path; from grader.exercise import find_exercise\n"
+        "import sys; from pathlib import Path; from grader.exercise import find_exercise\n"
         "one = find_exercise('3', Path.cwd()); grade = one.grade(None, student='me')\n"
-        "start = time.perf_counter(); found = one.find_consequence(grade)\n"
-        "print(time.perf_counter() - start, 'matplotlib' in sys.modules, 'sinks' in found.words)"
+        "found = one.find_consequence(grade)\n"
+        "print('matplotlib' in sys.modules, 'sinks' in found.words)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    took, drawn, told = done.stdout.split()
+    drawn, told = done.stdout.split()
 
     assert (drawn, told) == ("False", "True")
-    assert float(took) < SLOWEST
