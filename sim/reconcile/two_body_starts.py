@@ -1,7 +1,7 @@
 """Start values for backlash and compliance, from step tests.
 
 Free play and a soft joint show for a moment after each change of voltage, and a slow ramp says
-little of them. The likelihood has many local minima: a light motor, a heavy one, an oscillation
+little of them. −2 log L has many local minima: a light motor, a heavy one, an oscillation
 whose period is near that of the samples. So many starts are simulated on the step tests, the best
 are optimized there, which takes little time, and the minima that these find are tried on all runs.
 """
