@@ -1,4 +1,4 @@
-"""Two bodies have many valleys: a light motor and a heavy one are found by the lively runs."""
+"""A joint has many local minima: those of a light and of a heavy motor are found on step tests."""
 
 import math
 from dataclasses import replace
@@ -15,7 +15,7 @@ from sim.estimation.run_records import make_run_records
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 from sim.physics.voltage_residual import compute_voltage_residual
-from sim.reconcile.two_body_starts import MOST, SAME, VALLEYS, TwoBodyStarts, _best_of_each
+from sim.reconcile.two_body_starts import MINIMA, MOST, SAME, TwoBodyStarts, _best_of_each
 
 BASE = ModelStructure("simple")
 SLACK = 0.02  # [rad]
@@ -30,7 +30,7 @@ def built(effect="", **values):
 
 
 def looked(mechanism):
-    """The lively runs of a log, the best model of one body, and what the log shows."""
+    """The step tests of a log, the best model of one body, and what the log shows."""
     log = session(mechanism, "log")
     problem = PredictionErrorProblem.from_records(make_run_records(log))
     values = {name: mechanism.gains[name] for name in BASE.names}
@@ -62,12 +62,12 @@ def test_free_play_is_found_whatever_its_motor_weighs(share):
     assert first.parameters["share"].value == pytest.approx(share, rel=0.2)
 
 
-def test_valleys_explain_the_lively_runs_and_are_not_one():
+def test_minima_explain_the_step_tests_and_differ():
     lively, evidence = looked(built("compliance", **BELT))
 
     found = lively.list_starts(SOFT, starts("compliance", evidence), heavy=False)
 
-    assert 0 < len(found) <= VALLEYS
+    assert 0 < len(found) <= MINIMA
     for one in found:
         there = lively.problem.evaluate(
             SOFT, {**lively.point.values, **one}, lively.point.nuisance, lively.point.process_noise
