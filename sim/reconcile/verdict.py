@@ -47,12 +47,11 @@ def reach_verdict(
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
     mostly = effects and strays > VISIBLE_FLOORS and gap > COMPARABLE * before
-    left = gap if majors else before  # effects of the last model that are not named explain nothing
-    visible = (
-        left > VISIBLE_SPEED * problem.top_speed
-        and count_noise_floors(left, problem) > VISIBLE_FLOORS
-    )
-    if mostly or (remains and visible):
+    if majors:
+        unexplained = gap > VISIBLE_SPEED * problem.top_speed and strays > VISIBLE_FLOORS
+    else:  # effects of the last model that are not named explain nothing
+        unexplained = count_noise_floors(before, problem) > VISIBLE_FLOORS
+    if mostly or (remains and unexplained):
         return UNEXPLAINED, True, remains
     if not majors:
         return NOTHING_MISSING, bool(remains), remains
