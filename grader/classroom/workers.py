@@ -7,9 +7,11 @@ does not finish, or comes to an end, is replaced, and the exercise is reported a
 import importlib
 import multiprocessing
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures import TimeoutError as TimedOut
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field, replace
 
 from pebble import ProcessExpired, ProcessPool
@@ -29,6 +31,7 @@ SECONDS = 50.0  # [s] for one exercise of one student; an honest one takes 0.1 t
 MEMORY = 4 * 1024**3  # [bytes] of address space; an honest worker uses a quarter of it
 WORTH = 8  # [exercises] that a further process has to save, to be worth its start
 AHEAD = 4  # [exercises for each worker] handed out at a time: enough that none waits
+POOLS = 3  # started in turn, if one breaks
 LOOK = 0.2  # [s] between two looks at whether somebody wants to stop
 TOO_LONG = f"grading it took more than {SECONDS:g} s and was stopped"
 ENDED = "the process that graded it stopped, perhaps because the memory was full"
@@ -66,52 +69,83 @@ def grade_in_workers(
         stop_if_asked: called every moment; what it raises ends the workers at once.
         seconds: [s] for one exercise of one student.
     """
-    tasks = [(job, name) for job in jobs for name in job.names]
-    if not tasks:
-        return
-    workers = max(1, min(processes, -(-len(tasks) // WORTH)))
-    pool = ProcessPool(
-        workers,
-        # Started afresh, not copied: the same on every system, and no threads are copied halfway.
-        context=multiprocessing.get_context("spawn"),
-        initializer=_start_worker,
-    )
-    try:
-        yield from _grade(pool, tasks, workers, stop_if_asked, seconds)
-    finally:
-        pool.stop()  # type: ignore[no-untyped-call]  # pebble types its calls in part
-        pool.join()
+    tasks: Sequence[Task] = [(job, name) for job in jobs for name in job.names]
+    students = {job.student: _OpenStudent(job) for job, _ in tasks}
+    for _ in range(POOLS):
+        if not tasks:
+            return
+        workers = max(1, min(processes, -(-len(tasks) // WORTH)))
+        pool = ProcessPool(
+            workers,
+            # Started afresh, not copied: the same on every system, and no threads are copied
+            # halfway.
+            context=multiprocessing.get_context("spawn"),
+            initializer=_start_worker,
+        )
+        try:
+            tasks = yield from _grade(
+                pool, tasks, students,
+                workers=workers, stop_if_asked=stop_if_asked, seconds=seconds,
+            )  # fmt: skip
+        finally:
+            pool.stop()  # type: ignore[no-untyped-call]  # pebble types its calls in part
+            pool.join()
+    for job, name in tasks:
+        yield from _add_record(students, job, name, make_ungraded_record(job, name, ENDED))
 
 
 def _grade(
     pool: ProcessPool,
     tasks: Sequence[Task],
+    students: dict[str, _OpenStudent],
+    *,
     workers: int,
     stop_if_asked: Callable[[], None],
     seconds: float,
-) -> Iterator[GradedStudent]:
-    students = {job.student: _OpenStudent(job) for job, _ in tasks}
-    waiting, running = iter(tasks), dict[Future[GradedStudent], Task]()
+) -> Generator[GradedStudent, None, Sequence[Task]]:
+    """Grade in one pool.
+
+    Returns:
+        The tasks that are left because the pool broke: a worker that ends in the moment between
+        two tasks can break all of it.
+    """
+    waiting, running = deque(tasks), dict[Future[GradedStudent], Task]()
 
     def start_tasks() -> None:
         with interrupts_blocked_for_children():
-            while len(running) < AHEAD * workers and (task := next(waiting, None)):
-                job, name = task
+            while waiting and len(running) < AHEAD * workers:
+                job, name = waiting[0]
                 part = replace(job, names=(name,), files=_select_exercise(job, name))
-                running[pool.schedule(grade_student, args=(part,), timeout=seconds)] = task
+                try:
+                    future = pool.schedule(grade_student, args=(part,), timeout=seconds)
+                except RuntimeError:  # the pool broke; its running tasks say so, too
+                    return
+                running[future] = waiting.popleft()
 
     start_tasks()
     while running:
         done, _ = wait(running, timeout=LOOK, return_when=FIRST_COMPLETED)
         stop_if_asked()
         for future in done:
-            job, name = running.pop(future)
-            one = students[job.student]
-            one.records[name] = _make_record(future, job, name)
-            if (graded := one.results_if_complete()) is not None:
-                del students[job.student]
-                yield graded
+            job, name = running[future]
+            try:
+                record = _make_record(future, job, name)
+            except BrokenProcessPool:
+                return [*running.values(), *waiting]
+            del running[future]
+            yield from _add_record(students, job, name, record)
         start_tasks()
+    return tuple(waiting)
+
+
+def _add_record(
+    students: dict[str, _OpenStudent], job: GradingJob, name: str, record: Record
+) -> Iterator[GradedStudent]:
+    """Add the result of one exercise; yields the student if it was the last one."""
+    students[job.student].records[name] = record
+    if (graded := students[job.student].results_if_complete()) is not None:
+        del students[job.student]
+        yield graded
 
 
 def _make_record(future: Future[GradedStudent], job: GradingJob, name: str) -> Record:
