@@ -25,7 +25,7 @@ def find_unknown_names(
     file: str,
     exercise: str,
 ) -> tuple[str, ...]:
-    """A warning for each name that does not count; none if all names are asked for.
+    """A warning for each name that the exercise does not ask for, or that stands there twice.
 
     Args:
         answers: name -> answer, in the order of the file.

@@ -35,8 +35,8 @@ def warnings(text, known=GAINS):
     return find_unknown_names(answers, known, text=text, file="a.toml", exercise="exercise9")
 
 
-ASKS = "exercise9 does not ask for"
-LOST = "so this line does not count"
+UNKNOWN = "exercise9 does not ask for"
+IGNORED = "so this line does not count"
 ANSWERED = "That name already has an answer: keep the right one"
 TABLE = "[gains] starts a table, and nothing below it counts. Delete the line with [gains]"
 TWICE = "kv is the same name as kV, and only the last one counts. Delete the other one"
@@ -45,14 +45,14 @@ TWICE = "kv is the same name as kV, and only the last one counts. Delete the oth
 @pytest.mark.parametrize(
     ("text", "where", "why"),
     [
-        ("kS = 1\nks_ = 2\n", ", line 2", f"{ASKS} ks_, {LOST}. Did you mean kS? {ANSWERED}"),
-        ('kV = ""\n\nkVv = 2\n', ", line 3", f"{ASKS} kVv, {LOST}. Did you mean kV?"),
-        ("g = 9.81\n", ", line 1", f"{ASKS} g, {LOST}. exercise9 asks for kS, kV, kA"),
-        ("k.V = 2\n", ", line 1", f"{ASKS} k.V, {LOST}. Did you mean kV?"),
+        ("kS = 1\nks_ = 2\n", ", line 2", f"{UNKNOWN} ks_, {IGNORED}. Did you mean kS? {ANSWERED}"),
+        ('kV = ""\n\nkVv = 2\n', ", line 3", f"{UNKNOWN} kVv, {IGNORED}. Did you mean kV?"),
+        ("g = 9.81\n", ", line 1", f"{UNKNOWN} g, {IGNORED}. exercise9 asks for kS, kV, kA"),
+        ("k.V = 2\n", ", line 1", f"{UNKNOWN} k.V, {IGNORED}. Did you mean kV?"),
         ("[gains]\nkS = 1\n", ", line 1", TABLE),
         ("kS = 1\n[kV]\nkA = 2\n", ", line 2", TABLE.replace("gains", "kV")),
         ('kV = 2.1\nkv = ""\n', ", line 2", TWICE),
-        ('"k\\u0056x" = 2\n', "", f"{ASKS} kVx, {LOST}. Did you mean kV?"),
+        ('"k\\u0056x" = 2\n', "", f"{UNKNOWN} kVx, {IGNORED}. Did you mean kV?"),
     ],
     ids=[
         "answered",
@@ -115,7 +115,7 @@ def test_a_name_too_many_beside_right_answers_keeps_all_points(tmp_path):
 
     assert (points["forward"], points["backward"], points["braking"]) == (2.0, 2.0, 2.0)
     (said,) = found.warnings
-    assert said.endswith(f"does not ask for acelerating, {LOST}. Did you mean accelerating?")
+    assert said.endswith(f"does not ask for acelerating, {IGNORED}. Did you mean accelerating?")
 
 
 def test_an_effect_may_be_written_with_either_sign_and_a_misspelled_one_is_named(tmp_path):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from sim.bench.mechanism import Mechanism
 
-# Draws differ so much, and the room is so narrow, that many plans fail on another's mechanism.
+# Mechanisms differ so much, in so little room, that many plans fail for another student.
 LIMITS = {  # [A] that teams set for one motor
     "krakenX60": (60.0, 80.0, 100.0),
     "neoVortex": (40.0, 60.0, 80.0),
@@ -29,7 +29,7 @@ MOTORS = {
     "turret": ("krakenX44", "neo"),
     "shooter": ("krakenX60", "neo", "neoVortex"),
 }
-SPREAD = {  # wider than the bench's own draws, which have no plan where they are too fast
+SPREAD = {  # wider than the bench's own draws, of which some are too fast for any plan
     "drivetrain": {"ratio": (5.14, 7.4), "load": (40.0, 65.0)},
     "elevator": {"ratio": (4.0, 9.0), "radius": (0.016, 0.029), "load": (8.0, 20.0)},
     "turret": {"ratio": (45.0, 85.0), "load": (0.8, 2.4)},

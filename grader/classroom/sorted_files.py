@@ -221,7 +221,7 @@ class FileSorter:
         )
 
     def _judge_remaining(self, answered: set[str]) -> tuple[dict[str, str], tuple[str, ...]]:
-        """The files of no exercise, where one may be the only answer to an exercise.
+        """Files that belong to no exercise, each perhaps the only answer to one.
 
         Args:
             answered: the exercises of which there is an answer.

@@ -81,8 +81,8 @@ found on hardly any healthy robot, so more proves no more. In 700 effects of cro
 log loss is .161 with it, and .177 with the limit above."""
 
 STRUCTURE = (0.7, 1.3)
-"""[1] Results of the residual tests, over their thresholds, between which the probability changes.
-A result a little beyond a threshold says little more than one a little below it."""
+"""[1] Ratios of a residual test's result to its threshold between which the probability changes. A
+result a little beyond the threshold says little more than one a little below it."""
 
 SOONEST, LATEST = 2.0, 0.5
 """Samples, and seconds, after the onset of an effect. If the residual that the last model explains

@@ -19,7 +19,7 @@ from sim.reconcile.thresholds import LEAST_SCORE
 SLOW = "quasistatic"  # tests that say little of them
 MOST = 4  # starts of each kind that are optimized by one step on the step tests
 FURTHER = (4, 4)  # of them, how many are optimized by a second step, and by a third
-MINIMA = 2  # that are tried on all runs
+MINIMA = 2  # local minima that are tried on all runs
 SAME = 0.2  # [1] by which the parameters of two minima differ at least
 NEAR = 0.5  # [1] of the best gain that another minimum reaches, to be tried on all runs, too
 HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
