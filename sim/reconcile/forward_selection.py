@@ -16,7 +16,6 @@ from sim.reconcile.cross_validation import (
 )
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.model_selection import (
-    HARDLY,
     choose_simplest,
     compare_scores,
     is_ordinary_size,
@@ -33,12 +32,10 @@ from sim.reconcile.thresholds import (
     COMPARABLE,
     EQUAL_SCORE,
     LEAST_SCORE,
-    LEAST_SCORE_UNSEEN,
     LOST,
     MAJOR,
     MAJOR_UNEXPLAINED,
     MOST_EFFECTS,
-    MOST_NUISANCE,
     NARROWER,
     UNDRIVEN,
     VISIBLE_FLOORS,
@@ -159,16 +156,7 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
         weighed = weigh_candidates(data, now)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
         done[-1] = now = replace(now, seeds=seeds, candidates=tuple(weighed))
-        admitted, quiet = select_admissible(weighed, most=MOST_NUISANCE - now.nuisance_effects)
-        if quiet and not any(
-            one.report.improvement > COMPARABLE * quiet[0].report.improvement for one in admitted
-        ):
-            one = quiet[0]
-            if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
-                done[-1] = _add_nuisance_effect(now, one)
-            else:
-                done.append(_next_round(now, one))
-            continue
+        admitted = select_admissible(weighed)
         if not admitted:
             break
         chosen = choose_simplest(admitted)
@@ -182,10 +170,7 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
 
 def _next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
     """The round that begins with a candidate of the one before."""
-    return SelectionRound(
-        added.candidate, added.gap, now.gap,
-        nuisance_effects=now.nuisance_effects, seeds=now.seeds,
-    )  # fmt: skip
+    return SelectionRound(added.candidate, added.gap, now.gap, seeds=now.seeds)
 
 
 def _on_another_path(data: SelectionData) -> SelectionData:
@@ -193,9 +178,7 @@ def _on_another_path(data: SelectionData) -> SelectionData:
     return replace(data, progress=lambda what, _: data.progress(what, SECOND_PATH))
 
 
-def select_admissible(
-    weighed: Sequence[WeighedCandidate], *, most: int
-) -> tuple[list[WeighedCandidate], list[WeighedCandidate]]:
+def select_admissible(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
     """Candidates that may be added next.
 
     What any robot has a little of goes first, and alone, if it is nearly the likeliest: beside it
@@ -203,25 +186,15 @@ def select_admissible(
     battery together more than each of them does alone.
 
     Args:
-        weighed: the candidates of a round.
-        most: how many may be added without a name.
+        weighed: the candidates of a round, the likeliest first.
     """
     admitted = [one for one in weighed if one.report.admitted]
-    quiet = [
-        one
-        for one in weighed
-        if one.report.why == HARDLY and one.report.improvement >= LEAST_SCORE_UNSEEN
-    ][:most]
-    every = sorted([*admitted, *quiet], key=lambda one: -one.report.improvement)
-    usual = [
-        one
-        for one in every
-        if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values)
-    ]
-    if usual and usual[0].report.improvement >= COMPARABLE * every[0].report.improvement:
-        admitted = [one for one in admitted if one is usual[0]]
-        quiet = [one for one in quiet if one is usual[0]]
-    return admitted, quiet
+    for one in admitted:
+        if one.report.improvement < COMPARABLE * admitted[0].report.improvement:
+            break
+        if is_ordinary_size(one.candidate.effect, one.candidate.estimate.values):
+            return [one]
+    return admitted
 
 
 def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
@@ -270,16 +243,3 @@ def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
             name, values = one.candidate.effect, one.candidate.estimate.values
             found[name] = {f"{name}.{p}": values[f"{name}.{p}"] for p in EFFECTS[name].names}
     return found
-
-
-def _add_nuisance_effect(now: SelectionRound, best: WeighedCandidate) -> SelectionRound:
-    """Adds a nuisance effect that is modelled but not reported."""
-    candidate = replace(best.candidate, effect=now.candidate.effect)
-    plain = now.reported_candidate or now.candidate
-    return replace(
-        now,
-        candidate=candidate,
-        gap=best.gap,
-        nuisance_effects=now.nuisance_effects + 1,
-        reported_candidate=plain,
-    )

@@ -20,7 +20,7 @@ from sim.reconcile.cross_validation import compute_open_loop_errors, compute_rms
 from sim.reconcile.recordings import Recordings
 from sim.reconcile.residual_map import map_residuals
 from sim.reconcile.search_effort import ROUNDS
-from sim.reconcile.selection_round import SelectionRound, choose_reported_estimate
+from sim.reconcile.selection_round import SelectionRound
 from sim.reconcile.story import Chapter
 from sim.reconcile.thresholds import VISIBLE_FLOORS
 
@@ -137,7 +137,7 @@ class HeldOutLog:
         found = {}
         for before, one in pairwise(done):
             gap = self._gap(one.without.estimate) if one.without else math.inf
-            gap = gap if math.isfinite(gap) else self._gap(choose_reported_estimate(before))
+            gap = gap if math.isfinite(gap) else self._gap(before.candidate.estimate)
             found[one.candidate.effect] = gap
         return found
 
@@ -147,7 +147,7 @@ class HeldOutLog:
         return compute_rms_gap(errors).velocity / find_unit(self.log.units).si
 
     def _chapter(self, one: SelectionRound) -> Chapter:
-        point = choose_reported_estimate(one)
+        point = one.candidate.estimate
         model = point.structure.model(point.values)
         nuisance = self._initial_nuisance(point)
         gap = self._gap(point, nuisance)

@@ -43,8 +43,6 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
             continue
         gap = compute_validation_gap(data.problem, candidate.estimate, data.folds)
         why = explain_rejection(gap, now.gap, score)
-        if why == HARDLY and EFFECTS[candidate.effect].has_onset:
-            why = ""
         share = gap.velocity / max(now.gap.velocity, TINY)
         tried = TriedCandidate(candidate.effect, score, share, admitted=not why, why=why)
         found.append(WeighedCandidate(candidate, gap, tried))
@@ -60,13 +58,8 @@ def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
     """Why a candidate is not admitted; empty if it is."""
     if is_wider(gap, before):
         return WIDENS
-    velocity = gap.velocity / max(before.velocity, TINY)
-    position = gap.position / max(before.position, TINY)
-    if velocity > NARROWER and (
-        (velocity * position) ** 0.5 > NARROWER or score < LEAST_SCORE_UNSEEN
-    ):
-        return HARDLY
-    return ""
+    seen = gap.velocity <= NARROWER * before.velocity
+    return "" if seen or score >= LEAST_SCORE_UNSEEN else HARDLY
 
 
 def is_wider(gap: Gap, before: Gap) -> bool:

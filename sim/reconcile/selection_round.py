@@ -3,7 +3,6 @@
 import math
 from dataclasses import dataclass, field
 
-from sim.estimation.likelihood import Estimate
 from sim.reconcile.candidates import Candidate, Seeds
 from sim.reconcile.cross_validation import Gap
 from sim.reconcile.story import TriedCandidate
@@ -33,8 +32,6 @@ class SelectionRound:
         gap: outside of what was fitted.
         gap_before: the gap without that effect; the same for the base.
         rivals: effects that would have explained as much.
-        nuisance_effects: effects of the model that make the log likelier and hardly narrow the gap.
-        reported_candidate: the model before the first of those; None if there are none.
         seeds: parameters of the candidates that were likelier than nothing, of all rounds so far.
         removal_cost: [of -2 log L] what the last model would lose without this effect; nan if not
             asked.
@@ -47,8 +44,6 @@ class SelectionRound:
     gap: Gap
     gap_before: Gap
     rivals: tuple[str, ...] = ()
-    nuisance_effects: int = 0
-    reported_candidate: Candidate | None = None
     seeds: Seeds = field(default_factory=dict)
     removal_cost: float = math.nan
     without: Candidate | None = None
@@ -59,13 +54,3 @@ class SelectionRound:
     def tried(self) -> tuple[TriedCandidate, ...]:
         """The candidates of the next round, as they are told."""
         return tuple(one.report for one in self.candidates)
-
-
-def choose_reported_estimate(one: SelectionRound) -> Estimate:
-    """The estimate of a round that is shown to people."""
-    plain = (
-        one.reported_candidate
-        if one.reported_candidate and not one.reported_candidate.effect
-        else None
-    )
-    return (plain or one.candidate).estimate

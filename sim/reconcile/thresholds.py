@@ -100,12 +100,8 @@ SEARCH_SHARE = 0.5
 refitted without each of its effects, which takes up to a third of the limit on long logs of real
 robots. Of 37 logs that took longest, a share of 0.7 explains one more."""
 
-MOST_EFFECTS = 4
+MOST_EFFECTS = 6
 """Most effects that are added to a model: with more, any log can be explained."""
-
-MOST_NUISANCE = 2
-"""Most effects that are kept in a model without being named. A delay of 2 ms makes a log much
-likelier and narrows no gap, but other effects are seen better beside it."""
 
 UNDRIVEN = 100.0
 """Time scale kA/kV [s] of a lost base model beyond which the voltage drives nothing in it, so that
