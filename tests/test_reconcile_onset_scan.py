@@ -239,18 +239,19 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
         ),
     )
     gap = Gap(1.0, 1.0)
-    names = ("inertia-change", "drag")
-    tried = [replace(base, effect=name, bic=base.bic - 500.0) for name in names]
+    scores = {"inertia-change": 500.0, "drag": 500.0, "stribeck": 50.0}
+    tried = [replace(base, effect=name, bic=base.bic - by) for name, by in scores.items()]
     monkeypatch.setattr(model_selection, "rank_candidates", lambda *_, **__: tried)
     monkeypatch.setattr(model_selection, "compute_validation_gap", lambda *_: gap)
 
-    inertia, drag = model_selection.weigh_candidates(
+    inertia, drag, stribeck = model_selection.weigh_candidates(
         SelectionData(log, problem, make_folds([0, 0, 0, 0])),
         SelectionRound(base, gap, gap),
     )
 
     assert inertia.report.admitted
-    assert drag.report.why == model_selection.HARDLY
+    assert drag.report.admitted
+    assert stribeck.report.why == model_selection.HARDLY
 
 
 @pytest.fixture(scope="module")

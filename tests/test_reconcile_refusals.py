@@ -10,8 +10,8 @@ import sim
 from sim.cli import sysid
 from sim.core.errors import BadRequest, NotIdentifiable, Refusal
 from sim.core.log import Log
+from sim.inspect.dropout_intervals import find_dropout_intervals
 from sim.reconcile import DamagedInterval, reconcile
-from sim.reconcile.dropout_intervals import find_dropout_intervals
 from sim.reconcile.input_checks import check_logs
 from sim.reconcile.recordings import Recordings
 from sim.support.command_line import run_command

@@ -141,7 +141,7 @@ def test_numbers_that_decide_in_reconcile_stand_in_one_file():
         and not any(isinstance(part, ast.Call) for part in ast.walk(node.value))
     }
 
-    assert found - SEARCHES - SHOWING <= {"thresholds.py", "damage_policy.py"}
+    assert found - SEARCHES - SHOWING <= {"thresholds.py", "damage.py"}
 
 
 def test_few_numbers_decide_in_reconcile_and_each_has_its_reason():

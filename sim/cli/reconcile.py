@@ -168,8 +168,8 @@ def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
         log: any.
     """
     from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
+    from sim.inspect.dropout_intervals import find_dropout_intervals  # noqa: PLC0415
     from sim.reconcile import DamagedInterval  # noqa: PLC0415
-    from sim.reconcile.dropout_intervals import find_dropout_intervals  # noqa: PLC0415
 
     found = []
     for one in inspect(log).damages:

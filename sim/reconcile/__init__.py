@@ -26,8 +26,7 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import load_engine
 from sim.reconcile.backward_elimination import measure_removals
 from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
-from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.damage_policy import judge_damage
+from sim.reconcile.damage import DamagedInterval, judge_damage
 from sim.reconcile.findings import make_findings
 from sim.reconcile.forward_selection import select_effects
 from sim.reconcile.held_out import HeldOutLog

@@ -16,7 +16,7 @@ from sim.estimation.run_records import (
     join_records,
     make_run_records,
 )
-from sim.reconcile.damage_policy import DamageDecision
+from sim.reconcile.damage import DamageDecision
 from sim.reconcile.thresholds import LEAST_FLOOR, MOST_WANDERING
 
 ORDER = ("log", "validation", "held_out")  # in which they were recorded
@@ -95,7 +95,7 @@ class Recordings:
             self.logs_by_name[name],
             session=session,
             since=compute_session_length(*self._before(name)),
-            aside=self.damage.list_excluded(name),
+            aside=self.damage.excluded.get(name, ()),
         )
 
 

@@ -101,7 +101,8 @@ refitted without each of its effects, which takes up to a third of the limit on 
 robots. Of 37 logs that took longest, a share of 0.7 explains one more."""
 
 MOST_EFFECTS = 6
-"""Most effects that are added to a model: with more, any log can be explained."""
+"""Most effects that are added to a model, everyday ones included: with more, any log can be
+explained."""
 
 UNDRIVEN = 100.0
 """Time scale kA/kV [s] of a lost base model beyond which the voltage drives nothing in it, so that
@@ -158,10 +159,6 @@ meter makes it 3.3, a radian taken for a rotation 6.3."""
 DAMAGED = 0.95
 """[1] Confidence of an inspection from which an interval is damaged and is cut out. On 900 logs,
 encoder slips that are true have 0.96 and more, false ones (starts that stick) 0.945 at most."""
-
-DROPPED = 0.9
-"""[1] A voltage below this share of its median has dropped, and a speed below this share of what it
-was has followed."""
 
 STEP_VOLTAGE = 1.0
 """[V] A larger change of the voltage between two samples is a step: a ramp changes by less."""

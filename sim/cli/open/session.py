@@ -324,7 +324,7 @@ class Session:
             import sim.fit.physics  # noqa: PLC0415 - the same
             import sim.fit.pooled  # noqa: PLC0415 - the same
             import sim.inspect.contaminate  # noqa: PLC0415 - the same
-            import sim.reconcile.dropout_intervals  # noqa: PLC0415 - the same
+            import sim.inspect.dropout_intervals  # noqa: PLC0415 - the same
             import sim.reconcile.story_text  # noqa: PLC0415 - the same
             import sim.report  # noqa: F401, PLC0415 - the same
 
