@@ -161,7 +161,7 @@ def test_play_is_named_wherever_its_runs_began_and_the_gap_closes():
 
 def test_where_no_run_turns_the_story_says_that_the_play_may_be_larger(problem):
     point = at(problem)
-    one = SelectionRound(score_estimate(problem, point, "backlash"), Gap(0.0, 0.0), Gap(0.0, 0.0))
+    one = SelectionRound.make_base(score_estimate(problem, point, "backlash"), Gap(0.0, 0.0))
 
     (said,) = list_remarks(problem, [one], [named("backlash")], (), ResidualSummary())
     assert "no fitted run changes direction" in said

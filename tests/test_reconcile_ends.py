@@ -1,5 +1,7 @@
 """Where a search ends: as far as it leads, and with no more parameters than are due."""
 
+from itertools import pairwise
+
 import pytest
 from reconcile_made import rubbing
 
@@ -9,7 +11,7 @@ from sim.estimation.run_nuisance import RunNuisance
 from sim.estimation.run_records import make_run_records
 from sim.physics.model import Part
 from sim.reconcile import local_minimum
-from sim.reconcile.backward_elimination import simplify_effects
+from sim.reconcile.backward_elimination import remove_needless_effects, simplify_effects
 from sim.reconcile.candidates import score_estimate
 from sim.reconcile.cross_validation import (
     compute_open_loop_errors,
@@ -20,6 +22,7 @@ from sim.reconcile.cross_validation import (
 from sim.reconcile.local_minimum import minimize, minimize_fully
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
+from sim.reconcile.thresholds import LEAST_SCORE
 
 GAINS = {"kS": 0.5, "kV": 0.5, "kA": 0.05}
 NOISE = (1e-3, 1e-2)  # [m] and [m/s]
@@ -35,6 +38,15 @@ def at(problem, values, *effects, process_noise=1.0):
     return problem.evaluate(
         structure, values, RunNuisance.at_first_samples(len(problem.records)), size
     )
+
+
+def make_rounds(found, gaps):
+    """The base and a round for each further model."""
+    pairs = pairwise(zip(found, gaps, strict=True))
+    return [
+        SelectionRound.make_base(found[0], gaps[0]),
+        *(SelectionRound(*now, *before) for before, now in pairs),
+    ]
 
 
 def test_a_wave_along_a_long_way_is_weighed_beside_friction_that_is_simulated():
@@ -98,7 +110,7 @@ def test_an_effect_that_needs_fewer_parameters_by_now_gives_way_to_its_sister():
     spring = {**GAINS, "spring.rate": 1e-4, "spring.preload": 0.3}
     taken = score_estimate(problem, minimize(problem, at(problem, spring, "spring")), "spring")
     gaps = [compute_validation_gap(problem, one.estimate, parts) for one in (base, taken)]
-    done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
+    done = make_rounds([base, taken], gaps)
 
     told = simplify_effects(SelectionData(log, problem, parts), done)
 
@@ -115,6 +127,54 @@ def test_an_effect_that_needs_its_parameters_keeps_them():
     values = {**GAINS, "spring.rate": 0.1, "spring.preload": 0.0}
     taken = score_estimate(problem, minimize(problem, at(problem, values, "spring")), "spring")
     gaps = [compute_validation_gap(problem, one.estimate, parts) for one in (base, taken)]
-    done = [SelectionRound(base, gaps[0], gaps[0]), SelectionRound(taken, gaps[1], gaps[0])]
+    done = make_rounds([base, taken], gaps)
 
     assert simplify_effects(SelectionData(log, problem, parts), done) == done
+
+
+@pytest.mark.parametrize("others", [("constant-load",), ("constant-load", "stribeck")])
+def test_effects_that_a_later_one_has_made_needless_are_removed(others):
+    log = session(Part("drag", {"drag": 0.2}), step=4.0)
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
+    folds = make_folds([one.session for one in problem.records])
+    starts = {"constant-load.load": 0.1, "stribeck.extra": 0.2, "stribeck.slow": 0.2}
+    values = {**GAINS, "drag.drag": 0.2, **starts}
+
+    def fit(*effects):
+        point = minimize(problem, at(problem, values, *effects))
+        return score_estimate(problem, point, effects[-1] if effects else "")
+
+    found = [fit(), *(fit(*others[: n + 1]) for n in range(len(others))), fit(*others, "drag")]
+    gaps = [compute_validation_gap(problem, one.estimate, folds) for one in found]
+    done = make_rounds(found, gaps)
+
+    base, drag = remove_needless_effects(SelectionData(log, problem, folds), done)
+
+    assert base is done[0]
+    assert drag.candidate.effect == "drag"
+    assert drag.candidate.estimate.structure.effects == ("drag",)
+
+
+def test_needed_effects_stay_each_with_the_model_that_lacks_it():
+    log = session(
+        Part("drag", {"drag": 0.2}), Part("spring", {"rate": 0.2, "preload": 0.0}), step=4.0
+    )
+    problem = PredictionErrorProblem.from_records(make_run_records(log))
+    folds = make_folds([one.session for one in problem.records])
+    values = {**GAINS, "drag.drag": 0.2, "spring.rate": 0.2, "spring.preload": 0.0}
+    models = [(), ("drag",), ("drag", "spring")]
+    found = [
+        score_estimate(
+            problem, minimize(problem, at(problem, values, *one)), one[-1] if one else ""
+        )
+        for one in models
+    ]
+    gaps = [compute_validation_gap(problem, one.estimate, folds) for one in found]
+    done = make_rounds(found, gaps)
+
+    _, drag, spring = remove_needless_effects(SelectionData(log, problem, folds), done)
+
+    assert drag.without.estimate.structure.effects == ("spring",)
+    assert spring.without.estimate.structure.effects == ("drag",)
+    assert all(one.without.bic > spring.candidate.bic + LEAST_SCORE for one in (drag, spring))
+    assert all(one.gap_without.velocity > spring.gap.velocity for one in (drag, spring))

@@ -220,7 +220,7 @@ def test_what_may_be_one_runs_accident_has_to_be_likelier(monkeypatch, effect, s
 
     (one,) = model_selection.weigh_candidates(
         SelectionData(log, problem, make_folds([0, 0, 0, 0])),
-        SelectionRound(base, gap, gap),
+        SelectionRound.make_base(base, gap),
     )
 
     assert one.report.admitted is admitted
@@ -246,7 +246,7 @@ def test_a_gap_on_runs_that_know_nothing_of_it_is_no_reason_against_it(monkeypat
 
     inertia, drag, stribeck = model_selection.weigh_candidates(
         SelectionData(log, problem, make_folds([0, 0, 0, 0])),
-        SelectionRound(base, gap, gap),
+        SelectionRound.make_base(base, gap),
     )
 
     assert inertia.report.admitted

@@ -115,7 +115,7 @@ def test_a_run_alone_has_no_habit(count):
 def test_it_is_told_where_and_by_how_much(alike, units, said):
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
-    done = [SelectionRound(score_estimate(problem, point), gap, gap)]
+    done = [SelectionRound.make_base(score_estimate(problem, point), gap)]
 
     verdict, remainder, remains = reach_verdict(
         [], done, problem, residuals=ResidualSummary(repeated=alike), per=find_unit(units)

@@ -109,7 +109,7 @@ def remains_of(left):
     """The verdict on a model that leaves that, and follows else."""
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
-    done = [SelectionRound(score_estimate(problem, point), gap, gap)]
+    done = [SelectionRound.make_base(score_estimate(problem, point), gap)]
     return reach_verdict([], done, problem, residuals=left, per=find_unit("meters"))
 
 

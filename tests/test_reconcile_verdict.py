@@ -66,9 +66,10 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
     )
     sizes = [Gap(gap * problem.noise.velocity, 1e-5) for gap in gaps]
     before = [sizes[0], *sizes[:-1]]
+    found = score_estimate(problem, point)
     return [
-        SelectionRound(score_estimate(problem, point), *both)
-        for both in zip(sizes, before, strict=True)
+        SelectionRound(found, gap, found, without)
+        for gap, without in zip(sizes, before, strict=True)
     ]
 
 
@@ -150,27 +151,23 @@ def added(problem, *steps, values):
         structure, values, RunNuisance.at_first_samples(2), problem.noise.velocity**2
     )
     gaps = [Gap(size * problem.noise.velocity, 1e-5) for size in (2.0, *(one[1] for one in steps))]
-    done = [SelectionRound(score_estimate(problem, point), gaps[0], gaps[0])]
-    for (name, _, bare), gap, before in zip(steps, gaps[1:], gaps, strict=False):
-        without = Gap(bare * problem.noise.velocity, 1e-5)
-        done.append(
+    base = score_estimate(problem, point)
+    bare = replace(base, bic=base.bic + SURELY)
+    return [
+        SelectionRound.make_base(base, gaps[0]),
+        *(
             SelectionRound(
-                score_estimate(problem, point, name),
-                gap,
-                before,
-                removal_cost=SURELY,
-                gap_without=without,
+                replace(base, effect=name), gap, bare, Gap(without * problem.noise.velocity, 1e-5)
             )
-        )
-    return done
+            for (name, _, without), gap in zip(steps, gaps[1:], strict=True)
+        ),
+    ]
 
 
 def find_effects(problem, done, *, residuals):
     """The findings, where the shown log is missed as the other runs are."""
     chapters = [SimpleNamespace(gap=one.gap.velocity) for one in done]
-    without = {
-        one.candidate.effect: (one.gap_without or one.gap_before).velocity for one in done[1:]
-    }
+    without = {one.candidate.effect: one.gap_without.velocity for one in done[1:]}
     return make_findings(
         problem,
         done,
@@ -316,7 +313,8 @@ def test_an_effect_is_a_finding_if_it_is_likelier_right_than_wrong(problem, scor
     ]
     plain = rounds(problem, 2.0)[0].candidate
     base = replace(with_tried(base, tried), candidate=plain)
-    done = [base, replace(one, removal_cost=score)]
+    bare = replace(one.candidate, bic=one.candidate.bic + score)
+    done = [base, replace(one, without=bare)]
 
     (judged,) = judge_effects(problem, done, ResidualSummary(), damaged=False)
     found = find_effects(problem, done, residuals=ResidualSummary())

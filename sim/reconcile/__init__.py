@@ -24,7 +24,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt
 from sim.estimation.run_nuisance import RunNuisance
 from sim.physics.engine import load_engine
-from sim.reconcile.backward_elimination import measure_removals
+from sim.reconcile.backward_elimination import remove_needless_effects
 from sim.reconcile.cross_validation import Fold, make_folds, select_usable_folds
 from sim.reconcile.damage import DamagedInterval, judge_damage
 from sim.reconcile.findings import make_findings
@@ -104,7 +104,7 @@ def reconcile(
     data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
     done = select_effects(data, base)
     cut = time_limit if data.out_of_time() else math.inf  # the refits that follow do not count
-    done = measure_removals(data, done)
+    done = remove_needless_effects(data, done)
     progress("what remains", 0.9)
     return _make_story(problem, done, shown, damage.reported, cut=cut, per=recordings.unit)
 

@@ -1,7 +1,4 @@
-"""Backward elimination: replace or simplify effects that were added earlier.
-
-Of two effects that mask each other, the first that is found may be a third one that resembles both.
-"""
+"""Backward elimination: remove or simplify effects that others have made needless."""
 
 import math
 from collections.abc import Sequence
@@ -9,57 +6,12 @@ from dataclasses import replace
 
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.physics.effects import EFFECTS
-from sim.reconcile.candidates import Candidate, rank_candidates, score_estimate, simplify_effect
+from sim.reconcile.candidates import Candidate, score_estimate, simplify_effect
 from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.local_minimum import minimize
-from sim.reconcile.model_selection import compare_scores, find_required_improvement, is_wider
+from sim.reconcile.model_selection import find_required_improvement, is_wider
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound
-from sim.reconcile.thresholds import COMPARABLE, EQUAL_SCORE, LEAST_SCORE_ONCE
-
-
-def replace_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """The rounds, with an earlier effect removed if needless, or replaced if another is likelier.
-
-    At most one of them: the search then goes on. A needless effect goes even if the gap becomes
-    wider without it: it has then taken the place of another one.
-    """
-    problem, last = data.problem, done[-1]
-    for place in range(1, len(done) - 1):
-        effect = done[place].candidate.effect
-        others = _look_alikes(done, place)
-        if not others:
-            continue
-        reduced = refit_without_effect(problem, last.candidate, effect)
-        needed = reduced.bic - last.candidate.bic >= find_required_improvement(effect)
-        if not needed:
-            gap = compute_validation_gap(problem, reduced.estimate, data.folds)
-            if not math.isfinite(gap.velocity + gap.position):
-                continue
-            best = replace(reduced, effect=last.candidate.effect)
-            return [*done[:place], *done[place + 1 : -1], replace(last, candidate=best, gap=gap)]
-        residual = data.voltage_residual(reduced.estimate)
-        found = rank_candidates(
-            problem, reduced.estimate, residual,
-            only=others, seeds=last.seeds, stop=data.out_of_time,
-        )  # fmt: skip
-        if data.out_of_time():
-            break
-        if not found or compare_scores(last.candidate, found[0]) < _required_advantage(
-            effect, found[0].effect
-        ):
-            continue
-        gap = compute_validation_gap(problem, found[0].estimate, data.folds)
-        if is_wider(gap, last.gap):
-            continue
-        return _replace_one(done, place, found[0], gap)
-    return done
-
-
-def _required_advantage(effect: str, other: str) -> float:
-    """[of -2 log L] by which another effect must be likelier to take the place of one."""
-    passing = EFFECTS[other].has_onset and not EFFECTS[effect].has_onset
-    return LEAST_SCORE_ONCE if passing else EQUAL_SCORE
 
 
 def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
@@ -86,16 +38,6 @@ def simplify_effects(data: SelectionData, done: list[SelectionRound]) -> list[Se
     return done
 
 
-def _look_alikes(done: Sequence[SelectionRound], place: int) -> list[str]:
-    """Effects that looked like one that was added, or are known to."""
-    effect = done[place].candidate.effect
-    had = {one.candidate.effect for one in done}
-    tried = done[place - 1].tried
-    best = max((one.improvement for one in tried), default=0.0)
-    alike = [one.effect for one in tried if one.improvement > COMPARABLE * best]
-    return [name for name in dict.fromkeys([*alike, *EFFECTS[effect].apart]) if name not in had]
-
-
 def _replace_one(
     done: Sequence[SelectionRound], place: int, found: Candidate, gap: Gap
 ) -> list[SelectionRound]:
@@ -110,21 +52,36 @@ def _replace_one(
     return [*middle, replace(last, candidate=end, gap=gap, rivals=())]
 
 
-def measure_removals(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
-    """The rounds, each with the estimate that lacks its effect.
+def remove_needless_effects(
+    data: SelectionData, done: list[SelectionRound]
+) -> list[SelectionRound]:
+    """The rounds of the needed effects, each with the last model refitted without its effect.
 
-    Rounds that added a single effect are returned as they are: its own round says what it brought.
+    An effect is needless if it improves the BIC of the last model by less than was asked of it when
+    it was added, because effects that were added later explain the same. The least needed one goes
+    first. An only effect stays: it was admitted over the base model.
     """
-    last = done[-1].candidate
-    if len(last.estimate.structure.effects) <= 1:  # what it brought is what it is worth
-        return done
-    told = [done[0]]
-    for one in done[1:]:
-        reduced = refit_without_effect(data.problem, last, one.candidate.effect)
-        gap = compute_validation_gap(data.problem, reduced.estimate, data.folds)
-        cost = reduced.bic - last.bic
-        told.append(replace(one, removal_cost=cost, without=reduced, gap_without=gap))
-    return told
+    problem = data.problem
+    while len(done) > 2:  # noqa: PLR2004 - the base and an only effect
+        last = done[-1].candidate
+        reduced = [refit_without_effect(problem, last, one.candidate.effect) for one in done[1:]]
+        surplus = [
+            less.bic - last.bic - find_required_improvement(one.candidate.effect)
+            for one, less in zip(done[1:], reduced, strict=True)
+        ]
+        least = min(range(len(surplus)), key=surplus.__getitem__)
+        if surplus[least] >= 0.0:
+            gaps = [compute_validation_gap(problem, one.estimate, data.folds) for one in reduced]
+            rounds = zip(done[1:], reduced, gaps, strict=True)
+            return [
+                done[0],
+                *(replace(one, without=less, gap_without=gap) for one, less, gap in rounds),
+            ]
+        kept = [*done[: least + 1], *done[least + 2 :]]
+        found = replace(reduced[least], effect=kept[-1].candidate.effect)
+        gap = compute_validation_gap(problem, found.estimate, data.folds)
+        done = [*kept[:-1], replace(kept[-1], candidate=found, gap=gap)]
+    return done
 
 
 def refit_without_effect(

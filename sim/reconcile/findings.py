@@ -3,15 +3,16 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from sim.core.units import Unit
 from sim.estimation.likelihood import PredictionErrorProblem
 from sim.estimation.optimize import compute_standard_errors
 from sim.physics.effects import EFFECTS
 from sim.reconcile.backward_elimination import find_separating_test
-from sim.reconcile.cross_validation import count_noise_floors
+from sim.reconcile.cross_validation import Gap, count_noise_floors
 from sim.reconcile.damage import DamagedInterval
-from sim.reconcile.judgement import compare_gaps, is_narrower_with, judge_effects
+from sim.reconcile.judgement import is_narrower_with, judge_effects
 from sim.reconcile.probability import JudgedEffect, compute_log_ratio
 from sim.reconcile.residual_tests.summary import ResidualSummary
 from sim.reconcile.selection_round import SelectionRound
@@ -89,8 +90,7 @@ def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
     found = {}
     for one in done[1:]:
         name = one.candidate.effect
-        with_, bare = compare_gaps(one, done[-1])
-        last = compute_log_ratio(with_.velocity, bare.velocity)
+        last = compute_log_ratio(done[-1].gap.velocity, one.gap_without.velocity)
         first = compute_log_ratio(alone.get(name, 1.0), 1.0)
         found[name] = 1.0 - math.exp(0.5 * (first + last))
     return found
@@ -122,10 +122,11 @@ def _classify_size(
         )
         for n in range(1, len(done))
     ]
-    closed = done[-1].gap.velocity <= least * done[0].gap_before.velocity
+    closed = done[-1].gap.velocity <= least * done[0].gap.velocity
     if closed and not far and all(one.size != "major" for one in found):
-        most = min(range(len(found)), key=lambda n: _share_left(done[n + 1]), default=None)
-        if most is not None:
+        left = [_share_left(before.gap, one.gap) for before, one in pairwise(done)]
+        if left:
+            most = left.index(min(left))
             found[most] = replace(found[most], size="major")
     return found
 
@@ -136,9 +137,9 @@ def _demote_unseen(one: Finding) -> Finding:
     return one if seen else replace(one, size="minor")
 
 
-def _share_left(one: SelectionRound) -> float:
-    """[1] of the gap before it that an effect left when it was added."""
-    return one.gap.velocity / one.gap_before.velocity if one.gap_before.velocity > 0.0 else math.inf
+def _share_left(before: Gap, after: Gap) -> float:
+    """[1] share of the velocity gap that is left after a round."""
+    return after.velocity / before.velocity if before.velocity > 0.0 else math.inf
 
 
 def _sort_key(one: Finding) -> int:
@@ -162,8 +163,7 @@ def _make_effect_finding(
     name = now.candidate.effect
     effect = EFFECTS[name]
     last = end.candidate.estimate
-    with_, bare = compare_gaps(now, end)
-    major = with_.velocity <= least * bare.velocity
+    major = end.gap.velocity <= least * now.gap_without.velocity
     parameters = {}
     for one in effect.parameters:
         whole = f"{name}.{one.name}"

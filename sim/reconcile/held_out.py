@@ -136,7 +136,7 @@ class HeldOutLog:
         """
         found = {}
         for before, one in pairwise(done):
-            gap = self._gap(one.without.estimate) if one.without else math.inf
+            gap = self._gap(one.without.estimate)
             gap = gap if math.isfinite(gap) else self._gap(before.candidate.estimate)
             found[one.candidate.effect] = gap
         return found

@@ -10,7 +10,7 @@ from itertools import pairwise
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.physics.effect import ONSET
 from sim.physics.effects import EFFECTS
-from sim.reconcile.cross_validation import Gap, compute_missed_motion
+from sim.reconcile.cross_validation import compute_missed_motion
 from sim.reconcile.model_selection import is_ordinary_size
 from sim.reconcile.probability import (
     Evidence,
@@ -54,10 +54,10 @@ def judge_effects(
     found = []
     for place, (before, now) in enumerate(possible):
         name = now.candidate.effect
-        with_, bare = compare_gaps(now, done[-1])
+        with_, bare = done[-1].gap, now.gap_without
         added = before.candidate.bic - now.candidate.bic
         evidence = Evidence(
-            likelihood=math.log(max(compute_removal_cost(before, now), 1.0)),
+            likelihood=math.log(max(now.without.bic - done[-1].candidate.bic, 1.0)),
             gap=0.5
             * (
                 compute_log_ratio(with_.velocity, bare.velocity)
@@ -125,25 +125,7 @@ def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) ->
     return {one.effect: one.improvement for one in before.tried if one.effect not in others}
 
 
-def compute_removal_cost(before: SelectionRound, now: SelectionRound) -> float:
-    """[of -2 log L] what the last model loses without an effect; what it brought, if not asked."""
-    if math.isnan(now.removal_cost):
-        return before.candidate.bic - now.candidate.bic
-    return now.removal_cost
-
-
-def compare_gaps(added: SelectionRound, end: SelectionRound) -> tuple[Gap, Gap]:
-    """The gap of the last model, and of the same without one effect, refitted.
-
-    Where the last model has one effect only, that is what its round brought.
-    """
-    if added.gap_without is None:
-        return added.gap, added.gap_before
-    return end.gap, added.gap_without
-
-
 def is_narrower_with(added: SelectionRound, end: SelectionRound) -> bool:
     """Whether the last model's gap, of velocity and position, is narrower with an effect."""
-    with_, bare = compare_gaps(added, end)
-    product = with_.velocity * with_.position
-    return product <= NARROWER**2 * bare.velocity * bare.position
+    with_, bare = end.gap, added.gap_without
+    return with_.velocity * with_.position <= NARROWER**2 * bare.velocity * bare.position

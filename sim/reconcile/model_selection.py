@@ -4,18 +4,16 @@ import math
 from collections.abc import Mapping, Sequence
 
 from sim.physics.effects import EFFECTS
-from sim.reconcile.candidates import Candidate, rank_candidates
+from sim.reconcile.candidates import rank_candidates
 from sim.reconcile.cross_validation import Gap, compute_validation_gap
 from sim.reconcile.selection_data import SelectionData
 from sim.reconcile.selection_round import SelectionRound, WeighedCandidate
 from sim.reconcile.story import TriedCandidate
 from sim.reconcile.thresholds import (
-    COMPARABLE,
     EQUAL_SCORE,
     LEAST_SCORE,
     LEAST_SCORE_ONCE,
     LEAST_SCORE_UNSEEN,
-    MAJOR_UNEXPLAINED,
     NARROWER,
 )
 
@@ -71,43 +69,17 @@ def is_wider(gap: Gap, before: Gap) -> bool:
     return bool(min(velocity, math.sqrt(velocity * position)) * NARROWER > 1.0)
 
 
-def choose_simplest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
-    """The likeliest candidate, or one about as likely with fewer parameters.
+def choose_likeliest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
+    """The candidate with the smallest BIC.
 
-    Between an effect and its simpler form the BIC decides alone: its price of a parameter is what
-    the richer effect gains by chance.
-    Of as many parameters each, about as likely, the one that the validation clearly prefers; or one
-    half as likely, if that closes far more of its gap. What may be one run's accident has to be
-    likelier than all that lasts by as much as than nothing.
+    An effect that begins at a moment has to beat the others by ``LEAST_SCORE_ONCE``, because it may
+    be an accident in a single run.
     """
-    best = admitted[0]
-    lasting = [one for one in admitted if not EFFECTS[one.candidate.effect].has_onset]
-    if (
-        lasting
-        and best is not lasting[0]
-        and best.report.improvement - lasting[0].report.improvement < LEAST_SCORE_ONCE
-    ):
-        admitted, best = lasting, lasting[0]
-    closer = [
-        one for one in admitted if one.report.improvement > COMPARABLE * best.report.improvement
-    ]
-    closest = min(closer, key=lambda one: one.report.gap_ratio)
-    if closest.report.gap_ratio < MAJOR_UNEXPLAINED * best.report.gap_ratio:
-        best = closest
-    top = best.report.improvement
-    admitted = [one for one in admitted if one.report.improvement <= top]
-    near = [
-        one
-        for one in admitted
-        if top - one.report.improvement <= EQUAL_SCORE
-        and not (one is not best and contains_effect(best.candidate.effect, one.candidate.effect))
-    ]
-    fewest = min(one.candidate.estimate.structure.free_count for one in near)
-    near = [one for one in near if one.candidate.estimate.structure.free_count == fewest]
-    likeliest = max(near, key=lambda one: one.report.improvement)
-    nearest = min(near, key=lambda one: one.report.gap_ratio)
-    return (
-        nearest if nearest.report.gap_ratio < NARROWER * likeliest.report.gap_ratio else likeliest
+    return max(
+        admitted,
+        key=lambda one: (
+            one.report.improvement - LEAST_SCORE_ONCE * EFFECTS[one.candidate.effect].has_onset
+        ),
     )
 
 
@@ -162,9 +134,3 @@ def is_ordinary_size(effect: str, values: Mapping[str, float]) -> bool:
     known = EFFECTS[effect]
     own = {name: values[f"{effect}.{name}"] for name in known.names}
     return known.is_ordinary(own, values)
-
-
-def compare_scores(now: Candidate, other: Candidate) -> float:
-    """Decrease of -2 log L from one model to another, fewer parameters counted in."""
-    fewer = now.estimate.structure.free_count - other.estimate.structure.free_count
-    return now.bic - other.bic + (2.0 * EQUAL_SCORE if fewer > 0 else 0.0)

@@ -1,6 +1,5 @@
 """One round of the selection: a model, and the candidates tried on top of it."""
 
-import math
 from dataclasses import dataclass, field
 
 from sim.reconcile.candidates import Candidate, Seeds
@@ -28,27 +27,28 @@ class SelectionRound:
     """A model, and the candidates tried on top of it.
 
     Args:
-        candidate: the model, and the effect that made it of the one before; empty for the base.
-        gap: outside of what was fitted.
-        gap_before: the gap without that effect; the same for the base.
+        candidate: the model, and the effect that was added to it; empty for the base.
+        gap: of the model, on runs to which it was not fitted.
+        without: the model without that effect: first that of the round before; after the search,
+            the last model, refitted without it. The base itself, for the base.
+        gap_without: the gap of ``without``.
         rivals: effects that would have explained as much.
         seeds: parameters of the candidates that were likelier than nothing, of all rounds so far.
-        removal_cost: [of -2 log L] what the last model would lose without this effect; nan if not
-            asked.
-        without: the last model, refitted without this effect; None if not asked.
-        gap_without: the gap of that; None if not asked.
         candidates: the candidates of the next round, with their models.
     """
 
     candidate: Candidate
     gap: Gap
-    gap_before: Gap
+    without: Candidate
+    gap_without: Gap
     rivals: tuple[str, ...] = ()
     seeds: Seeds = field(default_factory=dict)
-    removal_cost: float = math.nan
-    without: Candidate | None = None
-    gap_without: Gap | None = None
     candidates: tuple[WeighedCandidate, ...] = ()
+
+    @classmethod
+    def make_base(cls, candidate: Candidate, gap: Gap) -> "SelectionRound":
+        """The first round, of the model without effects."""
+        return cls(candidate, gap, candidate, gap)
 
     @property
     def tried(self) -> tuple[TriedCandidate, ...]:

@@ -25,12 +25,11 @@ before it is tried together with another one, and told as what would fit far bet
 
 EQUAL_SCORE = 10.0
 """Difference of scores below which two effects explain a log equally well: odds below 150 to one.
-The one with fewer parameters is then taken, and the other is told as a possible explanation."""
+The other effect is then reported as a possible explanation, too."""
 
 COMPARABLE = 0.5
-"""Share of the best score, or of a gap, from which the other effect or gap is comparable: it may be
-taken first if it closes far more of the gap or is of everyday size, and it may begin another path
-of the search."""
+"""Share of the best score, or of a gap, from which another one is comparable: an effect of everyday
+size is then added first, and an effect that closes more of the gap may begin another path."""
 
 # Gaps: velocity errors on runs to which the model was not fitted.
 
@@ -44,8 +43,8 @@ effects (50 mV of Stribeck friction, 8 % of battery sag, 4 ms of delay) narrow i
 """
 
 MAJOR_UNEXPLAINED = 0.6
-"""The same ratio where the last model leaves more than noise, and of an effect that is taken in
-place of the likeliest one. What has no name resembles many effects a little."""
+"""The same ratio where the last model leaves more than noise. An unknown effect resembles many
+effects a little."""
 
 LEAST_FLOOR = 0.003
 """Least noise of a velocity, as a share of the top speed. Friction differs by more between runs,

@@ -29,7 +29,7 @@ def reach_verdict(
         cut: [s] time limit that ended the search; inf if it came to its own end.
         per: the owner's unit.
     """
-    gap, before = (one.velocity for one in (done[-1].gap, done[0].gap_before))
+    gap, before = (one.velocity for one in (done[-1].gap, done[0].gap))
     strays = count_noise_floors(gap, problem)
     share = compute_missed_motion(gap, problem)
     if not share <= LOST:
