@@ -65,8 +65,8 @@ def test_innovations_of_uncertain_samples_are_scaled_to_the_usual_covariance():
 
     schedule = one.schedule(error)
 
-    usual = one.predicted + np.diag(one.measured)
-    seen = usual + one.disturbed * 0.2**2
+    usual = one.predicted_cov + np.diag(one.measured_var)
+    seen = usual + one.voltage_cov * 0.2**2
     scale = schedule.scales[schedule.uncertain.tolist().index(4)]
     assert scale @ seen @ scale.T == pytest.approx(usual, rel=1e-9)
 

@@ -1,1 +1,1 @@
-"""What every fit needs: measurements, their noise, a first guess, and the Kalman filter."""
+"""Shared by all fits: measurements and their noise, initial guess, Kalman filter, likelihood."""

@@ -1,11 +1,11 @@
-"""A first estimate of the gains from integrals, without differentiation.
+"""A first estimate of the gains by integral regression, without differentiation.
 
-Over a short while in which a mechanism moves one way,
+Over a short interval in which a mechanism moves in one direction,
 
     ∫V dt = kS·∫sgn(v) dt + kV·Δx + kA·Δv + ∫gravity dt
 
-so nothing has to be differentiated: noise enters once at each end, not divided by the time between.
-Good enough to begin a search from, whatever the tests were.
+so nothing has to be differentiated: noise enters only at the two ends of an interval, and is not
+divided by a sample period. The result is good enough to start a search from, for any tests.
 """
 
 from collections.abc import Mapping
@@ -16,11 +16,11 @@ import numpy as np
 from sim.core.errors import NotIdentifiable
 from sim.core.log import Array, Log, Run
 
-SHORTEST = 0.2  # [s] of a while; at least four samples
-SAME = 0.03  # [share of the voltage] a smaller change of it tells nothing
-STANDING = 0.02  # [share of the top speed] below which nothing is said about a gain
-LEAST_PERIODS = 0.05  # [sample periods] a shorter timescale leaves hardly a trace
-LEAST_TIMESCALE, MOST_TIMESCALE = 1e-3, 10.0  # [s] of anything on a robot
+INTERVAL = 0.2  # [s] length of an integration interval; at least four samples
+LEAST_VARIATION = 0.03  # [share of the voltage] a voltage that varies less is constant
+STANDING = 0.02  # [share of the top speed] slower samples are not used
+LEAST_PERIODS = 0.05  # [sample periods] a shorter kA/kV cannot be seen in the samples
+LEAST_TIMESCALE, MOST_TIMESCALE = 1e-3, 10.0  # [s] limits of kA/kV on a robot
 
 
 def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the field's own word
@@ -30,11 +30,11 @@ def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
         log: any runs.
         type: ``simple``, ``elevator`` or ``arm``.
 
-    Raises:
-        NotIdentifiable: nothing moves for long enough.
-
     Returns:
-        Raw: a log whose signs are opposed has a negative kV.
+        Gain -> estimate, not clamped: kV is negative if voltage and velocity have opposite signs.
+
+    Raises:
+        NotIdentifiable: nothing moves for long enough, or the voltage is always the same.
     """
     top = log.top_speed
     parts = [
@@ -48,11 +48,11 @@ def guess_gains(log: Log, *, type: str) -> dict[str, float]:  # noqa: A002 - the
             where=log.source,
             advice="Run the tests with a higher voltage, or hold the button longer.",
         )
-    paid, columns = table[:, 0], table[:, 1:]
-    _refuse_constant_voltage(paid, columns[:, 0], where=log.source)
+    integrals, columns = table[:, 0], table[:, 1:]
+    _refuse_constant_voltage(integrals, columns[:, 0], where=log.source)
     size = np.linalg.norm(columns, axis=0)
     size[size == 0.0] = 1.0
-    found = np.linalg.lstsq(columns / size, paid, rcond=1e-8)[0] / size
+    found = np.linalg.lstsq(columns / size, integrals, rcond=1e-8)[0] / size
     return dict(zip(names, found.tolist(), strict=True))
 
 
@@ -63,11 +63,12 @@ def orient_forward(log: Log, *, type: str) -> tuple[Log, dict[str, float], float
         log: any runs.
         type: ``simple``, ``elevator`` or ``arm``.
 
+    Returns:
+        The log, its voltages negated if positive voltage drives backward; the guess for it; and the
+        sign by which the voltages were multiplied, 1 or -1.
+
     Raises:
         NotIdentifiable: as ``guess_gains``.
-
-    Returns:
-        The log, voltages turned round where plus drives it backward; the guess; 1 or, if so, -1.
     """
     guess = guess_gains(log, type=type)
     if not guess["kV"] < 0.0:
@@ -77,12 +78,19 @@ def orient_forward(log: Log, *, type: str) -> tuple[Log, dict[str, float], float
     return log, guess_gains(log, type=type), -1.0
 
 
-def _refuse_constant_voltage(paid: Array, ways: Array, *, where: str) -> None:
-    """Refuse a voltage that is always the same: friction might be all there is."""
-    share = float(paid @ ways) / max(float(ways @ ways), 1e-300)
-    if np.linalg.norm(paid - share * ways) < SAME * np.linalg.norm(paid):
+def _refuse_constant_voltage(integrals: Array, directions: Array, *, where: str) -> None:
+    """Raise NotIdentifiable if the voltage is always ± the same: it could all be kS.
+
+    Args:
+        integrals: (rows,) [V·s] ∫V dt of each interval.
+        directions: (rows,) [s] ∫sgn(v) dt of each interval.
+        where: source of the log.
+    """
+    volts = float(integrals @ directions) / max(float(directions @ directions), 1e-300)
+    left = np.linalg.norm(integrals - volts * directions)
+    if left < LEAST_VARIATION * np.linalg.norm(integrals):
         raise NotIdentifiable(
-            f"the voltage is {abs(share):.3g} V whenever it moves, so friction, speed and inertia "
+            f"the voltage is {abs(volts):.3g} V whenever it moves, so friction, speed and inertia "
             "cannot be told apart",
             where=where,
             advice="Add a quasistatic test, or a step of another size.",
@@ -94,7 +102,7 @@ def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dic
 
     Args:
         gains: a raw guess.
-        period: [s] between samples.
+        period: [s] time between samples.
     """
     kv = abs(gains["kV"])
     low, high = max(LEAST_TIMESCALE, LEAST_PERIODS * period) * kv, MOST_TIMESCALE * kv
@@ -107,19 +115,21 @@ def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dic
 
 
 def _integral_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A002 - as above
-    """(rows, 1 + gains): what was paid, and for what, over whiles that do not overlap by much."""
+    """(rows, 1 + gains): ∫V dt and the regressors, over intervals without a change of direction."""
     dt = np.diff(run.time)
-    reach = max(4, round(SHORTEST / float(np.median(dt))))
+    reach = max(4, round(INTERVAL / float(np.median(dt))))
     if len(run) <= reach:
         return np.empty((0, 4 + {"elevator": 1, "arm": 2}.get(type, 0)))
-    way = np.sign(run.velocity)
+    direction = np.sign(run.velocity)
     moving = np.abs(run.velocity) > standing
     begin = np.arange(0, len(run) - reach, max(1, reach // 4))
     end = begin + reach
-    still = np.concatenate(([0], np.cumsum(~moving)))
-    turned = np.concatenate(([0], np.cumsum(np.concatenate(([False], way[1:] != way[:-1])))))
-    whole = (still[end + 1] == still[begin]) & (turned[end + 1] == turned[begin + 1])
-    begin, end = begin[whole], end[whole]
+    standing_count = np.concatenate(([0], np.cumsum(~moving)))
+    turns = np.concatenate(([False], direction[1:] != direction[:-1]))
+    turn_count = np.concatenate(([0], np.cumsum(turns)))
+    moves = standing_count[end + 1] == standing_count[begin]
+    one_way = moves & (turn_count[end + 1] == turn_count[begin + 1])
+    begin, end = begin[one_way], end[one_way]
 
     def total(values: Array) -> Array:
         sums = np.concatenate(([0.0], np.cumsum(values[:-1] * dt)))
@@ -127,7 +137,7 @@ def _integral_rows(run: Run, *, standing: float, type: str) -> Array:  # noqa: A
 
     columns = [
         total(run.voltage + 0.5 * run.voltage_slide),
-        total(way),
+        total(direction),
         run.position[end] - run.position[begin],
         run.velocity[end] - run.velocity[begin],
     ]

@@ -1,11 +1,12 @@
 """The steady-state gain of the Kalman filter that predicts each sample from those before it.
 
-A sample is first predicted, from the last state and the voltage since; the difference to what was
-measured is the innovation; then the state is corrected by the gain K times it. K is that of
+A sample is first predicted from the last state and the voltage since then. The innovation is the
+measurement minus this prediction, and the state is corrected by K times the innovation. K is the
+gain of the stationary Kalman filter for
 
     d(x, v) = (v, -kV/kA·v + ...)·dt + (0, √q)·dW        measured with noise of known size
 
-With q = 0 nothing is corrected, and the simulation is open loop. The larger q, the less the
+With q = 0 nothing is corrected: the simulation is open loop. The larger q, the less the
 disturbances of a single run (a slope in the floor, a worn tooth) bias the gains.
 """
 
@@ -23,20 +24,20 @@ from sim.estimation.measurements import SensorNoise
 from sim.physics.engine import NO_CORRECTION
 from sim.physics.model import Model
 
-DOUBLINGS = 40  # rounds; 2⁴⁰ samples are for ever
-MATTERS = 0.01  # [1] of an innovation's variance that an uncertain voltage adds, to be counted
+DOUBLINGS = 40  # at most; 2⁴⁰ samples ahead is as good as infinity
+RELEVANT = 0.01  # [share of an innovation's variance] less, from a voltage, is ignored
 
 _Four: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
 class GainSchedule:
-    """Kalman gain and innovation scale at each sample of some runs.
+    """Time-varying Kalman gain, and the scale of the innovations where a voltage is uncertain.
 
     Args:
-        gains: (n, 4) the gain at each sample, row by row.
-        uncertain: (m,) samples at which a voltage known less well still tells.
-        scales: (m, 2, 2) what gives their innovations the usual covariance.
+        gains: (n, 4) the (2, 2) gain at each sample, row by row.
+        uncertain: (m,) indices of the samples whose gain is not the steady-state one.
+        scales: (m, 2, 2) factors that give their innovations the steady-state covariance.
     """
 
     gains: Array
@@ -46,70 +47,77 @@ class GainSchedule:
 
 @dataclass(frozen=True, eq=False)
 class KalmanFilter:
-    """A steady-state Kalman filter, and what it needs where a voltage is uncertain.
+    """A steady-state Kalman filter, and the covariances for samples with an uncertain voltage.
 
     Args:
         steady: (2, 2) gain, from innovations to corrections of position and velocity.
-        predicted: (2, 2) covariance of the predicted position and velocity.
-        measured: (2,) variances of a measured position and velocity.
-        step: (2, 2) from one state to the next.
-        push: (2, 2) covariance that process noise adds in a period, that of a double integrator.
-        disturbed: (2, 2) covariance of position and velocity after one period whose mean voltage
+        predicted_cov: (2, 2) covariance of the predicted position and velocity.
+        measured_var: (2,) variances of a measured position and velocity.
+        transition: (2, 2) state-transition matrix over one period.
+        process_cov: (2, 2) covariance that process noise adds in a period, that of a double
+            integrator.
+        voltage_cov: (2, 2) covariance of position and velocity after one period whose mean voltage
             has a variance of one volt squared.
 
     All covariances are divided by the variance of a measured velocity.
     """
 
     steady: Array
-    predicted: Array
-    measured: Array
-    step: Array
-    push: Array
-    disturbed: Array
+    predicted_cov: Array
+    measured_var: Array
+    transition: Array
+    process_cov: Array
+    voltage_cov: Array
 
     def schedule(self, voltage_error: Array, starts: Collection[int] = ()) -> GainSchedule:
-        """Gains and scales of samples before which the voltage is uncertain.
+        """The gain at each sample, larger after an uncertain voltage.
 
-        What an uncertain voltage did to the state is seen in the next measurements, and corrected
-        there, until the filter is in its steady state again or another run begins.
+        An uncertain voltage widens the predicted covariance. The next measurements reduce it, until
+        the filter is in its steady state again or another run begins.
 
         Args:
             voltage_error: (n,) [V] standard deviation of the mean voltage since the sample before.
-            starts: samples at which a run begins.
+            starts: indices of the samples at which a run begins.
         """
         uncertain, (xx, xv, vv) = self._follow_covariance(voltage_error, frozenset(starts))
-        noise_x, noise_v = self.measured
-        seen_x, seen_v, free = xx + noise_x, vv + noise_v, xx * vv - xv * xv
-        size = seen_x * seen_v - xv * xv
-        gain = np.array([free + xx * noise_v, xv * noise_x, xv * noise_v, free + vv * noise_x])
+        noise_x, noise_v = self.measured_var
+        innovation_x, innovation_v, determinant = xx + noise_x, vv + noise_v, xx * vv - xv * xv
+        size = innovation_x * innovation_v - xv * xv
+        gain = np.array(
+            [
+                determinant + xx * noise_v, xv * noise_x,
+                xv * noise_v, determinant + vv * noise_x,
+            ]
+        )  # fmt: skip
         gains = np.tile(self.steady.ravel(), (voltage_error.size, 1))
         gains[uncertain] = (gain / size).T
         whitening = np.zeros((uncertain.size, 2, 2))  # the inverse of the Cholesky factor
-        whitening[:, 0, 0], whitening[:, 1, 1] = 1.0 / np.sqrt(seen_x), np.sqrt(seen_x / size)
-        whitening[:, 1, 0] = -xv / np.sqrt(seen_x * size)
-        usual = np.linalg.cholesky(self.predicted + np.diag(self.measured))
-        return GainSchedule(gains, uncertain, usual @ whitening)
+        whitening[:, 0, 0] = 1.0 / np.sqrt(innovation_x)
+        whitening[:, 1, 1] = np.sqrt(innovation_x / size)
+        whitening[:, 1, 0] = -xv / np.sqrt(innovation_x * size)
+        steady_root = np.linalg.cholesky(self.predicted_cov + np.diag(self.measured_var))
+        return GainSchedule(gains, uncertain, steady_root @ whitening)
 
     def _follow_covariance(
         self, voltage_error: Array, starts: frozenset[int]
     ) -> tuple[NDArray[np.intp], Array]:
-        """Samples at which the predicted covariance is not the steady one, and what it is (3, m).
+        """Samples at which the predicted covariance is not the steady one, and it there (3, m).
 
-        In plain numbers, because a search follows thousands of samples each time.
+        Written with plain floats: a search does this for thousands of samples, again and again.
         """
-        usual_x, usual, _, usual_v = _as_four(self.predicted)
-        push_x, push, _, push_v = _as_four(self.push)
-        volt_x, volt, _, volt_v = _as_four(self.disturbed)
-        _, reach, _, kept = _as_four(self.step)
-        noise_x, noise_v = self.measured.tolist()
-        near_x, near_v = (1.0 + MATTERS) * usual_x, (1.0 + MATTERS) * usual_v
+        steady_x, steady, _, steady_v = _as_four(self.predicted_cov)
+        process_x, process, _, process_v = _as_four(self.process_cov)
+        volt_x, volt, _, volt_v = _as_four(self.voltage_cov)
+        _, reach, _, decay = _as_four(self.transition)
+        noise_x, noise_v = self.measured_var.tolist()
+        near_x, near_v = (1.0 + RELEVANT) * steady_x, (1.0 + RELEVANT) * steady_v
         variances = np.square(voltage_error).tolist()
         places: list[int] = []
         covs: list[tuple[float, float, float]] = []
-        for first in np.flatnonzero(self._matters(voltage_error)).tolist():
+        for first in np.flatnonzero(self._is_relevant(voltage_error)).tolist():
             if places and first <= places[-1]:
                 continue
-            xx, xv, vv = usual_x, usual, usual_v
+            xx, xv, vv = steady_x, steady, steady_v
             for now in range(first, len(variances)):
                 volts = variances[now]
                 xx, xv, vv = xx + volt_x * volts, xv + volt * volts, vv + volt_v * volts
@@ -117,20 +125,20 @@ class KalmanFilter:
                     break
                 places.append(now)
                 covs.append((xx, xv, vv))
-                free = xx * vv - xv * xv
+                determinant = xx * vv - xv * xv
                 size = (xx + noise_x) * (vv + noise_v) - xv * xv
-                left_x = noise_x * (free + xx * noise_v) / size  # once it is corrected
-                left_v = noise_v * (free + vv * noise_x) / size
-                left = noise_x * noise_v * xv / size
-                xx = left_x + reach * (2.0 * left + reach * left_v) + push_x
-                xv = kept * (left + reach * left_v) + push
-                vv = kept * kept * left_v + push_v
+                after_x = noise_x * (determinant + xx * noise_v) / size  # after the correction
+                after_v = noise_v * (determinant + vv * noise_x) / size
+                after = noise_x * noise_v * xv / size
+                xx = after_x + reach * (2.0 * after + reach * after_v) + process_x
+                xv = decay * (after + reach * after_v) + process
+                vv = decay * decay * after_v + process_v
         return np.array(places, dtype=np.intp), np.array(covs).reshape(-1, 3).T
 
-    def _matters(self, voltage_error: Array) -> NDArray[np.bool_]:
-        """(n,) samples before which the voltage is uncertain enough to matter."""
-        ordinary = np.diag(self.predicted) + self.measured
-        return np.asarray(voltage_error**2 * np.max(np.diag(self.disturbed) / ordinary) > MATTERS)
+    def _is_relevant(self, voltage_error: Array) -> NDArray[np.bool_]:
+        """(n,) whether the voltage before a sample is uncertain enough to change the gain."""
+        usual = np.diag(self.predicted_cov) + self.measured_var
+        return np.asarray(voltage_error**2 * np.max(np.diag(self.voltage_cov) / usual) > RELEVANT)
 
 
 OPEN_LOOP = KalmanFilter(
@@ -145,56 +153,58 @@ def make_steady_state_filter(
     """The Kalman filter of position and velocity in its steady state.
 
     Args:
-        model: whose kV/kA is the rate at which velocity forgets.
-        noise: of the measurements.
-        process_noise: [unit²/s³] size of what pushes the velocity at random; 0 corrects nothing.
-        period: [s] between samples.
+        model: its kV/kA [1/s] is the rate at which velocity decays.
+        noise: standard deviations of the measurements.
+        process_noise: [unit²/s³] spectral density of the random acceleration; 0 corrects nothing.
+        period: [s] time between samples.
     """
     gains = model.gains
     return _steady_state_filter(gains["kV"], gains["kA"], noise, process_noise, period)
 
 
-@lru_cache(maxsize=2)  # a search for other parameters than kV and kA needs the same one each time
+@lru_cache(maxsize=2)  # a search that does not move kV and kA needs the same filter each time
 def _steady_state_filter(
     kv: float, ka: float, noise: SensorNoise, process_noise: float, period: float
 ) -> KalmanFilter:
     rate, dt = kv / ka, period
-    # velocities in units of their noise and positions in as many: so the numbers are near one
-    kept = math.exp(-rate * dt)
-    step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]])
-    push = (process_noise / noise.velocity**2) * np.array(
+    # both states are divided by the velocity noise, so that the numbers are near one
+    decay = math.exp(-rate * dt)
+    transition = np.array([[1.0, (1.0 - decay) / rate], [0.0, decay]])
+    process_cov = (process_noise / noise.velocity**2) * np.array(
         [[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]]
     )
-    rough = np.array([(noise.position / noise.velocity) ** 2, 1.0])
-    disturbed = _voltage_covariance(rate, dt) / (kv * noise.velocity) ** 2
+    variance = np.array([(noise.position / noise.velocity) ** 2, 1.0])
+    voltage_cov = _voltage_covariance(rate, dt) / (kv * noise.velocity) ** 2
     if process_noise <= 0.0:
-        return replace(OPEN_LOOP, measured=rough, step=step, disturbed=disturbed)
-    spread = _steady_covariance(step, push, rough)
-    steady = np.ascontiguousarray(spread @ np.linalg.inv(spread + np.diag(rough)))
-    return KalmanFilter(steady, spread, rough, step, push, disturbed)
+        return replace(
+            OPEN_LOOP, measured_var=variance, transition=transition, voltage_cov=voltage_cov
+        )
+    predicted = _steady_covariance(transition, process_cov, variance)
+    steady = np.ascontiguousarray(predicted @ np.linalg.inv(predicted + np.diag(variance)))
+    return KalmanFilter(steady, predicted, variance, transition, process_cov, voltage_cov)
 
 
 def _voltage_covariance(rate: float, period: float) -> Array:
-    """(2, 2) covariance of what an uncertain voltage does in a period, times kV².
+    """(2, 2) covariance that a voltage variance of 1 V² adds to the state in a period, times kV².
 
-    Nobody knows when within the period the voltage was off, so its first and its second half are
-    off independently. Together their mean has a variance of one volt squared.
+    When within the period the voltage was off is unknown, so the voltages of its first and second
+    half are independent, and their mean has a variance of one volt squared.
     """
     half = 0.5 * period
-    kept = math.exp(-rate * half)
-    late = np.array([half - (1.0 - kept) / rate, 1.0 - kept])
-    early = np.array([late[0] + late[1] * (1.0 - kept) / rate, late[1] * kept])
+    decay = math.exp(-rate * half)
+    late = np.array([half - (1.0 - decay) / rate, 1.0 - decay])
+    early = np.array([late[0] + late[1] * (1.0 - decay) / rate, late[1] * decay])
     return np.asarray(2.0 * (np.outer(early, early) + np.outer(late, late)))
 
 
-def _steady_covariance(step: Array, push: Array, rough: Array) -> Array:
-    """(2, 2) spread of what is expected, in the long run, by doubling.
+def _steady_covariance(transition: Array, process_cov: Array, variance: Array) -> Array:
+    """(2, 2) steady-state covariance of the prediction: the solution X of the Riccati equation.
 
-    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        each round looks twice as far ahead
+    X = A X Aᵀ - A X (X + R)⁻¹ X Aᵀ + Q        each iteration looks twice as far ahead
 
     Source: the structure-preserving doubling of Chu, Fan and Lin (2005).
     """
-    a, g, x = _as_four(step.T), _as_four(np.diag(1.0 / rough)), _as_four(push)
+    a, g, x = _as_four(transition.T), _as_four(np.diag(1.0 / variance)), _as_four(process_cov)
     for _ in range(DOUBLINGS):
         p, q, r, s = _multiply(g, x)
         size = (1.0 + p) * (1.0 + s) - q * r
@@ -211,7 +221,7 @@ def _steady_covariance(step: Array, push: Array, rough: Array) -> Array:
     return np.array(x).reshape(2, 2)
 
 
-# Two by two in plain numbers (``_Four``): of so little, NumPy makes ten times as much work.
+# (2, 2) matrices as four floats (``_Four``): for so few numbers NumPy is ten times slower.
 
 
 def _as_four(matrix: Array) -> _Four:

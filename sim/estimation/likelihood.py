@@ -39,13 +39,13 @@ if TYPE_CHECKING:
     from concurrent.futures import ThreadPoolExecutor
 
 START_SD = 2.0  # [noises of a position] standard deviation of a start position
-TOP = 0.98  # quantile that stands for the largest, so that one bad sample does not
+TOP = 0.98  # quantile of the speeds that is the top speed, so that one bad sample is not
 STEP = 1e-3  # [of a value's size] step of a derivative
-COARSE_STEP = 0.02  # [of it] for parameters with which a simulation changes in jumps
+COARSE_STEP = 0.02  # [of it] the same where the simulation is not smooth in the parameter
 LAG_STEP = 0.02  # [of its standard deviation] step of the derivative by a run's own lag
 LARGEST = 1e100  # [1] innovation whose square is still a number
-SHORTEST = 0.02  # [sample periods] a shorter kA/kV leaves no trace, and takes ever finer steps
-PARALLEL = 10_000  # [samples] from which simulations run side by side
+SHORTEST = 0.02  # [sample periods] a shorter kA/kV cannot be seen, and needs too fine steps
+PARALLEL = 10_000  # [samples] of a log from which on simulations run in parallel
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,13 +54,13 @@ class Estimate:
 
     Args:
         structure: the model structure.
-        values: name -> value.
-        nuisance: the parameters of each run.
+        values: parameter -> value.
+        nuisance: the nuisance parameters of each run.
         process_noise: [unit²/s³] spectral density of the random acceleration.
-        kalman_filter: from innovations to corrections of position and velocity.
-        innovations: (n, 2) innovations, 0 where nothing is compared, scaled where a voltage is
-            uncertain.
-        innovation_cov: (2, 2) covariance of these.
+        kalman_filter: the filter that made the innovations.
+        innovations: (n, 2) of position and velocity; 0 where a reading is not compared, scaled
+            where a voltage is uncertain.
+        innovation_cov: (2, 2) covariance of the innovations.
         cost: -2 log L, up to a constant.
     """
 
@@ -85,11 +85,11 @@ class PredictionErrorProblem:
 
     Args:
         records: the runs.
-        noise: of their samples, estimated without a model.
-        max_process_noise: [unit²/s³] the largest process noise.
-        varying_friction: whether each run has a friction of its own.
+        noise: standard deviations of their samples, estimated without a model.
+        max_process_noise: [unit²/s³] upper limit of the process noise.
+        varying_friction: whether kS may differ from run to run.
         lag_sd: [s] standard deviation of the runs' lags about their mean; 0 if they are equal.
-        backlash_allowance: [unit] how far unmodeled free play may shift a run's start.
+        backlash_allowance: [unit] how far backlash outside the model may shift a run's start.
         priors: parameter of an effect -> standard deviation of its normal prior about zero.
     """
 
@@ -124,8 +124,8 @@ class PredictionErrorProblem:
         """The problem of some runs, with the same noise and priors.
 
         Args:
-            chosen: places of the runs that are simulated.
-            compared: those of which samples are compared; None compares all of them.
+            chosen: indices of the runs that are simulated.
+            compared: indices of the runs whose samples are compared; None compares all of them.
         """
         records = tuple(
             self.records[n] if compared is None or n in compared else self.records[n].exclude()
@@ -175,14 +175,14 @@ class PredictionErrorProblem:
 
     @cached_property
     def informative(self) -> NDArray[np.bool_]:
-        """(n,) samples that are compared: not the first of a run, from which it starts."""
-        telling = np.concatenate([record.measurements.informative for record in self.records])
-        telling[self.run_edges[:-1]] = False
-        return telling & ~np.isnan(self.measured).all(axis=1)
+        """(n,) whether a sample is compared; the first of a run is not, the run starts from it."""
+        informative = np.concatenate([record.measurements.informative for record in self.records])
+        informative[self.run_edges[:-1]] = False
+        return informative & ~np.isnan(self.measured).all(axis=1)
 
     @cached_property
     def ignored_readings(self) -> NDArray[np.bool_]:
-        """(n, 2) readings that are not compared."""
+        """(n, 2) whether a reading is not compared."""
         ignored = np.isnan(self.measured) | ~self.informative[:, None]
         ignored[:, 0] |= np.concatenate([record.measurements.at_rest for record in self.records])
         return ignored
@@ -193,7 +193,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def compared_counts(self) -> tuple[int, int, int]:
-        """Numbers of compared positions, velocities and pairs; each at least 1."""
+        """Numbers of compared positions, velocities and pairs of both; each at least 1."""
         x, v = ~self.ignored_readings.T
         positions, velocities, both = (int(np.count_nonzero(one)) for one in (x, v, x & v))
         return max(positions, 1), max(velocities, 1), max(both, 1)
@@ -210,7 +210,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def period(self) -> float:
-        """[s] between samples."""
+        """[s] median time between samples."""
         return float(
             np.median(
                 np.concatenate([np.diff(record.measurements.time) for record in self.records])
@@ -219,7 +219,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def top_speed(self) -> float:
-        """[unit/s] top speed, a few samples left out."""
+        """[unit/s] top speed: a high quantile of the compared speeds."""
         speeds = np.abs(self.measured[self.informative, 1])
         speeds = speeds[~np.isnan(speeds)]
         return float(np.quantile(speeds, TOP)) if speeds.size else 0.0
@@ -241,7 +241,7 @@ class PredictionErrorProblem:
         return RunNuisance.at_first_samples(len(self.records))
 
     def select_priors(self, structure: ModelStructure) -> dict[str, float]:
-        """The priors of those parameters that a search of this structure moves."""
+        """Searched parameter -> standard deviation of its prior, for those that have one."""
         return {name: sd for name, sd in self.priors.items() if name in structure.searched_names}
 
     # -- simulate --------------------------------------------------------------------------------
@@ -252,9 +252,9 @@ class PredictionErrorProblem:
         """Simulate all runs, one after another.
 
         Args:
-            model: what moves.
-            nuisance: how each run begins.
-            kalman_filter: what corrects the state; by default nothing.
+            model: the model.
+            nuisance: the nuisance parameters of each run.
+            kalman_filter: corrects the state; the default is an open-loop simulation.
         """
         return Track.from_array(self._filter_runs(model, nuisance, kalman_filter, self.batch))
 
@@ -268,9 +268,9 @@ class PredictionErrorProblem:
         """(n, 2) innovations: measured minus predicted; 0 where nothing is compared.
 
         Args:
-            model: what moves.
-            nuisance: how each run begins.
-            kalman_filter: what corrects the state.
+            model: the model.
+            nuisance: the nuisance parameters of each run.
+            kalman_filter: corrects the state.
             clocks: (runs,) [s] start time of each run; None takes the recorded one.
         """
         batch = self.batch if clocks is None else replace(self.batch, clocks=clocks)
@@ -296,14 +296,14 @@ class PredictionErrorProblem:
         )  # fmt: skip
 
     def _log_scale(self, kalman_filter: KalmanFilter) -> float:
-        """[of -2 log L] what the larger variance of some innovations costs."""
+        """The log determinant, as -2 log L, of the innovations whose voltage is uncertain."""
         if (schedule := self._schedule(kalman_filter)) is None:
             return 0.0
         scales = schedule.scales[self.informative[schedule.uncertain]]
         return float(-2.0 * np.sum(np.log(scales[:, 0, 0] * scales[:, 1, 1])))  # triangular
 
     def _schedule(self, kalman_filter: KalmanFilter) -> GainSchedule | None:
-        """What the filter does at each sample; None where it is the same at all of them."""
+        """The gain at each sample; None if no voltage is uncertain, so that it is constant."""
         if not self._voltage_is_uncertain:
             return None
         found = self._schedules.get(kalman_filter)
@@ -315,7 +315,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def _schedules(self) -> WeakKeyDictionary[KalmanFilter, GainSchedule]:
-        """Those that were needed; all derivatives at one estimate share one."""
+        """Kalman filter -> its schedule; all derivatives at one estimate share one."""
         return WeakKeyDictionary()
 
     def evaluate(
@@ -325,7 +325,14 @@ class PredictionErrorProblem:
         nuisance: RunNuisance,
         process_noise: float,
     ) -> Estimate:
-        """The estimate at these values; its cost is infinite where they are not physical."""
+        """The estimate at these values; its cost is infinite where they are not physical.
+
+        Args:
+            structure: the model structure.
+            values: value of each of its parameters.
+            nuisance: the nuisance parameters of each run.
+            process_noise: [unit²/s³] spectral density of the random acceleration.
+        """
         if not structure.has_backlash:
             nuisance = nuisance.without_backlash_phase
         nowhere = Estimate(
@@ -343,14 +350,16 @@ class PredictionErrorProblem:
         if not self.sample_count:
             return nowhere
         model = structure.model(values)
-        with np.errstate(over="ignore", invalid="ignore"):  # what flies off costs without end
+        with np.errstate(
+            over="ignore", invalid="ignore"
+        ):  # a diverging simulation has an infinite cost
             kalman_filter = make_steady_state_filter(
                 model, noise=self.noise, process_noise=process_noise, period=self.period
             )
             innovations = self.predict_errors(model, nuisance, kalman_filter)
             cov = self.compute_covariance(innovations)
-            own = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
-            cost = self._cost(cov) + own + compute_friction_prior(values, nuisance)
+            start_cost = float(np.sum((nuisance.position_offset / self.start_sd) ** 2))
+            cost = self._cost(cov) + start_cost + compute_friction_prior(values, nuisance)
             cost += float(np.sum(nuisance.backlash_phase_costs))
             if self.lag_sd:
                 cost += float(np.sum((nuisance.lag_offset / self.lag_sd) ** 2))
@@ -371,41 +380,45 @@ class PredictionErrorProblem:
         x, v = innovations.T.copy()
         positions, velocities, both = self.compared_counts
         xx, vv = float(x @ x) / positions, float(v @ v) / velocities
-        most = 0.99 * math.sqrt(xx * vv)
-        xv = min(max(float(x @ v) / both, -most), most)
-        fine, finer = self.noise.resolution
-        return np.array([[xx + fine**2, xv], [xv, vv + finer**2]])
+        limit = 0.99 * math.sqrt(xx * vv)
+        xv = min(max(float(x @ v) / both, -limit), limit)
+        least_x, least_v = self.noise.resolution
+        return np.array([[xx + least_x**2, xv], [xv, vv + least_v**2]])
 
     def _cost(self, cov: Array) -> float:
         (xx, xv), (_, vv) = cov.tolist()
         if not (xx > 0.0 and vv > 0.0 and math.isfinite(xx * vv)):
             return math.inf
         positions, velocities, both = self.compared_counts
-        alone = positions * math.log(xx) + velocities * math.log(vv)
-        return alone + both * math.log1p(-xv * xv / (xx * vv))
+        uncorrelated = positions * math.log(xx) + velocities * math.log(vv)
+        return uncorrelated + both * math.log1p(-xv * xv / (xx * vv))
 
     def whiten(self, point: Estimate, table: Array, out: Array | None = None) -> Array:
-        """(2 n,) innovations or their changes (n, 2), whitened with an estimate's covariance.
+        """(2 n,) innovations or their derivatives, whitened with an estimate's covariance.
 
-        Diverging innovations are clipped, so that their squares can be summed. ``out`` (2 n,) is
-        where the result is written, if wanted.
+        Diverging innovations are clipped, so that their squares can be summed.
+
+        Args:
+            point: the estimate.
+            table: (n, 2) innovations, or their derivatives by a parameter.
+            out: (2 n,) array for the result, or None.
         """
         into = None if out is None else out.reshape(table.shape)
         with np.errstate(over="ignore", invalid="ignore"):
             white = np.matmul(table, point.whitening.T, out=into).ravel()
             if math.isfinite(float(white @ white)):
                 return np.asarray(white)
-        near = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
-        return np.asarray(np.matmul(near, point.whitening.T, out=into).ravel())
+        clipped = np.clip(np.nan_to_num(table, nan=LARGEST), -LARGEST, LARGEST)
+        return np.asarray(np.matmul(clipped, point.whitening.T, out=into).ravel())
 
     def compute_jacobian(self, point: Estimate, *, fine: bool = False) -> Array:
         """(2 n, searched + nuisance) derivatives of the whitened innovations.
 
-        With respect to each parameter, then to the start of each run, then, where they vary between
-        runs, to each run's own friction and to its own lag.
+        The columns are each searched parameter, then the start of each run, then, where they vary
+        between runs, the friction and the lag of each run.
 
         Args:
-            point: where.
+            point: the estimate.
             fine: central differences for the parameters, for a covariance.
 
         Raises:
@@ -419,7 +432,7 @@ class PredictionErrorProblem:
 
     @cached_property
     def _jacobians(self) -> WeakKeyDictionary[Estimate, dict[bool, Array]]:
-        """The last one, by ``fine``: lags, effects and errors ask for it again."""
+        """Estimate -> its Jacobian by ``fine``, of the last estimate only, which is used again."""
         return WeakKeyDictionary()
 
     def _keep_jacobian(self, point: Estimate, kept: dict[bool, Array]) -> None:
@@ -461,7 +474,7 @@ class PredictionErrorProblem:
         every, parameters = point.structure.searched_names, point.structure.parameters
         nuisance = len(self.records) * len(self.list_nuisance_priors(point))
         others = known.shape[1] - nuisance
-        # how an effect looks changes nothing as long as there is none of it
+        # an absent effect's other parameters change nothing: their derivatives are zero
         sizes = [name for name in every[others:] if parameters[name].neutral == 0.0]
         table = np.zeros((len(every) + nuisance, len(known)))
         table[:others], table[len(every) :] = known.T[:others], known.T[others:]
@@ -474,10 +487,10 @@ class PredictionErrorProblem:
         """(2 n, names) derivatives of the whitened innovations by some parameters.
 
         Args:
-            point: where.
-            names: of the parameters.
-            known: (2 n, names or more) these derivatives from one side, of which the mean with
-                those from the other side is returned.
+            point: the estimate.
+            names: the parameters.
+            known: (2 n, names or more) these derivatives as one-sided differences. If given, the
+                mean with the difference to the other side is returned.
         """
         rows = np.empty((len(names), point.innovations.size))
         self._fill_parameter_rows(rows, point, names, known=known)
@@ -494,7 +507,7 @@ class PredictionErrorProblem:
             for name, value in zip(names, sides, strict=True)
             if value is not None
         ]
-        with np.errstate(over="ignore", invalid="ignore"):  # what flies off is no way to go
+        with np.errstate(over="ignore", invalid="ignore"):  # diverging ones are clipped by whiten
             results = self._simulate_in_parallel(tried, point.kalman_filter)
             for place, (row, name, value) in enumerate(zip(rows, names, sides, strict=True)):
                 if value is not None:
@@ -515,7 +528,7 @@ class PredictionErrorProblem:
         return self._one_column_per_run(self._compute_friction_change(point))
 
     def _compute_friction_change(self, point: Estimate) -> Array:
-        """(2 n,) derivative of the whitened innovations by a friction that all runs have."""
+        """(2 n,) derivative of the whitened innovations by the friction of all runs together."""
         by = np.full(len(self.records), get_friction_sd(point.values))
         model = point.structure.model(point.values)
         more, less = self._simulate_in_parallel(
@@ -524,7 +537,7 @@ class PredictionErrorProblem:
         return self.whiten(point, (more - less) / (2.0 * by[0]))
 
     def _compute_lag_change(self, point: Estimate) -> Array:
-        """(2 n,) derivative of the whitened innovations by a lag that all runs have."""
+        """(2 n,) derivative of the whitened innovations by the lag of all runs together."""
         by = LAG_STEP * self.lag_sd
         later = point.nuisance.add_lag(np.full(len(self.records), by))
         model = point.structure.model(point.values)
@@ -532,7 +545,10 @@ class PredictionErrorProblem:
         return self.whiten(point, (moved - point.innovations) / by)
 
     def list_nuisance_priors(self, point: Estimate) -> list[tuple[float, Array]]:
-        """Standard deviation and (runs,) values of each nuisance parameter, as in the Jacobian."""
+        """Prior standard deviation and (runs,) values of each nuisance parameter.
+
+        They have the order of the Jacobian's columns.
+        """
         priors = [(self.start_sd, point.nuisance.position_offset)]
         if self.varying_friction:
             priors.append((get_friction_sd(point.values), point.nuisance.friction_offset))
@@ -541,10 +557,10 @@ class PredictionErrorProblem:
         return priors
 
     def _difference_point(self, point: Estimate, name: str, *, back: bool) -> float | None:
-        """Another value of a parameter, whose simulation gives the derivative by it.
+        """The value of a parameter at which to simulate for a finite difference.
 
-        A step up, or down where there is nothing above; ``back`` asks for the other one, None where
-        there is none.
+        It is one step up, or down if the parameter is at its upper limit. ``back`` asks for the
+        step to the other side, which is None if that is outside of the limits.
         """
         structure, value = point.structure, point.values[name]
         coarse = name in structure.parameters and structure.parameters[name].stepwise
@@ -560,7 +576,7 @@ class PredictionErrorProblem:
     def _simulate_in_parallel(
         self, tried: Sequence[tuple[Model, RunNuisance]], kalman_filter: KalmanFilter
     ) -> Iterator[Array]:
-        """The innovations of several simulations; compiled code runs beside other."""
+        """The innovations of several simulations, in threads if the log is long."""
 
         def one(each: tuple[Model, RunNuisance]) -> Array:
             return self.predict_errors(*each, kalman_filter)
@@ -568,7 +584,7 @@ class PredictionErrorProblem:
         return (_threads().map if len(self.measured) > PARALLEL else map)(one, tried)
 
     def _one_column_per_run(self, change: Array) -> Array:
-        """(2 n, runs): changes (2 n,), a column for each run."""
+        """(2 n, runs) block-diagonal: each run's part of the changes (2 n,) in its own column."""
         table = np.zeros((len(self.records), change.size))
         self._fill_run_rows(table, change)
         return table.T
@@ -576,8 +592,7 @@ class PredictionErrorProblem:
     def _fill_run_rows(self, rows: Array, change: Array) -> None:
         """Copy each run's part of the changes (2 n,) into that run's row; its rest stays zero.
 
-        All runs are moved at once, because a run is not moved without those before it, which may
-        have heated what it found warm.
+        All runs change at once, because a run also changes those after it: it may heat the motor.
         """
         for number, (first, last) in enumerate(pairwise((2 * self.run_edges).tolist())):
             rows[number, first:last] = change[first:last]
@@ -585,7 +600,7 @@ class PredictionErrorProblem:
 
 @cache
 def _threads() -> "ThreadPoolExecutor":
-    """As many as there are cores, for logs that are worth it."""
+    """A pool with one thread for each core, for long logs."""
     from concurrent.futures import ThreadPoolExecutor  # noqa: PLC0415 - only long logs wait for it
 
     return ThreadPoolExecutor(os.cpu_count(), thread_name_prefix="simulate")

@@ -1,9 +1,9 @@
 """The measurements of a log: fresh samples, their noise, and where each test begins.
 
-A reading that stands because no new frame has come is no measurement; noise is measured without a
-model, from third differences, which a smooth motion hardly has:
+A reading that repeats because no new frame has come is no measurement. Noise is estimated without a
+model, from third differences, which are almost zero for a smooth motion:
 
-    σ = 1.4826·median|x₃ - 3 x₂ + 3 x₁ - x₀|/√20        (of normal noise the standard deviation)
+    σ = 1.4826·median|x₃ - 3 x₂ + 3 x₁ - x₀|/√20        (the standard deviation of normal noise)
 """
 
 import math
@@ -15,28 +15,28 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Log, Run
 
-HELD = 0.3  # [share of fast samples] that repeat the one before them, from which it is frames
-FAST = 0.3  # [share of a run's top speed] above which a sensor should say something new each time
-SOON = 0.2  # [share of gaps] between changes that are no longer than a frame
-DIGITS = 1e-7  # [share of the range] that is below what any log resolves
+REPEATED = 0.3  # [share of fast samples] if more repeat the one before, the log repeats frames
+FAST = 0.3  # [share of a run's top speed] above it every fresh reading differs from the last
+FRAME_QUANTILE = 0.2  # quantile of the gaps between changes that is the length of a frame
+DIGITS = 1e-7  # [share of the range] finer than the resolution of any log
 SINGLE = 2.0**-22  # [share of the range] two roundings of single precision
 THIRD = 20.0  # sum of the squares of 1, 3, 3, 1
 ROBUST = 1.4826  # standard deviations in a median absolute deviation
-GIVES = 0.03  # [share of the way] that a mechanism gives where it leans on a stop
-GIVEN, CREPT, CREEPS = 0.005, 0.2, 1.0  # [share of the way, share of that, s] how a stop yields
-REST_STEPS = 1.5  # steps of a position by which one at rest may differ
-RISES = (
-    0.06  # [s] between the first voltage of a step and the first motion that a late sensor shows
-)
+STOP_GIVES = 0.03  # [share of the way] farther than a mechanism moves while it leans on a stop
+CREEP_WAY = 0.005  # [share of the way] less is no creep on a soft stop
+CREEP_BEGIN = 0.2  # [share of the crept way] after which a creep has begun
+CREEP_TIME = 1.0  # [s] that a creep lasts at least
+REST_STEPS = 1.5  # [sensor steps] by which positions at rest may differ
+RISE = 0.06  # [s] from the first voltage of a step to the first motion that a late sensor shows
 FILTERED = 0.3  # [s] by which an averaged velocity may be late
-MOSTLY = 0.98  # [share of samples] that stir, from which a sensor trembles at rest
-AROUND = 5  # samples before a motion and after it that say when it began and ended
-MOVING = 0.01  # [share of the top speed] slower counts as standing, if the position agrees
-TREMBLES = 0.3  # [of that speed] a velocity with more noise at rest cannot tell it from a motion
-FINE = 3.0  # steps of a sensor between two samples at speed, which then cannot be the same
+MOSTLY = 0.98  # [share of samples] if more velocities are not zero, the sensor is noisy at rest
+AROUND = 5  # samples before and after a motion that show when it began and ended
+MOVING = 0.01  # [share of the top speed] a slower sample is at rest, if the position agrees
+NOISY = 0.3  # [of that speed] a velocity with more noise at rest does not show what moves
+FINE = 3.0  # [sensor steps] of a position between two samples at speed, which then must differ
 JUMP = 0.1  # [V] a larger change of voltage is a step, which a mean would smear
-SURELY = 4.0  # [standard deviations] noise hardly ever goes so far
-SPEED_CLASSES = 8  # classes of speed in which the noise of a velocity is measured
+OUTLIER = 4.0  # [standard deviations] that noise hardly ever exceeds
+SPEED_CLASSES = 8  # classes of speed in which the noise of a velocity is estimated
 UNEVEN = 3.0  # [1] ratio of the noise at high and low speed from which noise depends on the speed
 
 
@@ -46,17 +46,17 @@ class RunMeasurements:
 
     Args:
         time: (n,) [s].
-        voltage: (n,) [V].
+        voltage: (n,) [V] applied voltage.
         voltage_slide: (n,) [V] linear change until the next sample; 0 is a zero-order hold.
-        voltage_error: (n,) [V] standard deviation of its mean until the next sample.
+        voltage_error: (n,) [V] standard deviation of the mean voltage until the next sample.
         measured: (n, 2) position and velocity, nan where they are not fresh.
-        moving: (n,) where it moves.
-        informative: (n,) where it moves, or is about to: what is compared. That must not depend on
-            a model, or a model could become likelier by leaving samples out.
-        at_rest: (n,) where the position repeats the one read at rest, with the same rounding error:
-            such samples are no independent measurements.
-        velocity: [m/s or rad/s] it begins with.
-        position: [m or rad] it begins at.
+        moving: (n,) whether the mechanism moves.
+        informative: (n,) whether a sample is compared: the mechanism moves, or is about to. This
+            must not depend on a model, or leaving samples out could make a model likelier.
+        at_rest: (n,) whether the position repeats the one read at rest, with the same rounding
+            error: such samples are no independent measurements.
+        position: [m or rad] at the start.
+        velocity: [m/s or rad/s] at the start.
     """
 
     time: Array
@@ -78,8 +78,8 @@ class SensorNoise:
     Args:
         position: [m or rad].
         velocity: [m/s or rad/s].
-        resolution: [m or rad], [m/s or rad/s] a smallest size, far below the step of any sensor, so
-            that a variance is never zero.
+        resolution: [m or rad], [m/s or rad/s] least standard deviations, far below the step of any
+            sensor, so that a variance is never zero.
     """
 
     position: float
@@ -94,11 +94,11 @@ def measure_runs(
 
     Args:
         log: any runs.
-        friction: [V] about kS of a mechanism with gravity, which may lean on a stop before it
-            moves: then a run begins where friction alone would hold it. None keeps all.
-        rest_by_position: whether the position decides what stands where a velocity trembles at
-            rest. A model with effects is judged by how it leaves its rest, and keeps every sample
-            that the velocity alone calls motion.
+        friction: [V] about kS, for a mechanism with gravity, which may lean on a stop before it
+            moves: the samples are cut off at which friction could not hold it. None cuts nothing.
+        rest_by_position: whether the position decides what is at rest if the velocity is noisy at
+            rest. False keeps every sample that the velocity alone calls motion, for a model with
+            effects, which is judged by how it leaves its rest.
     """
     top = log.top_speed
     runs = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - fewer have no third difference
@@ -114,7 +114,7 @@ def measure_runs(
     seen = measure()
     noise = estimate_noise(seen) if seen and rest_by_position else None
     speed = MOVING * top
-    if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= TREMBLES * speed:
+    if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= NOISY * speed:
         return seen
     return measure(noise)
 
@@ -122,8 +122,8 @@ def measure_runs(
 def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
     """A copy without the samples at which no reading is fresh.
 
-    A logger that is faster than its sensor repeats readings, and simulating them tells nothing.
-    Over samples that are left out the voltage is averaged; where it jumps, a sample stays.
+    A logger that is faster than its sensor repeats readings; simulating them adds no information.
+    The voltage of removed samples is averaged; a sample at which it jumps is kept.
     """
     kept = np.asarray(~np.isnan(seen.measured).all(axis=1))
     kept[0] = kept[-1] = True
@@ -146,7 +146,7 @@ def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
 
 
 def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
-    """Noise of fresh samples while the mechanism moves."""
+    """Standard deviations of the fresh samples while the mechanism moves, over all runs."""
     thirds: list[list[Array]] = [[], []]
     fresh: list[list[Array]] = [[], []]
     for run in seen:
@@ -160,7 +160,7 @@ def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
     for third, values in zip(thirds, fresh, strict=True):
         every = np.concatenate(third) if third else np.zeros(1)
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
-        least = _smallest_step(values) / math.sqrt(12.0)  # what rounding leaves
+        least = _smallest_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
         sizes.append(max(spread, least, 1e-12))
     columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
     grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
@@ -197,9 +197,9 @@ def compute_noise_at_speed(seen: Sequence[RunMeasurements], noise: SensorNoise) 
 
 
 def _smallest_step(values: Sequence[Array]) -> float:
-    """[unit] between two different readings, of all runs: what a sensor counts in.
+    """[unit] smallest difference of two readings of all runs: the step of the sensor.
 
-    A device that computes in single precision reads one and the same count as several numbers.
+    Differences of single precision's rounding are left out: they are the same sensor count.
     """
     if not values:
         return 0.0
@@ -209,10 +209,14 @@ def _smallest_step(values: Sequence[Array]) -> float:
 
 
 def compute_third_differences(time: Array, values: Array) -> Array:
-    """(n - 3,) third differences of values, scaled so that noise adds as on even times.
+    """(n - 3,) third differences of values, all with the same noise variance.
 
-    With even times these are 1, -3, 3, -1; with others the weights of a divided difference, scaled
-    so that independent noise makes as much of them.
+    With evenly spaced times the weights are 1, -3, 3, -1. With others they are those of a divided
+    difference, scaled so that independent noise has the same variance in it: 20 times its own.
+
+    Args:
+        time: (n,) [s].
+        values: (n,) in any unit, which the result has, too.
     """
     one, two, three = (time[apart:] - time[:-apart] for apart in (1, 2, 3))
     first, middle, last = one[:-2], one[1:-1], one[2:]
@@ -231,8 +235,8 @@ def _select_fresh_readings(run: Run, *, step: float) -> Array:
     """(n, 2) position and velocity of a run, nan where they are not fresh.
 
     Args:
-        run: one of a log's.
-        step: [unit] between two different positions of the log.
+        run: the run.
+        step: [unit] step of the position sensor.
     """
     measured = np.column_stack([run.position, run.velocity])
     fast = np.abs(run.velocity) > FAST * float(np.max(np.abs(run.velocity), initial=0.0))
@@ -251,17 +255,17 @@ def _measure_run(
     """The measurements of a run.
 
     Args:
-        run: one of a log's.
+        run: the run.
         measured: (n, 2) its fresh readings.
         top: [unit/s] the log's top speed.
-        step: [unit] between two different positions of the log.
-        friction: as of ``measure_runs``.
-        noise: of a velocity which trembles at rest.
+        step: [unit] step of the position sensor.
+        friction: as in ``measure_runs``.
+        noise: of the samples, if the position is to decide what is at rest; else None.
     """
     moving = np.abs(run.velocity) > MOVING * top
     least = MOVING * top
     if noise is not None:
-        least += SURELY * noise.velocity
+        least += OUTLIER * noise.velocity
         progress = _find_progress(run, speed=MOVING * top, noise=noise)
         moving = (np.abs(run.velocity) > least) | progress
     first = 0
@@ -285,7 +289,7 @@ def _measure_run(
 
 
 def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> float:
-    """[m/s or rad/s] standard deviation of the velocity where the position stands."""
+    """[m/s or rad/s] standard deviation of the velocity while the position does not change."""
     thirds = []
     for run in runs:
         rest = ~_find_progress(run, speed=speed, noise=noise)
@@ -296,26 +300,26 @@ def _rest_noise(runs: Sequence[Run], *, speed: float, noise: SensorNoise) -> flo
 
 
 def _find_progress(run: Run, *, speed: float, noise: SensorNoise) -> NDArray[np.bool_]:
-    """(n,) where the position changes at that speed or faster, over two samples to each side."""
+    """(n,) whether the position changes faster than ``speed``, over two samples to each side."""
     index = np.arange(len(run))
     before, after = np.maximum(index - 2, 0), np.minimum(index + 2, len(run) - 1)
     way = np.abs(run.position[after] - run.position[before])
-    least = speed * (run.time[after] - run.time[before]) + SURELY * noise.position
+    least = speed * (run.time[after] - run.time[before]) + OUTLIER * noise.position
     return np.asarray(way > least)
 
 
 def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n,) where a reading is new: where it changes, and once per frame where it stays.
+    """(n,) whether a reading is new: it changes, or a frame has passed since the last new one.
 
-    A coarse reading may say the same in the next frame, and that is as good as another; one that
-    only counts where it changes would count where it is wrong by half a step.
+    A coarse sensor may read the same in the next frame, and that is a measurement, too. Only the
+    readings at which it changes would be biased: there its rounding error is half a step.
     """
     new = np.concatenate(([True], np.diff(values) != 0.0))
     pairs = fast[1:] & fast[:-1]
-    if not pairs.any() or float(np.mean(~new[1:][pairs])) <= HELD:
+    if not pairs.any() or float(np.mean(~new[1:][pairs])) <= REPEATED:
         return np.ones(values.size, dtype=bool)
     at = np.flatnonzero(new[1:] & pairs) + 1
-    frame = round(float(np.quantile(np.diff(at), SOON))) if at.size > 1 else values.size
+    frame = round(float(np.quantile(np.diff(at), FRAME_QUANTILE))) if at.size > 1 else values.size
     index = np.arange(values.size)
     last = np.maximum.accumulate(np.where(new, index, 0))
     ends = np.append(np.flatnonzero(new)[1:], values.size)[np.cumsum(new) - 1]
@@ -324,23 +328,26 @@ def _find_fresh_readings(values: Array, *, fast: NDArray[np.bool_]) -> NDArray[n
 
 
 def _find_repeated_frames(run: Run, *, fast: NDArray[np.bool_], step: float) -> NDArray[np.bool_]:
-    """(n,) readings of a frame that was read twice at speed: one of the two is a period older.
+    """(n,) whether a reading is one of two of the same frame at speed: one of them is too old.
 
-    Where a loop and a device's frames are in step, a little jitter makes the loop read a frame
-    twice and miss the next one. Which of the two has the age of all others, nobody can tell.
+    If the loop and the device's frames have the same period, a little jitter makes the loop read a
+    frame twice and miss the next one. Which of the two is too old is unknown.
     """
     ways, pairs = np.abs(np.diff(run.position)), fast[1:] & fast[:-1]
     same = (ways == 0.0) & (np.diff(run.velocity) == 0.0) & pairs
-    coarse = not pairs.any() or float(np.median(ways[pairs])) < FINE * step  # it repeats itself
-    if coarse or float(np.mean(same[pairs])) > HELD:
+    coarse = (
+        not pairs.any() or float(np.median(ways[pairs])) < FINE * step
+    )  # it repeats by rounding
+    if coarse or float(np.mean(same[pairs])) > REPEATED:
         same[:] = False
     return np.asarray(np.append(same, False) | np.insert(same, 0, False))
 
 
 def _find_departure(run: Run, moving: NDArray[np.bool_], *, step: float) -> int:
-    """The sample at which it leaves for good; leaning on a stop a mechanism only gives a little.
+    """Index of the sample at which the mechanism leaves its start for good.
 
-    An averaged velocity shows a departure late; then the position says when it was.
+    A small motion while it leans on a stop does not count. An averaged velocity shows a departure
+    late; then the position shows when it was.
     """
     rests = np.flatnonzero(~moving[: _find_far_sample(run) + 1])
     go = int(rests[-1]) + 1 if rests.size else 0
@@ -351,12 +358,11 @@ def _find_departure(run: Run, moving: NDArray[np.bool_], *, step: float) -> int:
 
 
 def _find_step_begin(run: Run, go: int) -> int:
-    """The first sample of a step that moves a mechanism at ``go``, a little later than commanded.
+    """Index of the first sample of the voltage step that makes the mechanism leave at ``go``.
 
-    A current limit lets a step rise over some samples, and what the first of them did to the motion
-    shows later, where readings are late.
+    A current limit lets a step rise over some samples, and late readings show the motion later.
     """
-    early = np.arange(go + 1)[run.time[: go + 1] >= run.time[go] - RISES]
+    early = np.arange(go + 1)[run.time[: go + 1] >= run.time[go] - RISE]
     pushes = run.voltage[early] * np.sign(run.voltage[go]) >= 0.5 * abs(run.voltage[go])
     return (
         int(early[early.size - int(np.argmin(pushes[::-1]))]) if not pushes.all() else int(early[0])
@@ -364,30 +370,30 @@ def _find_step_begin(run: Run, go: int) -> int:
 
 
 def _find_far_sample(run: Run) -> int:
-    """The sample at which it is farther from where it began than any stop would give."""
-    far = np.abs(run.position - run.position[0]) > GIVES * float(np.ptp(run.position))
+    """Index of the first sample that is farther from the start than any stop gives way."""
+    far = np.abs(run.position - run.position[0]) > STOP_GIVES * float(np.ptp(run.position))
     return int(np.argmax(far))
 
 
 def _creeps_before_leaving(run: Run, go: int) -> bool:
-    """Whether it creeps before it leaves: pressed onto a stop of rubber, or a chain that gives.
+    """Whether it creeps before it leaves: off a rubber stop, or while a chain stretches.
 
-    Such a stop holds it back longer than friction and weight would, so what the voltage was when it
-    came off says nothing about either.
+    Such a stop holds it back longer than friction and weight would, so the voltage at which it
+    leaves says nothing about either.
     """
     way = np.abs(run.position[: go + 1] - run.position[0])
-    creeps = run.time[go] - run.time[int(np.argmax(way > CREPT * way[-1]))]
-    return bool(way[-1] > GIVEN * float(np.ptp(run.position)) and creeps > CREEPS)
+    creeps = run.time[go] - run.time[int(np.argmax(way > CREEP_BEGIN * way[-1]))]
+    return bool(way[-1] > CREEP_WAY * float(np.ptp(run.position)) and creeps > CREEP_TIME)
 
 
 def _find_sensor_activity(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n,) where a sensor that is quiet at rest is not; if it trembles, where it moves."""
-    stirs = np.abs(run.velocity) > 0.0
-    return np.asarray(stirs if stirs.mean() < MOSTLY else moving)
+    """(n,) whether the velocity is not zero; if it is noisy at rest, whether it moves."""
+    nonzero = np.abs(run.velocity) > 0.0
+    return np.asarray(nonzero if nonzero.mean() < MOSTLY else moving)
 
 
 def _find_informative(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n,) where it moves, and a little around where the sensor stirs."""
+    """(n,) whether the mechanism moves, or a sample nearby has a velocity that is not zero."""
     wide = (
         np.convolve(_find_sensor_activity(run, moving), np.ones(2 * AROUND + 1), mode="same") > 0.0
     )
@@ -395,10 +401,10 @@ def _find_informative(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _find_rest_readings(run: Run, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n,) where a position is what is read at rest, creeping within one step of it included.
+    """(n,) whether a position is within the sensor step that is read at rest.
 
-    A motion through a whole step of the sensor is read too low as often as too high. From rest it
-    only goes through a part of one, and all readings of that part err the same way.
+    During a motion through a whole step of the sensor the rounding error averages to zero. From
+    rest the mechanism passes only a part of a step, and all readings there have errors of one sign.
     """
     step = np.cumsum(np.diff(run.position, prepend=run.position[:1]) != 0.0)
     rests = np.bincount(step, weights=~_find_sensor_activity(run, moving)) > 0.0

@@ -17,7 +17,7 @@ BASE: Mapping[str, tuple[str, ...]] = {
 }
 POSITIVE = ("kV", "kA")
 ORDINARY: Mapping[str, float] = {"V": 0.05, "s": 0.004, "1": 0.02}
-"""Unit -> how much of it is not nothing on a robot: the least by which a search moves a value."""
+"""Unit -> typical size of a parameter whose value is near zero; sets the steps of a search."""
 
 
 @dataclass(frozen=True)
@@ -26,8 +26,8 @@ class ModelStructure:
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
-        effects: their names, in the order in which they were found.
-        fixed: values that a search leaves alone.
+        effects: names of the effects, in the order in which they were added.
+        fixed: parameters that a search does not change.
     """
 
     type: str
@@ -36,7 +36,7 @@ class ModelStructure:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """Names of all values: gains, then ``effect.parameter``."""
+        """Names of all parameters: gains, then ``effect.parameter``."""
         return (*BASE[self.type], *self.parameters)
 
     @cached_property
@@ -48,7 +48,7 @@ class ModelStructure:
 
     @cached_property
     def searched_names(self) -> tuple[str, ...]:
-        """Names of the values that a search changes; its start sets the others."""
+        """Names of the parameters that a search changes; the others keep their start values."""
         known = self.parameters
         return tuple(
             name
@@ -58,13 +58,13 @@ class ModelStructure:
 
     @cached_property
     def free_count(self) -> int:
-        """How many values the data determine, including those that a start sets."""
+        """How many parameters the data determine, including those that keep their start values."""
         known = self.parameters
         return sum(1 for name in self.names if name not in known or known[name].counts)
 
     @cached_property
     def backlash_names(self) -> tuple[str, ...]:
-        """Names of the values that are free play between motor and load."""
+        """Names of the parameters that are the width of a backlash."""
         acts = {name: EFFECTS[name].hooks.get("backlash_gap") for name in self.effects}
         return tuple(
             f"{name}.{one}"
@@ -75,7 +75,7 @@ class ModelStructure:
 
     @property
     def has_backlash(self) -> bool:
-        """Whether motor and load have free play."""
+        """Whether there is backlash between motor and load."""
         return bool(self.backlash_names)
 
     def __add__(self, effect: str) -> "ModelStructure":
@@ -85,7 +85,7 @@ class ModelStructure:
         return ModelStructure(self.type, tuple(name for name in self.effects if name != effect))
 
     def model(self, values: Mapping[str, float]) -> Model:
-        """The model with these values; an arm's gravity is given by two voltages."""
+        """The model with these values; ``level`` and ``upright`` give kG and offset of an arm."""
         gains = {name: values[name] for name in BASE[self.type] if name.startswith("k")}
         if self.type == "arm":
             gains["kG"] = math.hypot(values["level"], values["upright"])
@@ -96,7 +96,7 @@ class ModelStructure:
         return model
 
     def find_parameter_scale(self, name: str, value: float) -> float:
-        """Typical size of a parameter: its own value, or an ordinary one."""
+        """Typical size of a parameter, in its unit: its value, or an ordinary one if larger."""
         if name in POSITIVE:
             return abs(value)
         known = self.parameters.get(name)
@@ -105,14 +105,14 @@ class ModelStructure:
         return max(abs(value), ORDINARY.get(known.unit, 0.0), 1e-12)
 
     def clamp_value(self, name: str, value: float) -> float:
-        """The value, clamped to what is physical."""
+        """The value of a parameter, clamped to its physical limits."""
         known = self.parameters.get(name)
         if known is not None:
             return min(max(value, known.least), known.most)
         return max(value, 0.0) if name == "kS" else value
 
     def step_value(self, name: str, value: float, by: float) -> float:
-        """The value after a step; one that cannot be negative changes by a limited factor."""
+        """The value of a parameter after a step; a positive one changes by a limited factor."""
         if name in POSITIVE:
             return value * min(max(1.0 + by / value, 1.0 / 3.0), 3.0)
         known = self.parameters.get(name)

@@ -1,7 +1,7 @@
 """Levenberg–Marquardt search for parameters, and a line search for the process noise.
 
-Steps are taken on whitened innovations with a row for each prior; derivatives are differences of
-simulations.
+The residuals are the whitened innovations, with a row for each prior. Derivatives are finite
+differences of simulations.
 """
 
 import math
@@ -16,13 +16,14 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 
 FIRST_DAMPING, LEAST_DAMPING, TRIES = 1e-3, 1e-9, 5
 ENOUGH = 0.5  # [of -2 log L] a step that gains less ends the search
-NOTHING = 0.1  # [of -2 log L] a step that promises less is not taken
-FACTOR = 4.0  # [1] steps of the process noise
-LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] below which it is none
-TINY = 1e-9  # [of a value's size] step that tells whether a value is at its limit
+LEAST_PREDICTED = 0.1  # [of -2 log L] a step that is predicted to gain less is not taken
+FACTOR = 4.0  # [1] by which a line search changes the process noise
+LEAST_Q = 1e-12  # [noises of a velocity, squared, per second] less is no process noise
+TINY = 1e-9  # [of a parameter's size] step that shows whether a parameter is at its limit
 LEAST_INFORMATION = 1e-100  # of a parameter, so that it has an inverse
 LARGEST_ERROR = 1e6  # [sizes of a parameter] a larger standard error is rounding alone
-UNKNOWN, NO_INFORMATION = 1e-11, 1e-20  # [1] share of the information, and what stands for none
+LEAST_EIGENVALUE = 1e-11  # [1] of the scaled information; a smaller one is rounding
+NO_INFORMATION = 1e-20  # [1] what replaces such an eigenvalue
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,9 +31,9 @@ class JointJacobian:
     """Projection of innovations onto the Jacobian of parameters and nuisance parameters.
 
     Args:
-        columns: (2 n, k) the Jacobian, its prior rows left out.
-        root: (k, k) what makes its columns, with those rows, orthonormal.
-        prior: (k,) what the prior rows hold of the estimate, in that basis.
+        columns: (2 n, k) the Jacobian without its prior rows.
+        root: (k, k) inverse of the triangle R of the QR decomposition of the Jacobian with them.
+        prior: (k,) the prior rows' residuals in the orthonormal basis Q.
     """
 
     columns: Array
@@ -41,33 +42,41 @@ class JointJacobian:
 
     @cached_property
     def basis(self) -> Array:
-        """(2 n, k) an orthonormal basis of the Jacobian's columns, its prior rows left out."""
+        """(2 n, k) orthonormal basis of the Jacobian's column space, without its prior rows."""
         return np.asarray(self.columns @ self.root)
 
     def project(self, white: Array) -> Array:
         """(k,) coordinates of whitened innovations (2 n,) in the Jacobian's column space."""
-        return self._take(white) + self.prior
+        return self._project_data(white) + self.prior
 
-    def _take(self, white: Array) -> Array:
+    def _project_data(self, white: Array) -> Array:
+        """(k, ...) coordinates of (2 n, ...), without the residuals of the priors."""
         return np.asarray(self.root.T @ (self.columns.T @ white))
 
     def compute_residual_square(self, white: Array) -> float:
         """Sum of squares with the Jacobian's columns projected out, up to a constant."""
-        taken = self.project(white)
-        return float(white @ white - taken @ taken)
+        projected = self.project(white)
+        return float(white @ white - projected @ projected)
 
     def compute_improvement(self, white: Array, columns: Array, sd: float) -> float:
-        """Decrease of -2 log L by further columns (2 n, m) with priors of deviation ``sd``."""
-        taken = self._take(columns)
-        square = columns.T @ columns - taken.T @ taken + np.eye(columns.shape[1]) / sd**2
-        slope = columns.T @ white - taken.T @ self.project(white)
+        """Predicted decrease of -2 log L by further parameters.
+
+        Args:
+            white: (2 n,) whitened innovations.
+            columns: (2 n, m) their derivatives by the further parameters.
+            sd: standard deviation of the further parameters' normal prior.
+        """
+        projected = self._project_data(columns)
+        square = columns.T @ columns - projected.T @ projected
+        square += np.eye(columns.shape[1]) / sd**2
+        slope = columns.T @ white - projected.T @ self.project(white)
         return float(slope @ np.linalg.solve(square, slope))
 
     def compute_residual_products(self, change: Array, white: Array) -> tuple[float, float]:
         """Products of a change with innovations and itself, the Jacobian projected out."""
-        taken = self._take(change)
-        product = float(change @ white - taken @ self.project(white))
-        return product, float(change @ change - taken @ taken)
+        projected = self._project_data(change)
+        product = float(change @ white - projected @ self.project(white))
+        return product, float(change @ change - projected @ projected)
 
 
 def make_joint_jacobian(
@@ -75,26 +84,27 @@ def make_joint_jacobian(
 ) -> JointJacobian:
     """The joint Jacobian at an estimate; ``fine`` takes central differences."""
     table = problem.compute_jacobian(point, fine=fine)
-    rows, own = make_prior_rows(problem, point)
+    rows, residuals = make_prior_rows(problem, point)
     triangle = np.linalg.qr(np.vstack([np.linalg.qr(table, mode="r"), rows]), mode="r")
     root = np.linalg.pinv(triangle)
-    return JointJacobian(table, root, root.T @ (rows.T @ own))
+    return JointJacobian(table, root, root.T @ (rows.T @ residuals))
 
 
 def append_prior_rows(
     problem: PredictionErrorProblem, point: Estimate, *, fine: bool = False
 ) -> tuple[Array, Array]:
-    """Jacobian and whitened innovations, with a row for the prior of each nuisance parameter."""
-    table, rest = (
-        problem.compute_jacobian(point, fine=fine),
-        problem.whiten(point, point.innovations),
-    )
-    rows, own = make_prior_rows(problem, point)
-    return np.vstack([table, rows]), np.concatenate([rest, own])
+    """Jacobian (2 n + priors, k) and residuals (2 n + priors,): innovations, then the priors."""
+    table = problem.compute_jacobian(point, fine=fine)
+    white = problem.whiten(point, point.innovations)
+    rows, residuals = make_prior_rows(problem, point)
+    return np.vstack([table, rows]), np.concatenate([white, residuals])
 
 
 def make_prior_rows(problem: PredictionErrorProblem, point: Estimate) -> tuple[Array, Array]:
-    """The priors' rows of Jacobian and innovations, nuisance parameters first."""
+    """The priors' rows of the Jacobian (priors, k) and their residuals (priors,).
+
+    Rows of nuisance parameters come first.
+    """
     runs, names = len(problem.records), point.structure.searched_names
     nuisance = problem.list_nuisance_priors(point)
     known = problem.select_priors(point.structure)
@@ -114,9 +124,9 @@ def levenberg_marquardt(
 
     Args:
         problem: the measurements.
-        point: where it begins.
-        steps: at most.
-        enough: [of -2 log L] what a step must gain for another one.
+        point: the estimate to start from.
+        steps: the largest number of steps.
+        enough: [of -2 log L] a step that gains less is the last.
     """
     if not math.isfinite(point.cost):
         return point
@@ -131,7 +141,7 @@ def levenberg_marquardt(
         found = point
         for _ in range(TRIES):
             way = -np.linalg.solve(square + damping * np.eye(slope.size), slope)
-            if -float(way @ (2.0 * slope + square @ way)) < NOTHING:
+            if -float(way @ (2.0 * slope + square @ way)) < LEAST_PREDICTED:
                 break
             by = np.zeros(free.size)
             by[free] = way / size[free]
@@ -151,14 +161,14 @@ def compute_gradient_and_information(
 ) -> tuple[Array, Array]:
     """(k,) half the gradient of -2 log L by all parameters, and (k, k) their information JᵀJ."""
     table = problem.compute_jacobian(point, fine=fine)
-    rest = problem.whiten(point, point.innovations)
-    rows, own = make_prior_rows(problem, point)
-    with np.errstate(over="ignore"):  # a value that nothing bears to be moved
-        return table.T @ rest + rows.T @ own, table.T @ table + rows.T @ rows
+    white = problem.whiten(point, point.innovations)
+    rows, residuals = make_prior_rows(problem, point)
+    with np.errstate(over="ignore"):  # the columns of a diverging simulation are clipped, but large
+        return table.T @ white + rows.T @ residuals, table.T @ table + rows.T @ rows
 
 
 def _movable_columns(point: Estimate, slope: Array) -> NDArray[np.bool_]:
-    """(columns,) which may move: not a parameter at a limit beyond which the cost would fall."""
+    """(k,) whether a step may change it: not if its limit is in the way of a lower cost."""
     free = np.ones(slope.size, dtype=bool)
     structure = point.structure
     for column, name in enumerate(structure.searched_names):
@@ -178,7 +188,7 @@ def _take_step(problem: PredictionErrorProblem, point: Estimate, by: Array) -> E
     nuisance = point.nuisance.shift_positions(next(own))
     if problem.varying_friction:
         nuisance = nuisance.add_friction(next(own))
-        # what all runs have is kS: only the price tells, hardly
+        # the mean of the runs' frictions belongs to kS: the priors alone hardly keep it zero
         common = float(np.mean(nuisance.friction_offset))
         values["kS"] = max(values["kS"] + common, 0.0)
         nuisance = nuisance.add_friction(np.full_like(nuisance.friction_offset, -common))
@@ -191,25 +201,25 @@ def tune_process_noise(problem: PredictionErrorProblem, point: Estimate) -> Esti
     """The estimate with the likeliest process noise: factors of four, then a parabola."""
     least = LEAST_Q * problem.noise.velocity**2
 
-    def at(part: float) -> Estimate:
+    def at(factor: float) -> Estimate:
         return problem.evaluate(
-            point.structure, point.values, point.nuisance, point.process_noise * part
+            point.structure, point.values, point.nuisance, point.process_noise * factor
         )
 
-    beside = {way: at(way) for way in (FACTOR, 1.0 / FACTOR)}
-    for way in (FACTOR, 1.0 / FACTOR):
+    neighbor = {factor: at(factor) for factor in (FACTOR, 1.0 / FACTOR)}
+    for factor in (FACTOR, 1.0 / FACTOR):
         while (
-            beside[way].cost < point.cost - 0.1
-            and least < beside[way].process_noise < problem.max_process_noise
+            neighbor[factor].cost < point.cost - 0.1
+            and least < neighbor[factor].process_noise < problem.max_process_noise
         ):
-            beside[1.0 / way], point = point, beside[way]
-            beside[way] = at(way)
-    more, less = beside[FACTOR].cost, beside[1.0 / FACTOR].cost
+            neighbor[1.0 / factor], point = point, neighbor[factor]
+            neighbor[factor] = at(factor)
+    more, less = neighbor[FACTOR].cost, neighbor[1.0 / FACTOR].cost
     bend = more + less - 2.0 * point.cost
     if not (
         math.isfinite(bend)
         and bend > 0.0
-        and beside[FACTOR].process_noise < problem.max_process_noise
+        and neighbor[FACTOR].process_noise < problem.max_process_noise
     ):
         return point
     other = at(FACTOR ** (0.5 * (less - more) / bend))
@@ -252,16 +262,16 @@ def compute_standard_errors(problem: PredictionErrorProblem, point: Estimate) ->
 
 
 def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), and how parameters move together.
+    """(k, k) inverse of JᵀJ for a Jacobian J (n, k), by eliminating well-determined parameters.
 
     Args:
         table: (n, k) the Jacobian, its prior rows included.
-        weak: (k,) columns that a prior alone tells from others. The others are eliminated first,
-            so that a weak prior is not lost beside much information.
+        weak: (k,) whether only a prior tells a column from the others. The others are eliminated
+            first, so that a weak prior is not lost in rounding next to much information.
 
     Returns:
-        The inverse, with huge errors where it is singular; and (k, weak) by how much all parameters
-        move together with each of the weak ones.
+        The inverse, with huge variances where it is singular; and (k, weak) the change of all
+        parameters per change of each weak one, the others at their optimum.
     """
     strong = ~weak
     square = table.T @ table
@@ -277,8 +287,8 @@ def invert_information(table: Array, *, weak: NDArray[np.bool_]) -> tuple[Array,
 
 
 def invert_symmetric(square: Array) -> Array:
-    """(k, k) inverse of an information matrix, with huge errors where it is singular."""
+    """(k, k) inverse of an information matrix (k, k), with huge variances where it is singular."""
     size = np.sqrt(np.maximum(np.diag(square), LEAST_INFORMATION))
-    told, ways = np.linalg.eigh(square / np.outer(size, size))
-    share = np.where(told > UNKNOWN, told, NO_INFORMATION)
-    return np.asarray((ways / share) @ ways.T / np.outer(size, size))
+    eigenvalues, vectors = np.linalg.eigh(square / np.outer(size, size))
+    eigenvalues = np.where(eigenvalues > LEAST_EIGENVALUE, eigenvalues, NO_INFORMATION)
+    return np.asarray((vectors / eigenvalues) @ vectors.T / np.outer(size, size))

@@ -12,7 +12,7 @@ ON_ONE_SIDE = 2.0 * math.log(3.0)
 """[of -2 log L] Prior cost of a backlash phase at one of the two ends of the backlash."""
 
 BETWEEN = ON_ONE_SIDE + 2.0 * math.log(10.0)
-"""[of -2 log L] Prior cost of a phase between them, where only friction holds the motor.
+"""[of -2 log L] Prior cost of a phase between the ends, where only friction holds the motor.
 
 A motor that starts at one end of its backlash, and one that starts in the middle of twice as much
 backlash, reach the load at the same moment. The prior makes the first ten times as likely.

@@ -12,12 +12,12 @@ from sim.estimation.measurements import ROBUST, RunMeasurements, measure_runs
 from sim.physics.voltage_residual import list_run_start_times, shares_clock
 
 FEWEST = 4  # samples of a run that can be compared, as ``measure_runs`` takes them
-AT_REST = 0.05  # [share of the top speed] that a position may creep in one sample of a rest
-SAME_PLACE = 0.01  # [share of a run's way] within which a place is the place it began at
-SANK = 5.0  # [1] times the roughness of its position, by which a run sank below where it began
-AROUND = 0.03  # [s] on both sides of what is set aside
-MOST_RUNS = 1_000_000  # of one log
-AFTER = 1e-6  # [s] by which a log begins after another: nobody knows how long the pause was
+AT_REST = 0.05  # [share of the top speed] a run whose position is slower starts at rest
+SAME_PLACE = 0.01  # [share of a run's way] from its start within which a position is the start
+SANK = 5.0  # [noises of a position] a run that sank farther below its start did sink
+AROUND = 0.03  # [s] excluded as well, on both sides of an excluded interval
+MOST_RUNS = 1_000_000  # of one log; makes ``memory_group`` unique
+AFTER = 1e-6  # [s] pause between two logs that are joined, because the real one is unknown
 
 
 @dataclass(frozen=True)
@@ -25,10 +25,11 @@ class ExcludedInterval:
     """An interval of a run that is not fitted: damaged, or outside the model.
 
     Args:
-        run: which one, from 0.
-        start: [s] on the run's own clock.
-        end: [s].
-        to_the_end: nothing after it is believed, unless the run begins so: it leans on a stop.
+        run: index of the run in its log.
+        start: [s] on the clock of the run's samples.
+        end: [s] on the same clock.
+        to_the_end: whether the rest of the run is excluded, too; not if the interval is at the
+            start of the run, where the mechanism leans on a stop and then leaves it.
     """
 
     run: int
@@ -42,13 +43,14 @@ class RunRecord:
     """One run, prepared for fitting.
 
     Args:
-        measurements: what was measured.
-        test: its name.
-        low: [unit] the stop on which it lay when it began; minus infinity if none shows.
-        high: [unit] the same above.
-        clock: [s] when it began, since the first log did.
-        session: which log it is from.
-        memory_group: runs of one number followed one another: what one heated, the next found warm.
+        measurements: its samples.
+        test: name of the test.
+        low: [unit] the stop on which the run started; minus infinity if none shows.
+        high: [unit] the upper stop against which it started; infinity if none shows.
+        clock: [s] start of the run, since the start of the first log.
+        session: index of the log it is from.
+        memory_group: runs with the same number share the memory of effects: a motor that one heats
+            is still warm in the next.
     """
 
     measurements: RunMeasurements
@@ -62,22 +64,22 @@ class RunRecord:
     def exclude_interval(self, aside: ExcludedInterval) -> "RunRecord":
         """A copy in which the samples of an interval are not used."""
         time = self.measurements.time
-        begins = aside.start <= time[0] + AROUND  # on the stop: it leaves it, and all is well
+        begins = aside.start <= time[0] + AROUND  # on a stop, which it leaves: the rest is good
         end = np.inf if aside.to_the_end and not begins else aside.end + AROUND
         return self._leave_out((time >= aside.start - AROUND) & (time <= end))
 
     def exclude(self) -> "RunRecord":
-        """A copy of which no sample is used; it is still simulated."""
+        """A copy without samples to compare; it is still simulated."""
         return self._leave_out(np.ones(self.measurements.time.size, dtype=bool))
 
     def _leave_out(self, out: NDArray[np.bool_]) -> "RunRecord":
-        """A copy in which some samples (n,) are not used."""
-        seen = replace(
+        """A copy in which the samples marked in ``out`` (n,) are not used."""
+        measurements = replace(
             self.measurements,
             informative=self.measurements.informative & ~out,
             moving=self.measurements.moving & ~out,
         )
-        return replace(self, measurements=seen)
+        return replace(self, measurements=measurements)
 
 
 def make_run_records(
@@ -87,9 +89,9 @@ def make_run_records(
 
     Args:
         log: any runs.
-        session: number of the log.
-        since: [s] of the clock at which it began.
-        aside: what to leave out.
+        session: index of the log.
+        since: [s] start of the log, since the start of the first one.
+        aside: intervals to exclude.
     """
     places = [number for number, run in enumerate(log.runs) if len(run) >= FEWEST]
     runs = [log.runs[number] for number in places]
@@ -99,7 +101,7 @@ def make_run_records(
     measured = measure_runs(log, friction=None, rest_by_position=False)
     found = {}
     for number, run, one in zip(places, runs, measured, strict=True):
-        # readings at rest count here: how a mechanism leaves its rest tells effects apart
+        # readings at rest are compared: how a mechanism leaves its rest tells effects apart
         seen = replace(_start_at_rest(one, top=top), at_rest=np.zeros_like(one.at_rest))
         memory = session * MOST_RUNS + (0 if together else number)
         clock = since + float(began[number])
@@ -114,8 +116,8 @@ def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tupl
     """The runs as independent records: no common clock, and no stops.
 
     Args:
-        log: the runs.
-        measured: of those with enough samples, the measurements.
+        log: any runs.
+        measured: the measurements of each run that has enough samples.
     """
     runs = [run for run in log.runs if len(run) >= FEWEST]
     return tuple(
@@ -125,7 +127,7 @@ def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tupl
 
 
 def compute_session_length(*logs: Log) -> float:
-    """[s] from the start of the first run to the end of the last.
+    """[s] from the start of the first run to the end of the last, summed over the logs.
 
     Pauses between runs count where the runs share a clock.
     """
@@ -145,7 +147,7 @@ def join_records(log: Log, later: Log) -> Log:
 
 
 def _start_at_rest(seen: RunMeasurements, *, top: float) -> RunMeasurements:
-    """The same, beginning at rest if its position says so: a noisy velocity alone cannot tell."""
+    """A copy that starts at rest if its position does: a noisy velocity alone cannot show it."""
     x = seen.measured[:, 0]
     fresh = np.flatnonzero(~np.isnan(x))[:2]
     if fresh.size < 2:  # noqa: PLR2004 - two make a rate
@@ -155,15 +157,15 @@ def _start_at_rest(seen: RunMeasurements, *, top: float) -> RunMeasurements:
 
 
 def _find_stops(seen: RunMeasurements) -> tuple[float, float]:
-    """What lies beneath a run that began at rest and was never far beyond where it began.
+    """[unit] Lower and upper stop at the start of a run that began at rest; infinite if none.
 
-    Arms and elevators begin on a stop, and stay there whatever gravity does until the voltage
-    lifts them. Where it is friction that holds instead, a stop at that place changes nothing. One
-    that first sank a little, more than its position is rough, found its stop there. One that comes
-    back later and goes beyond that place shows that there is no stop.
+    Arms and elevators start on a stop and stay there, whatever gravity does, until the voltage
+    lifts them. Where friction holds them instead, a stop at that place changes nothing. A run that
+    first sank, by more than the noise of its position, has its stop where it came to rest. A run
+    that later goes beyond its start shows that there is no stop.
     """
-    told = ~np.isnan(seen.measured[:, 0])
-    x, time = seen.measured[told, 0], seen.time[told]
+    fresh = ~np.isnan(seen.measured[:, 0])
+    x, time = seen.measured[fresh, 0], seen.time[fresh]
     if seen.velocity != 0.0 or not x.size:
         return -np.inf, np.inf
     near = SAME_PLACE * float(np.ptp(x))
@@ -182,9 +184,9 @@ def _lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:
 
     Args:
         x: (n,) [unit] positions.
-        begin: [unit] where it began.
-        near: [unit] how far it goes before it has left that place.
-        rough: [unit] what is less is noise.
+        begin: [unit] position at the start.
+        near: [unit] the run has left its start when it is farther away than this.
+        rough: [unit] a smaller difference of positions is noise.
     """
     left = int(np.argmax(x > begin + near))
     sank = min(float(x[: left + 1].min()), begin)
@@ -194,7 +196,7 @@ def _lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:
 
 
 def _position_roughness(x: Array, time: Array) -> float:
-    """[unit] of positions, from how far each is off the line between its neighbours."""
+    """[unit] noise of positions, from how far each is off the line between its neighbors."""
     if x.size < 3:  # noqa: PLR2004 - one between two
         return 0.0
     between = (time[1:-1] - time[:-2]) / (time[2:] - time[:-2])

@@ -1,13 +1,13 @@
 """Gains that vary from run to run, as random effects.
 
 The gains of run i are θ + b_i with b_i ~ N(0, T), T diagonal. A battery warms up, a chain lies
-otherwise, a model lacks something that only some tests excite: then the runs of one log disagree by
+differently, a model lacks something that only some tests excite: then the runs of a log disagree by
 more than noise, and the error of their common gains is that of a mean over few runs:
 
     cov θ = (Σ_i (T + f_i G_i⁻¹)⁻¹)⁻¹        G_i the Fisher information of run i
 
-f_i is by how much the scores of short intervals of the run vary more than independent innovations
-would make them: errors that last leave fewer independent samples.
+f_i is the variance of the scores of short intervals of the run, divided by that which independent
+innovations would give: correlated innovations are fewer independent samples.
 
 T is estimated from the scores of the runs: given T, that of run i is normal with covariance
 G_i + G_i T G_i.
@@ -28,13 +28,13 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 VARIES: Mapping[str, float] = {
     "kS": 0.04, "kV": 0.007, "kA": 0.04, "kG": 0.02, "level": 0.02, "upright": 0.02,
 }  # fmt: skip
-"""Share of a gain by which it differs between runs of one robot and day: a guess to begin with."""
-LEAST_VOLTS = 0.05  # [V] of which it is a share where kS or kG is less
-FIXED = 1e-4  # [share of a size] by which parameters vary that do not
-NO_INFORMATION = 1e-12  # [1/size²] what no run tells has a large error, not an infinite one
-LASTS = 0.5  # [s] for which what a model lacks errs one way
-TELLS = 1e-6  # [share of the largest eigenvalue] of information, below which it is none
-GRID: Array = 2.0 ** np.arange(-10.0, 6.0)  # [guesses] standard deviations that are weighed
+"""Gain -> first guess of its standard deviation between runs of one day, as a share of it."""
+LEAST_VOLTS = 0.05  # [V] a smaller kS or kG varies as much as one of this size
+FIXED = 1e-4  # [share of a parameter's size] standard deviation of those that do not vary
+NO_INFORMATION = 1e-12  # [1/size²] keeps the error of an undetermined parameter finite
+INTERVAL = 0.5  # [s] within which the innovations of an incomplete model are correlated
+LEAST_EIGENVALUE = 1e-6  # [share of the largest] of the information; a smaller one is rounding
+GRID: Array = 2.0 ** np.arange(-10.0, 6.0)  # [guesses] standard deviations that are averaged
 SWEEPS = 2  # over all gains
 
 
@@ -61,7 +61,7 @@ def compute_run_variation_covariance(
     """(searched, searched) covariance of the parameters when gains vary from run to run.
 
     Args:
-        problem: the measurements, without frictions of each run's own.
+        problem: the measurements, with ``varying_friction`` off.
         point: the best estimate.
         jacobian: (2 n + ..., searched + nuisance) Jacobian of the whitened innovations.
         innovations: (2 n + ...,) whitened innovations.
@@ -70,10 +70,10 @@ def compute_run_variation_covariance(
     runs = _run_information(problem, point, jacobian, innovations, sizes)
     known = problem.select_priors(point.structure)
     names = point.structure.searched_names
-    own = np.array([name not in known for name in names])
+    free = np.array([name not in known for name in names])
     guess = np.array([VARIES.get(name, FIXED) for name in names])
     square = guess**2
-    square[own] = _variances([run.select_parameters(own) for run in runs], guess[own])
+    square[free] = _variances([run.select_parameters(free) for run in runs], guess[free])
     prior = [
         (size / known[name]) ** 2 if name in known else 0.0
         for name, size in zip(names, sizes, strict=True)
@@ -85,8 +85,8 @@ def compute_run_variation_covariance(
 def _variances(runs: list[RunInformation], guess: Array) -> Array:
     """(k,) variances of the parameters between runs: posterior means, one gain after another.
 
-    A variance that the runs say nothing about would be unbounded; a flat prior over the logarithm
-    of its root, from a thousandth to some times the guess, keeps it finite.
+    A flat prior over the logarithm of the standard deviation, from 2⁻¹⁰ to 2⁵ times the guess,
+    keeps a variance finite that the runs do not determine.
     """
     square, varying = np.full(guess.size, FIXED**2), np.flatnonzero(guess > FIXED)
     square[varying] = guess[varying] ** 2
@@ -94,8 +94,8 @@ def _variances(runs: list[RunInformation], guess: Array) -> Array:
         for place in varying:
             tried = np.repeat(square[None, :], GRID.size, axis=0)
             tried[:, place] = (GRID * guess[place]) ** 2
-            chance = _log_likelihood(runs, tried)
-            weight = np.exp(chance - chance.max())
+            likelihood = _log_likelihood(runs, tried)
+            weight = np.exp(likelihood - likelihood.max())
             square[place] = float(weight @ tried[:, place] / weight.sum())
     return square
 
@@ -122,7 +122,7 @@ def _marginal_covariance(runs: list[RunInformation], square: Array, prior: Array
     Args:
         runs: their information.
         square: (k,) variances between runs.
-        prior: (k,) information that is known beforehand.
+        prior: (k,) information of the priors.
     """
     root, total = np.sqrt(square), np.diag(prior + NO_INFORMATION)
     for run in runs:
@@ -164,7 +164,7 @@ def _run_information(
         information = free.T @ columns
         score = free.T @ innovations[rows] - shares.T @ own
         time = problem.records[number].measurements.time
-        starts = 2 * find_interval_starts(time, LASTS)  # two measurements to a sample
+        starts = 2 * find_interval_starts(time, INTERVAL)  # two measurements to a sample
         scores = np.add.reduceat(free.T * innovations[rows], starts, axis=1).T
         excess = max(_excess(information, scores), 1.0)
         runs.append(RunInformation(information / excess, score / excess))
@@ -177,19 +177,20 @@ def find_interval_starts(time: Array, length: float) -> NDArray[np.intp]:
 
 
 def _excess(information: Array, scores: Array) -> float:
-    """[1] variance of the scores of intervals over what independent innovations would give.
+    """[1] variance of the intervals' scores, divided by that of independent innovations.
 
     Args:
-        information: (k, k) of the run.
-        scores: (intervals, k).
+        information: (k, k) Fisher information of the run.
+        scores: (intervals, k) scores of its intervals.
     """
-    shares, ways = np.linalg.eigh(information)
-    told = shares > TELLS * shares[-1]
-    return float(np.mean(np.sum((scores @ ways[:, told]) ** 2, axis=0) / shares[told]))
+    values, vectors = np.linalg.eigh(information)
+    known = values > LEAST_EIGENVALUE * values[-1]
+    projected = scores @ vectors[:, known]
+    return float(np.mean(np.sum(projected**2, axis=0) / values[known]))
 
 
 def _sizes(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(searched,) of each parameter, what its variation is a share of."""
+    """(searched,) size of each parameter; its standard deviation between runs is a share of it."""
     values, known = point.values, problem.select_priors(point.structure)
     gravity = math.hypot(values.get("level", 0.0), values.get("upright", 0.0))
     volts = {"kS": values["kS"], "kG": values.get("kG", 0.0), "level": gravity, "upright": gravity}
