@@ -1,5 +1,7 @@
 """The stepping engine: against closed forms, against itself uncompiled, and as it is composed."""
 
+import ast
+import inspect
 import math
 import os
 import subprocess
@@ -28,11 +30,11 @@ from sim.physics.engine import (
     simulate_run,
 )
 from sim.physics.engine import kernel as kernel_room
-from sim.physics.engine.compose import compose_engine, is_compiled
+from sim.physics.engine.compose import MODULES, compose_engine, is_compiled
 from sim.physics.engine.kernel import NO_USE
 from sim.physics.engine.machine_code import ObjectCode, link_code
 from sim.physics.engine.power_path import CUT
-from sim.physics.engine.two_body_modes import WAYS
+from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model, Part
 from sim.support.work.cache import CACHE, find_cache_folder
 
@@ -294,6 +296,22 @@ def test_an_effect_written_wrongly_stops_the_engine_with_a_sentence(change, said
     assert "sim/physics/effects/drag.py" in str(refused.value)
 
 
+def test_the_modules_that_become_one_text_define_each_name_once():
+    defined = [name for module in MODULES for name in top_level_names(inspect.getsource(module))]
+
+    assert sorted(defined) == sorted(set(defined))
+
+
+def top_level_names(text):
+    for statement in ast.parse(text).body:
+        if isinstance(statement, ast.FunctionDef):
+            yield statement.name
+        elif isinstance(statement, ast.Assign):
+            for node in ast.walk(statement):
+                if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                    yield node.id
+
+
 FEW = {"drag": EFFECTS["drag"]}  # a small engine is compiled in half the time
 SIMULATION_SCRIPT = """
 import numpy as np
@@ -402,7 +420,7 @@ def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, wo
     "change",
     [
         {"time": TIME[::2]},
-        {"asked": TIME.astype(np.float32)},
+        {"commanded": TIME.astype(np.float32)},
         {"out": np.zeros((8, TIME.size)).T},
         {"measured": np.zeros((3, 2))},
         {"bodies": np.zeros((2, 5))},
@@ -424,13 +442,13 @@ def test_an_engine_is_tried_in_a_process_of_its_own(cache, tmp_path, content, wo
 def test_an_array_that_the_engine_would_read_wrongly_is_refused(change):
     on, parameters = make_effect_arrays(PLAIN)
     given = {
-        "edges": np.array([0.0, TIME.size]), "time": TIME, "asked": steady(3.0),
+        "edges": np.array([0.0, TIME.size]), "time": TIME, "commanded": steady(3.0),
         "slides": steady(0.0), "bodies": np.zeros((1, 5)), "low": np.full(1, -math.inf),
         "high": np.full(1, math.inf), "frictions": np.zeros(1), "run_lags": np.zeros(1),
         "memory_groups": np.zeros(1), "c": make_model_constants(PLAIN), "w": NO_WIRES, "on": on,
-        "p": parameters, "memory": np.zeros(len(EFFECTS)), "ways": np.zeros(WAYS),
-        "began": np.zeros(1), "steps": EXACT, "plain": True,
-        "measured": np.zeros((0, 2)), "trust": np.zeros((0, 4)), "errors": np.zeros((0, 2)),
+        "p": parameters, "memory": np.zeros(len(EFFECTS)), "tables": np.zeros(TABLES_SIZE),
+        "start_times": np.zeros(1), "steps": EXACT, "base_only": True,
+        "measured": np.zeros((0, 2)), "kalman_gains": np.zeros((0, 4)), "errors": np.zeros((0, 2)),
         "out": np.zeros((TIME.size, 8)),
     }  # fmt: skip
     engine = compose_engine(EFFECTS)

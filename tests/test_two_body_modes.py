@@ -13,7 +13,7 @@ from sim.physics.engine.two_body_modes import (
     MOVES,
     ROW,
     STANDS,
-    WAYS,
+    TABLES_SIZE,
     apply_row,
     make_table,
     make_table_from_half,
@@ -80,9 +80,9 @@ def test_the_tables_are_the_matrix_exponential(dt, kv, bodies, swing, damping):
     reduced = own * other / (own + other)
     stiff = reduced * (2.0 * math.pi * swing) ** 2
     damp = 2.0 * damping * math.sqrt(stiff * reduced)
-    ways = np.zeros(WAYS)
+    tables = np.zeros(TABLES_SIZE)
 
-    prepare_series(ways, MOVES, kv, own, other, stiff, damp)
+    prepare_series(tables, MOVES, kv, own, other, stiff, damp)
 
     flow = np.zeros((6, 6))  # of d, v, w, y, b, r
     flow[0, 1:3] = 1.0, -1.0
@@ -92,49 +92,49 @@ def test_the_tables_are_the_matrix_exponential(dt, kv, bodies, swing, damping):
     for level in range(4):
         right = expm(flow * dt / 2**level)[:4][:, [0, 1, 2, 4, 5]]
         for make in (make_table_from_half, make_table):
-            made = numbers(ways, make(ways, MOVES, dt, level))
+            made = numbers(tables, make(tables, MOVES, dt, level))
             assert made == pytest.approx(right, rel=1e-6, abs=1e-8 * np.abs(right).max())
 
 
-def numbers(ways, at):
-    return ways[at : at + 4 * ROW].reshape(4, ROW)
+def numbers(tables, at):
+    return tables[at : at + 4 * ROW].reshape(4, ROW)
 
 
 def test_a_table_is_kept_for_the_next_step_and_made_anew_for_another():
-    ways = np.zeros(WAYS)
-    prepare_series(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)).copy()
-    half = numbers(ways, make_table_from_half(ways, MOVES, 0.01, 1)).copy()
-    kept = ways.copy()
+    tables = np.zeros(TABLES_SIZE)
+    prepare_series(tables, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)).copy()
+    half = numbers(tables, make_table_from_half(tables, MOVES, 0.01, 1)).copy()
+    kept = tables.copy()
 
-    make_table_from_half(ways, MOVES, 0.01, 0)
-    make_table(ways, MOVES, 0.01, 1)
-    assert (ways == kept).all()
+    make_table_from_half(tables, MOVES, 0.01, 0)
+    make_table(tables, MOVES, 0.01, 1)
+    assert (tables == kept).all()
 
-    assert numbers(ways, make_table_from_half(ways, MOVES, 0.005, 0)) == pytest.approx(half)
+    assert numbers(tables, make_table_from_half(tables, MOVES, 0.005, 0)) == pytest.approx(half)
 
-    prepare_series(ways, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
-    assert numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)) != pytest.approx(first)
+    prepare_series(tables, MOVES, 2.0, 0.1, 0.3, 50.0, 0.1)
+    assert numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)) != pytest.approx(first)
 
 
 def test_a_load_that_stands_has_tables_of_its_own():
-    ways = np.zeros(WAYS)
-    prepare_series(ways, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
-    first = numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)).copy()
+    tables = np.zeros(TABLES_SIZE)
+    prepare_series(tables, MOVES, 2.0, 0.1, 0.2, 50.0, 0.1)
+    first = numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)).copy()
 
-    prepare_series(ways, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
-    stands = numbers(ways, make_table_from_half(ways, STANDS, 0.01, 0))
+    prepare_series(tables, STANDS, 2.0, 0.1, 1e9, 50.0, 0.1)
+    stands = numbers(tables, make_table_from_half(tables, STANDS, 0.01, 0))
 
     assert stands[2].tolist() == pytest.approx([0.0, 0.0, 1.0, 0.0, 0.0], abs=1e-6)
-    assert (numbers(ways, make_table_from_half(ways, MOVES, 0.01, 0)) == first).all()
+    assert (numbers(tables, make_table_from_half(tables, MOVES, 0.01, 0)) == first).all()
 
 
 def test_a_row_is_what_a_motion_and_its_pushes_become():
-    ways = np.zeros(WAYS)
-    prepare_series(ways, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
-    at = make_table_from_half(ways, MOVES, 0.01, 0)
+    tables = np.zeros(TABLES_SIZE)
+    prepare_series(tables, MOVES, 0.0, 0.1, 0.2, 50.0, 0.0)
+    at = make_table_from_half(tables, MOVES, 0.01, 0)
 
-    fallen = apply_row(ways, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
+    fallen = apply_row(tables, at + 2 * ROW, 0.0, 0.0, 0.0, 0.0, -0.3)
 
     assert fallen == pytest.approx(-0.01 * 0.3 / 0.2, rel=0.01)
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from sim.core.errors import BadRequest
 
-FLATTEST, FULLEST = 9.0, 14.0  # [V] at rest: outside of this a robot does not start a test
-WORST = 0.1  # [Ω] of a battery that still turns a motor
+LOWEST, HIGHEST = 9.0, 14.0  # [V] at rest: the range in which a test is started
+LARGEST_RESISTANCE = 0.1  # [Ω] of a battery that still turns a motor
 
 
 @dataclass(frozen=True)
@@ -18,9 +18,9 @@ class RobotController:
     """Brownout thresholds of a robot controller.
 
     Args:
-        name: as on the command line.
-        brownout: [V] below which it disables the motors.
-        source: where the figures are from.
+        name: name on the command line.
+        brownout: [V] battery voltage below which it disables the motors.
+        source: source of the figures.
     """
 
     name: str
@@ -43,20 +43,20 @@ class Battery:
     """A battery under load.
 
     Args:
-        rest: [V] with nothing drawn from it.
+        rest: [V] voltage without current.
         resistance: [Ω] of battery and wires together.
 
     Raises:
-        BadRequest: no battery a robot would start with.
+        BadRequest: a voltage or resistance outside of what a robot starts a test with.
     """
 
     rest: float = 12.6
     resistance: float = 0.020
 
     def __post_init__(self) -> None:
-        if not (FLATTEST <= self.rest <= FULLEST and 0.0 <= self.resistance <= WORST):
+        if not (LOWEST <= self.rest <= HIGHEST and 0.0 <= self.resistance <= LARGEST_RESISTANCE):
             raise BadRequest(
                 f"a battery of {self.rest:g} V with {self.resistance:g} Ω",
-                advice=f"Choose {FLATTEST:g} to {FULLEST:g} V, and 0 to {WORST:g} Ω. "
+                advice=f"Choose {LOWEST:g} to {HIGHEST:g} V, and 0 to {LARGEST_RESISTANCE:g} Ω. "
                 "A good one has 12.6 V and 0.02 Ω.",
             )

@@ -1,14 +1,15 @@
 """The contract of an effect: physics that a model may contain, for simulation and for fitting.
 
-    V = kS·sgn(v) + kV·v + kA·a + what an effect pulls        everything is priced in volts
+    V = kS·sgn(v) + kV·v + kA·a + F(x, v)        all forces and torques are given in volts
 
-*Forward* is how it acts: small functions that ask for what they need by the names of their
-arguments, and are compiled into the engine (``engine/``). *Backward* is how it is found: what it
-looks like, where a search for its parameters starts, which test tells it from its look-alikes.
+The simulation of an effect is a set of small functions, the hooks, which are compiled into the
+engine (``engine/``). A hook gets the quantities that it names as its arguments. For identification
+an effect has a fingerprint in a log, start values for its parameters, and the tests that tell it
+from similar effects.
 
-A module of ``effects/`` defines one as ``EFFECT``. What a function may ask for, besides the
-effect's own parameters, is listed in ``HOOK_ARGUMENTS``; a function that asks for anything else is
-refused with a sentence.
+A module of ``effects/`` defines one effect as ``EFFECT``. The arguments that a hook may have,
+besides the effect's own parameters, are listed in ``HOOK_ARGUMENTS``; others are refused with a
+message.
 """
 
 import inspect
@@ -20,57 +21,59 @@ from typing import Any
 from sim.physics.voltage_residual import VoltageResidual
 
 KINDS = ("term", "path", "sense", "two-body")
-ONSET, UNTIL = "onset", "until"  # parameters of what happens once
-LATER = 1e6  # [s] end of an effect that lasts for good: later than any log
+ONSET, UNTIL = "onset", "until"  # parameters of an effect that starts and ends at a moment
+LATER = 1e6  # [s] end of an effect that does not end: later than any log
 MOMENT = 1e-6  # [s] by how much an effect outlasts a run, so that it acts on the last sample, too
 
 HOOK_ARGUMENTS: Mapping[str, tuple[str, ...]] = {
-    # a term: volts that the motor must pay on top of kS, kV and kA
+    # a term: [V] force beyond kS, kV and kA, at position ``x`` and velocity ``v``
     "force": ("x", "v"),
-    # dry friction beyond kS [V] when moving, or about to move, toward ``way`` (+1 or -1)
+    # [V] dry friction beyond kS while moving, or about to move, in direction ``way`` (+1 or -1)
     "coulomb_friction": ("v", "way"),
-    # inertia beyond kA [V·s²/unit]; ``clock`` is [s] since the log began
+    # [V·s²/unit] inertia beyond kA; ``clock`` is [s] since the log began
     "added_inertia": ("clock",),
-    # share of the momentum that what joins takes from what moves: 1 if it was at rest
+    # [1] share of the added inertia that was at rest, and takes momentum from the mechanism
     "impact": (),
-    # [s] of the clock at which inertia changes next: no step of the engine goes across it
+    # [s] time on the clock at which inertia changes next; a step of the engine ends there
     "next_change": ("clock",),
-    # a path: the voltage that gets through, from the voltage ``u`` that arrives
+    # a path: [V] output voltage for the input voltage ``u``
     "transform_voltage": ("u", "v", "kv", "memory"),
-    # [s] by which a command comes late
+    # [s] delay of a command
     "command_delay": (),
-    # the next ``memory`` of an effect that has one, after ``dt`` [s] under the voltage ``u``
+    # the ``memory`` of an effect after ``dt`` [s] under the voltage ``u``
     "update_memory": ("memory", "dt", "u", "v", "kv"),
-    # two bodies: free play [unit], softness [unit/V] and damping [1, of critical] of what joins
-    # them, the motor's shares of the friction and of kA [1]
+    # two bodies: backlash [unit], compliance [unit/V] and damping [share of critical] of the joint,
+    # and the motor's shares of the friction and of kA [1]
     "backlash_gap": (),
     "joint_compliance": (),
     "joint_damping": (),
     "motor_friction_share": (),
     "motor_inertia_share": (),
-    # two bodies: [V] of push that the floor passes on from the wheels to the robot
+    # two bodies: [V] largest traction between wheels and floor
     "grip_limit": (),
-    # a sense: what the sensor says instead of ``seen``, from the motion up to sample ``now``
+    # a sense: [unit/s] velocity that the sensor reports instead of ``seen``, from the motion up to
+    # sample ``now``
     "transform_velocity": ("seen", "now", "time", "position", "velocity"),
 }
-"""Hook -> the names of the engine's quantities that it may ask for, in SI."""
+"""Hook -> names of the engine's quantities that may be its arguments, in SI."""
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """One number of an effect.
+    """One parameter of an effect.
 
     Args:
-        name: a Python name, which the effect's functions use.
-        what: what it means, in a few words.
-        unit: with ``{u}`` for the unit of position: ``V·s²/{u}²``.
-        power: of the unit of position in the denominator: 2 for ``V·s²/{u}²``, -1 for ``{u}``.
-        least: smallest value that is physics.
-        most: largest.
-        neutral: the value at which the effect is not there.
-        searched: a search may move it a little at a time; if not, it takes what a start says.
-        counts: the data decide on it, so that it makes a hypothesis less likely beforehand.
-        stepwise: the simulation changes in jumps with it, so that a derivative needs a large step.
+        name: its Python name, which is an argument of the effect's functions.
+        what: its meaning, in a few words.
+        unit: its unit, with ``{u}`` for the unit of position: ``V·s²/{u}²``.
+        power: exponent of the unit of position in the denominator: 2 for ``V·s²/{u}²``, -1 for
+            ``{u}``.
+        least: smallest physical value.
+        most: largest physical value.
+        neutral: value at which the effect is absent.
+        searched: whether a search changes it in small steps; if not, it keeps its start value.
+        counts: whether the data determine it, so that it counts as a free parameter of a model.
+        stepwise: whether the simulation jumps with it, so that a derivative needs a large step.
     """
 
     name: str
@@ -87,16 +90,16 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Scale:
-    """Ordinary speeds, voltages and times of a mechanism, which set the sizes of effects.
+    """Typical voltage, travel and gains of a mechanism, which set the sizes of effects.
 
     Args:
         ks: [V].
         kv: [V·s/unit].
         ka: [V·s²/unit].
-        step: [V] of an ordinary dynamic test.
-        reach: [unit] that a test travels.
-        angular: positions are angles.
-        bounded: the travel has two ends.
+        step: [V] voltage of an ordinary dynamic test.
+        reach: [unit] distance that a test travels.
+        angular: whether positions are angles.
+        bounded: whether the travel has two ends.
         type: ``simple``, ``elevator`` or ``arm``.
     """
 
@@ -125,35 +128,34 @@ class Effect:
     """One physical effect: its parameters, its functions in the engine, and its start values.
 
     Args:
-        name: as on the command line: ``gravity-cosine``.
+        name: name on the command line: ``gravity-cosine``.
         kind: ``term``, ``path``, ``sense`` or ``two-body``.
-        summary: one line for a list.
-        formula: as in a lesson, with the symbols of ``parameters``.
-        parameters: the numbers it has.
-        fingerprint: what it does to a log, in plain words.
-        inspect: what to look at on the robot.
-        apart: look-alike -> the test that tells the two apart.
-        example: parameters of an ordinary case of a given size; 1 is ordinary, more is stronger.
-        start_values: where to begin a search, from what a log shows; the best guess first.
+        summary: one line for a list of effects.
+        formula: its formula, with the symbols of ``parameters``.
+        parameters: its parameters.
+        fingerprint: how it shows in a log, in plain words.
+        inspect: what to check on the robot.
+        apart: similar effect -> the test that tells the two apart.
+        example: parameters of a typical case, from the scale of a mechanism and a size; size 1 is
+            ordinary, more is stronger.
+        start_values: start values of a search, from the voltage residual of a log; the best first.
+        hooks: hook -> function; the hooks and their arguments are in ``HOOK_ARGUMENTS``.
+        symmetric: whether negated voltages give a negated motion, for all parameters.
+        stored_energy: [V·unit] potential energy, a function of ``x`` and the parameters, whose
+            slope is ``force``; None if it stores none.
+        shortest_time: [s] shortest time scale, from parameters and gains; None if it is not fast.
+        shortest_length: [unit] shortest length scale, from parameters, of an effect that depends on
+            position: it needs short steps only where the motion is fast. None if it has none.
+        narrowest_speed: [unit/s] shortest speed scale, from parameters: a search takes short steps
+            where the speed changes fast. None if it has none.
+        order: place in the path from command to motor or from motion to sensor, for a chain.
+        reason_against: why a mechanism cannot have it, from its scale; empty if it can.
         inertia_shares: [1] shares of kA with which the first start is tried as well, for an effect
             whose delay a model without it mistakes for inertia.
-        hooks: hook -> function; the hooks and what they may ask for are in ``HOOK_ARGUMENTS``.
-        symmetric: mirrored volts give mirrored motion, whatever the parameters.
-        stored_energy: [V·unit] energy that it holds at a position, for what can give energy back: a
-            function of ``x`` and the parameters. ``force`` is its slope.
-        shortest_time: [s] the fastest it acts, from parameters and gains; None if it is never fast.
-        shortest_length: [unit] way along which it stays much the same, from parameters, for what
-            depends on places: its steps are long where the motion is slow. None if it has none.
-        narrowest_speed: [unit/s] span of speed within which it stays much the same, from
-            parameters: a search takes short steps where the speed changes fast. None if it has
-            none.
-        order: where it stands along the path from command to motor, for a path.
-        reason_against: why a mechanism cannot have it, from its scale; empty if it can.
-        simpler: the effect with fewer parameters that does about the same; empty if there is none.
-        same_in_motion: the effect that is the same wherever the mechanism moves; empty if none is.
-        simplify: its parameters, from this one's and what a log shows.
-        is_ordinary: whether it is as small, with these parameters and beside these gains, as on any
-            robot in good order.
+        simpler: the effect with fewer parameters that acts about the same; empty if there is none.
+        same_in_motion: the effect that is equal to it while the mechanism moves; empty if none is.
+        simplify: parameters of ``simpler``, from those of this effect and the voltage residual.
+        is_ordinary: whether it is as small as on a robot in good order, from parameters and gains.
     """
 
     name: str
@@ -178,7 +180,7 @@ class Effect:
     simpler: str = ""
     same_in_motion: str = ""
     simplify: Callable[[Mapping[str, float], VoltageResidual], Mapping[str, float]] = field(
-        default=lambda _values, _seen: {}
+        default=lambda _values, _residual: {}
     )
     is_ordinary: Callable[[Mapping[str, float], Mapping[str, float]], bool] = field(
         default=lambda _, __: False
@@ -191,7 +193,7 @@ class Effect:
 
     @property
     def has_onset(self) -> bool:
-        """Whether the effect can start and end during a run, like an added load."""
+        """Whether the effect starts and ends at a moment, like an added load."""
         return {ONSET, UNTIL} <= set(self.names)
 
     @property
@@ -201,16 +203,16 @@ class Effect:
 
     @property
     def slips(self) -> bool:
-        """Whether it lets wheels slip on the floor."""
+        """Whether it is slip of wheels on the floor."""
         return "grip_limit" in self.hooks
 
     @property
     def neutral(self) -> dict[str, float]:
-        """Parameter values at which the effect vanishes."""
+        """Parameter -> the value at which the effect is absent."""
         return {parameter.name: parameter.neutral for parameter in self.parameters}
 
     def find_contract_breaches(self) -> list[str]:
-        """What is wrong with this effect as it is written; empty if nothing is."""
+        """Sentences that say how this effect breaks the contract; empty if it does not."""
         found = []
         if self.kind not in KINDS:
             found.append(f"kind is {self.kind!r}; choose one of: {', '.join(KINDS)}")
@@ -223,10 +225,10 @@ class Effect:
                 )
                 continue
             known = (*HOOK_ARGUMENTS[hook], *self.names)
-            asked = inspect.signature(act).parameters
+            arguments = inspect.signature(act).parameters
             found.extend(
                 f"{hook} asks for {name!r}; it may ask for: {', '.join(known)}"
-                for name in asked
+                for name in arguments
                 if name not in known
             )
         if "transform_voltage" in self.hooks and not self.order:
@@ -237,7 +239,7 @@ class Effect:
 def are_compatible(effects: Iterable[Effect]) -> bool:
     """Whether one model can hold these effects: it has at most two bodies.
 
-    A joint has a motor and its load, slip has wheels and a robot; both together would be three.
+    A joint couples motor and load, slip couples wheels and robot; both together would be three.
     """
     known = tuple(effects)
     return not (any(one.is_joint for one in known) and any(one.slips for one in known))

@@ -12,7 +12,7 @@ from sim.core.errors import BadRequest
 from sim.core.log import TYPES
 from sim.core.units import Unit
 from sim.physics.effect import are_compatible
-from sim.physics.effects import find_effect as find
+from sim.physics.effects import find_effect
 
 
 @dataclass(frozen=True)
@@ -20,18 +20,18 @@ class Part:
     """An effect with its parameters.
 
     Args:
-        effect: its name.
-        parameters: name -> value, in SI.
+        effect: name of the effect.
+        parameters: parameter -> value, in SI.
 
     Raises:
-        BadRequest: no such effect, a parameter is missing, unknown or outside of what is physics.
+        BadRequest: no such effect, or a parameter is missing, unknown or not physical.
     """
 
     effect: str
     parameters: Mapping[str, float]
 
     def __post_init__(self) -> None:
-        known = find(self.effect)
+        known = find_effect(self.effect)
         if set(self.parameters) != set(known.names):
             raise BadRequest(
                 f"{self.effect} with {', '.join(self.parameters) or 'no parameters'}",
@@ -46,7 +46,7 @@ class Part:
                 )
 
     def to_json(self, per: Unit) -> dict[str, dict[str, float | str]]:
-        """The parameters in the owner's unit: name -> its value and its unit, for JSON.
+        """The parameters in a unit of position, for JSON: name -> its value and its unit.
 
         Args:
             per: the unit of position.
@@ -56,7 +56,7 @@ class Part:
                 "value": self.parameters[parameter.name] * per.si**parameter.power,
                 "unit": parameter.unit.format(u=per.symbol),
             }
-            for parameter in find(self.effect).parameters
+            for parameter in find_effect(self.effect).parameters
         }
 
 
@@ -69,6 +69,9 @@ class Model:
         gains: kS [V], kV, kA, and kG [V] (with ``offset_rad`` for an arm) where there is gravity.
         parts: the effects on top; each at most once.
         travel: [m or rad] the lower and the upper stop; None has none.
+
+    Raises:
+        BadRequest: an unknown type, an effect that is there twice, or slip together with a joint.
 
     Examples:
         >>> plain = Model("simple", {"kS": 0.1, "kV": 2.5, "kA": 0.4})
@@ -90,7 +93,7 @@ class Model:
         names = [part.effect for part in self.parts]
         if twice := [name for name in names if names.count(name) > 1]:
             raise BadRequest(f"{twice[0]} is there twice", advice="Add each effect once.")
-        if not are_compatible(map(find, names)):
+        if not are_compatible(map(find_effect, names)):
             raise BadRequest(
                 f"{' and '.join(names)} in one model",
                 advice="Choose slipping wheels or a joint (backlash, compliance), not both.",

@@ -22,7 +22,7 @@ class Motor:
     """One motor at 12 V.
 
     Args:
-        name: as WPILib names it.
+        name: its name in WPILib.
         stall_torque: [N·m].
         stall_current: [A].
         free_current: [A].
@@ -47,7 +47,7 @@ class Motor:
 
     @property
     def back_emf(self) -> float:
-        """[V·s/rad] voltage per speed of the shaft, with the free current's own drop taken off."""
+        """[V·s/rad] back-EMF constant: without the voltage drop of the free current."""
         return (NOMINAL - self.resistance * self.free_current) / self.free_speed
 
 

@@ -11,10 +11,10 @@ def replay_log(model: Model, log: Log, *, step: float | None = None) -> tuple[Tr
     """Simulate a model under a log's voltages, open loop.
 
     Args:
-        model: what moves.
-        log: any runs. Each begins at the position and velocity of its first sample; what an effect
-            remembers goes on from run to run.
-        step: [s] the longest; None chooses.
+        model: the model.
+        log: any runs. Each starts at the position and velocity of its first sample; the memory of
+            effects, like the heat of a motor, is kept from run to run.
+        step: [s] longest integration step; None chooses.
 
     Returns:
         One track for each run.
@@ -48,9 +48,9 @@ def cool_down(state: State, model: Model, pause: float) -> None:
     """Let time pass without voltage or motion, so that the motor cools.
 
     Args:
-        state: whose memory is brought up to date; its clock is left alone.
-        model: whose effects remember.
-        pause: [s]; nothing happens in none.
+        state: the state; its memory is updated, its clock is not.
+        model: the model whose effects have memory.
+        pause: [s] length of the pause; nothing happens if it is not positive.
     """
     if pause <= 0.0:
         return
@@ -58,9 +58,9 @@ def cool_down(state: State, model: Model, pause: float) -> None:
         update = EFFECTS[part.effect].hooks.get("update_memory")
         if update is not None:
             place = ORDER[part.effect]
-            given = {
+            values = {
                 "memory": float(state.memory[place]), "dt": pause, "u": 0.0, "v": 0.0,
                 "kv": model.gains["kV"], **part.parameters,
             }  # fmt: skip
-            asked = update.__code__.co_varnames[: update.__code__.co_argcount]
-            state.memory[place] = update(**{name: given[name] for name in asked})
+            names = update.__code__.co_varnames[: update.__code__.co_argcount]
+            state.memory[place] = update(**{name: values[name] for name in names})

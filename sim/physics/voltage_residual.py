@@ -1,10 +1,10 @@
-"""The voltage residual of a model, sample by sample: what its terms do not account for.
+"""The voltage residual of a model, sample by sample: measured voltage minus that of the model.
 
     missing = V - (kS·sgn(v) + kV·v + kA·a + gravity)
 
-An effect starts its search from this (``Effect.start_values``). The acceleration is taken over a
-few samples, so that noise does not drown what is looked for; where the mechanism does not move,
-friction is a bound and not a value, and nothing is said.
+The start values of an effect are computed from it (``Effect.start_values``). The acceleration is a
+difference over a few samples, to reduce noise. Samples at rest are left out, because there friction
+is only known to be below kS.
 """
 
 from collections.abc import Mapping
@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 
-ACROSS = 0.04  # [s] that a difference of velocities spans, at least two samples
-ENDLESS = 8.0 * np.pi  # [rad] four turns: more than any arm or turret, soon done by a wheel
+SPAN = 0.04  # [s] over which velocities are differentiated; at least two samples
+ENDLESS = 8.0 * np.pi  # [rad] four turns: more than any arm or turret makes, unlike a wheel
 SHORTEST = 5  # [samples] of a run that can be differentiated
-HARDLY = 1e-9  # [1] of a combination of columns that the log says anything about
-MOVING = 0.03  # [share of the top speed] slower samples say nothing about a gain
+NEGLIGIBLE = 1e-9  # [1] a smaller relative norm or eigenvalue is rounding
+MOVING = 0.03  # [share of the top speed] slower samples are left out
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,16 +30,17 @@ class VoltageResidual:
     """The voltage residual at the samples at which a mechanism moved.
 
     Args:
-        log: where they come from.
-        gains: of the model: kS [V], kV, kA, and kG [V] with ``offset_rad`` where there is gravity.
-        run: (n,) which run of the log, from 0.
+        log: the log.
+        gains: of the model: kS [V], kV [V·s/unit], kA [V·s²/unit], and kG [V] for an elevator, or
+            kG with ``offset_rad`` for an arm.
+        run: (n,) index of the run in the log.
         clock: (n,) [s] since the log began; pauses between runs count if the log shows them.
         since: (n,) [s] since its run began.
-        voltage: (n,) [V].
+        voltage: (n,) [V] mean over the span of the acceleration.
         position: (n,) [m or rad].
         velocity: (n,) [m/s or rad/s].
         acceleration: (n,) [m/s² or rad/s²].
-        missing: (n,) [V].
+        missing: (n,) [V] voltage minus that of the model.
     """
 
     log: Log
@@ -60,7 +61,7 @@ class VoltageResidual:
 
     @property
     def is_unbounded(self) -> bool:
-        """Whether it turned so far that its travel cannot be limited."""
+        """Whether it turned farther than a mechanism with limited travel can."""
         return find_unit(self.log.units).angular and bool(np.ptp(self.position) > ENDLESS)
 
     def select_samples(self, some: slice) -> "VoltageResidual":
@@ -75,44 +76,44 @@ class VoltageResidual:
         return replace(self, **arrays)
 
     def fit_columns(self, *columns: Array) -> Array:
-        """Least-squares weights with which columns (n,) sum up to ``missing``; the gains adjust.
+        """Regression coefficients (k,) of ``missing`` on k columns (n,), together with the gains.
 
-        A column that looks like friction, back-EMF, inertia or a constant is not credited with what
-        those can explain by themselves: they are in the sum, and forgotten.
+        The terms of the gains are regressors as well, and their coefficients are dropped. So a
+        column does not get what a change of kS, kV, kA or gravity explains.
         """
         return np.asarray(self.fit_column_sets(*(column[:, None] for column in columns))[:, 0])
 
     def fit_column_sets(self, *columns: Array) -> Array:
-        """(k, m) least-squares weights of k columns, each (n, m): m separate fits."""
-        kept, rest = self._adjusted
+        """(k, m) coefficients of m separate regressions on k columns each; a column is (n, m)."""
+        basis, rest = self._projection
         table = np.stack(columns)
         whole = np.linalg.norm(table, axis=1)
-        table -= kept @ (kept.T @ table)
+        table -= basis @ (basis.T @ table)
         size = np.linalg.norm(table, axis=1)
-        size[size <= HARDLY * whole] = np.inf
+        size[size <= NEGLIGIBLE * whole] = np.inf
         table /= size[:, None]
         square = np.array([[np.sum(one * other, axis=0) for other in table] for one in table])
-        told, ways = np.linalg.eigh(square.T)
-        parts = ways.transpose(0, 2, 1) @ (rest @ table).T[..., None]
-        parts /= np.where(told > HARDLY, told, np.inf)[..., None]
-        return np.asarray((ways @ parts)[..., 0].T / size)
+        values, vectors = np.linalg.eigh(square.T)
+        parts = vectors.transpose(0, 2, 1) @ (rest @ table).T[..., None]
+        parts /= np.where(values > NEGLIGIBLE, values, np.inf)[..., None]
+        return np.asarray((vectors @ parts)[..., 0].T / size)
 
     def fit_one_column(self, column: Array) -> tuple[float, float]:
-        """Weight of one column (n,), and the sum of squares [V²] of ``missing`` it explains.
+        """Coefficient of one column (n,), and the sum of squares [V²] of ``missing`` it explains.
 
-        The gains adjust, as in ``fit_columns``.
+        The terms of the gains are regressors as well, as in ``fit_columns``.
         """
-        kept, rest = self._adjusted
-        left = column - kept @ (kept.T @ column)
+        basis, rest = self._projection
+        left = column - basis @ (basis.T @ column)
         square = float(left @ left)
-        if square <= HARDLY**2 * float(column @ column):
+        if square <= NEGLIGIBLE**2 * float(column @ column):
             return 0.0, 0.0
         product = float(left @ rest)
         return product / square, product**2 / square
 
     @cached_property
-    def _adjusted(self) -> tuple[Array, Array]:
-        """(n, k) friction, back-EMF, inertia and gravity, orthonormal; (n,) what is missing off."""
+    def _projection(self) -> tuple[Array, Array]:
+        """(n, k) orthonormal basis of the gains' terms, (n,) ``missing`` minus its projection."""
         columns = [np.sign(self.velocity), self.velocity, self.acceleration]
         if "offset_rad" in self.gains:
             columns += [np.cos(self.position), np.sin(self.position)]
@@ -121,8 +122,8 @@ class VoltageResidual:
         known = np.column_stack(columns)
         size = np.linalg.norm(known, axis=0)
         size[size == 0.0] = 1.0
-        kept, _ = np.linalg.qr(known / size)
-        return kept, self.missing - kept @ (kept.T @ self.missing)
+        basis, _ = np.linalg.qr(known / size)
+        return basis, self.missing - basis @ (basis.T @ self.missing)
 
 
 def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - the field's own word
@@ -130,7 +131,8 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
 
     Args:
         log: any runs.
-        gains: kS, kV, kA, and kG (with ``offset_rad`` for an arm) where ``type`` has gravity.
+        gains: kS, kV, kA, and kG (with ``offset_rad`` for an arm) where ``type`` has gravity, in
+            SI.
         type: ``simple``, ``elevator`` or ``arm``.
     """
     starts = list_run_start_times(log)
@@ -138,24 +140,22 @@ def compute_voltage_residual(log: Log, gains: Mapping[str, float], *, type: str)
     top = max((float(np.max(np.abs(p[5]), initial=0.0)) for p in parts), default=0.0)
     table = np.concatenate([p[:, np.abs(p[5]) > MOVING * top] for p in parts], axis=1)
     run, clock, since, voltage, position, velocity, acceleration = table
-    accounted = (
-        gains["kS"] * np.sign(velocity) + gains["kV"] * velocity + gains["kA"] * acceleration
-    )
+    modelled = gains["kS"] * np.sign(velocity) + gains["kV"] * velocity + gains["kA"] * acceleration
     if type == "elevator":
-        accounted += gains["kG"]
+        modelled += gains["kG"]
     elif type == "arm":
-        accounted += gains["kG"] * np.cos(position + gains.get("offset_rad", 0.0))
+        modelled += gains["kG"] * np.cos(position + gains.get("offset_rad", 0.0))
     return VoltageResidual(
         log, gains, run.astype(np.intp), clock, since, voltage, position, velocity, acceleration,
-        voltage - accounted,
+        voltage - modelled,
     )  # fmt: skip
 
 
 def list_run_start_times(log: Log) -> Array:
     """(runs,) [s] start of each run, from the start of the first.
 
-    Where the times of runs do not follow one another, as in a file in which each begins at zero,
-    they are laid end to end.
+    If the times of the runs overlap, as in a file in which each begins at zero, the runs are placed
+    one after another without pauses.
     """
     first = np.array([run.time[0] for run in log.runs])
     last = np.array([run.time[-1] for run in log.runs])
@@ -167,7 +167,7 @@ def list_run_start_times(log: Log) -> Array:
 def shares_clock(log: Log) -> bool:
     """Whether the runs share one clock, so that the pauses between them are known.
 
-    Where they do not, nobody knows how long a motor cooled: each run is taken to begin cold.
+    If they do not, the time for which a motor cooled is unknown, and each run begins cold.
     """
     runs = log.runs
     return all(one.time[-1] < other.time[0] for one, other in pairwise(runs))
@@ -178,16 +178,16 @@ def _rows(run: Run, number: int, clock: float) -> Array:
     since = run.time - run.time[0]
     if len(run) < SHORTEST:
         return np.empty((7, 0))
-    reach = max(1, round(0.5 * ACROSS / float(np.median(np.diff(run.time)))))
+    reach = max(1, round(0.5 * SPAN / float(np.median(np.diff(run.time)))))
     if len(run) <= 2 * reach:
         return np.empty((7, 0))
     acceleration = (run.velocity[2 * reach :] - run.velocity[: -2 * reach]) / (
         run.time[2 * reach :] - run.time[: -2 * reach]
     )
-    # the voltage that made this difference is the mean over its span, not the one in its middle
+    # the voltage that caused this difference is the mean over its span
     mean = run.voltage + 0.5 * run.voltage_slide
-    paid = np.concatenate(([0.0], np.cumsum(mean[:-1] * np.diff(run.time))))
-    voltage = (paid[2 * reach :] - paid[: -2 * reach]) / (
+    integral = np.concatenate(([0.0], np.cumsum(mean[:-1] * np.diff(run.time))))
+    voltage = (integral[2 * reach :] - integral[: -2 * reach]) / (
         run.time[2 * reach :] - run.time[: -2 * reach]
     )
     inner = slice(reach, -reach)

@@ -1,4 +1,4 @@
-"""The effects that a model may contain, one file each: the physics we can name."""
+"""The catalogue of effects that a model may contain, one file each."""
 
 import sys
 from typing import cast
@@ -14,10 +14,10 @@ EFFECTS: dict[str, Effect] = {
 
 
 def find_motion_class(name: str) -> str:
-    """The common name of effects that look alike while the mechanism moves.
+    """The common name of effects that act the same while the mechanism moves.
 
     Args:
-        name: of an effect; any other name, as that of a fault, stands for itself.
+        name: name of an effect; any other name, like that of a fault, is returned unchanged.
 
     Examples:
         >>> find_motion_class("asymmetric-friction")

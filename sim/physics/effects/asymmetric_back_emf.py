@@ -1,4 +1,4 @@
-"""Asymmetric back-EMF: a motor that is faster one way, by its timing or by what drags along.
+"""Asymmetric back-EMF: a motor that is faster in one direction, mostly by its timing.
 
 V = ... + (kV + lean·sgn v)·v
 """
@@ -21,9 +21,9 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"lean": 0.125 * scale.kv * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the share of |v| in the voltage residual."""
-    (lean,) = seen.fit_columns(np.abs(seen.velocity))
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on |v|."""
+    (lean,) = residual.fit_columns(np.abs(residual.velocity))
     yield {"lean": float(lean)}
 
 

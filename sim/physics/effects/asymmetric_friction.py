@@ -1,8 +1,9 @@
-"""Asymmetric friction: one direction rubs more than the other.
+"""Asymmetric friction: dry friction that is larger in one direction.
 
     V = (kS + lean)·sgn(v) + ...  forward          (kS - lean)·sgn(v) + ...  in reverse
 
-While it moves this cannot be told from a constant load; at rest it can, since friction holds.
+In motion this is equal to a constant load. At rest friction holds the mechanism, and a load does
+not.
 """
 
 from collections.abc import Iterator, Mapping
@@ -12,11 +13,11 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
+EVERYDAY = 0.025  # [V] by which friction varies between runs anyway: a tenth of a usual kS
 
 
 def coulomb_friction(way: float, lean: float) -> float:
-    """[V] dry friction beyond kS."""
+    """[V] dry friction beyond kS in direction ``way``."""
     return lean * way
 
 
@@ -25,14 +26,14 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"lean": 0.67 * scale.ks * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the constant that the voltage residual contains, fitted beside the gains."""
-    (lean,) = seen.fit_columns(np.ones_like(seen.missing))
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on a constant."""
+    (lean,) = residual.fit_columns(np.ones_like(residual.missing))
     yield {"lean": float(lean)}
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: no gear and no bearing is alike both ways."""
+    """Whether it is normal: no gear and no bearing is equal in both directions."""
     return abs(values["lean"]) <= EVERYDAY
 
 

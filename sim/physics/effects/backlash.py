@@ -2,9 +2,9 @@
 
     the motor pushes the load only after it has crossed the slack
 
-Gear lash, a loose hex shaft, a chain with slack: at every start and every turn the motor first runs
-free with its own inertia (``share`` of kA) and its own friction (``motor_friction`` of all), then
-the teeth meet. Teeth push, but never pull, so with ``damping`` ζ they part with
+Gear lash, a loose hex shaft, a chain with slack: at every start and change of direction the motor
+first moves alone, with its own inertia (``share`` of kA) and its own friction (``motor_friction``
+of all), then the teeth meet. Teeth cannot pull, so with ``damping`` ζ they part with
 
     exp(-ζ/√(1 - ζ²)·(π - φ))        φ = atan2(2ζ√(1 - ζ²), 1 - 2ζ²)
 
@@ -17,13 +17,13 @@ from collections.abc import Iterator, Mapping
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-MOMENTS = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] that a log can show at a start
-BOUNCE = 0.13  # [1] damping of hard teeth, with which a search begins
-LIGHT, HEAVY = 0.2, 0.5  # [1] shares of the motor: a search from one seldom finds the other
+TIMES = (0.001, 0.002, 0.004, 0.008, 0.016, 0.03)  # [s] at top speed, through the backlash
+BOUNCE = 0.13  # [1] damping of hard teeth
+LIGHT, HEAVY = 0.2, 0.5  # [1] shares of kA: a search from one seldom finds the other
 
 
 def backlash_gap(slack: float) -> float:
-    """[unit] free play between the flanks of the teeth."""
+    """[unit] free play between the teeth: the parameter ``slack`` itself."""
     return slack
 
 
@@ -48,11 +48,11 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"slack": slack, "share": 0.25, "damping": 0.3, "motor_friction": 0.25}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: some milliseconds at top speed, with several shares of kA in the motor."""
     for share in (LIGHT, HEAVY):
-        for moment in MOMENTS:
-            slack = moment * max(seen.top_speed, 1e-6)
+        for moment in TIMES:
+            slack = moment * max(residual.top_speed, 1e-6)
             yield {"slack": slack, "share": share, "damping": BOUNCE, "motor_friction": 0.25}
 
 

@@ -2,8 +2,8 @@
 
     u - kV·v becomes (u - kV·v)/(1 + share·d²)        d = |u|/12 V, share = n·Rb/R
 
-with n motors of resistance R on a battery of resistance Rb, for a controller that is told a duty
-cycle. It is hidden where the log holds what was asked for instead of what was applied.
+with n motors of resistance R on a battery of resistance Rb, for a controller whose command is a
+duty cycle. The log does not show it if it contains the commanded instead of the applied voltage.
 """
 
 from collections.abc import Iterator, Mapping
@@ -13,8 +13,8 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.1  # [1] of a battery in good order
-NOMINAL = 12.0  # [V] that a duty cycle of one stands for
+EVERYDAY = 0.1  # [1] share of a battery in good order
+NOMINAL = 12.0  # [V] command of a duty cycle of one
 
 
 def transform_voltage(u: float, v: float, kv: float, share: float) -> float:
@@ -29,18 +29,18 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     return {"share": 2.4 * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the voltage residual at large currents, and two more sizes."""
-    duty = np.minimum(np.abs(seen.voltage) / NOMINAL, 1.0)
-    torque = seen.voltage - seen.gains["kV"] * seen.velocity
-    (share,) = seen.fit_columns(torque * duty**2)
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on (u - kV·v)·d², and two more sizes."""
+    duty = np.minimum(np.abs(residual.voltage) / NOMINAL, 1.0)
+    torque = residual.voltage - residual.gains["kV"] * residual.velocity
+    (share,) = residual.fit_columns(torque * duty**2)
     yield {"share": float(np.clip(share, 0.05, 30.0))}
     yield {"share": 1.0}
     yield {"share": 6.0}
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: a good battery with good plugs."""
+    """Whether it is normal: a good battery with good plugs has as much."""
     return values["share"] <= EVERYDAY
 
 

@@ -1,8 +1,8 @@
-"""Cogging: a force that comes back every so often along the way.
+"""Cogging: a force that is periodic in the position.
 
     V = ... + cosine·cos(turns·x) + sine·sin(turns·x)
 
-Magnets that pass iron, a sprocket out of round, a bent shaft, a belt that skips a tooth's worth.
+Causes are magnets that pass iron, a sprocket that is not round, and a bent shaft.
 """
 
 import math
@@ -13,11 +13,11 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.06  # [V]
+EVERYDAY = 0.06  # [V] amplitude in any mechanism, from gear teeth and magnets
 
-FEWEST, MOST, FINER = 4.0, 80.0, 0.25  # [1] times that it comes back within what a log covers
-ENOUGH = 1500  # samples that show a spectrum
-SHOWN = 3  # peaks of the spectrum that are worth a start
+FEWEST, MOST, FINER = 4.0, 80.0, 0.25  # [periods along the travel] first, last, and step
+ENOUGH = 1500  # samples of which a spectrum is computed
+PEAKS = 3  # peaks of the spectrum that become start values
 
 
 def force(x: float, cosine: float, sine: float, turns: float) -> float:
@@ -46,25 +46,25 @@ def shortest_length(values: Mapping[str, float]) -> float:
     return 1.0 / max(values["turns"], 1e-9)
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the strongest lines in the voltage residual's spectrum over position.
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: the highest peaks in the spectrum of the voltage residual over position.
 
-    What comes back less than four times is not seen to come back: a bump, or a brake along a part
-    of the way, has one wave or two.
+    Fewer than four periods along the travel do not show that a force is periodic: a bump, or a
+    brake along a part of the travel, gives one or two.
     """
-    length = float(np.ptp(seen.position)) if seen.position.size else 0.0
+    length = float(np.ptp(residual.position)) if residual.position.size else 0.0
     if length <= 0.0:
         return
     tried = 2.0 * math.pi * np.arange(FEWEST, MOST, FINER) / length
-    some = slice(None, None, max(seen.position.size // ENOUGH, 1))
-    few = seen.select_samples(some)
-    turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # by which each wave is ahead
+    some = slice(None, None, max(residual.position.size // ENOUGH, 1))
+    few = residual.select_samples(some)
+    turned = np.exp(1j * (tried[1] - tried[0]) * few.position)  # from one wave to the next
     waves = np.repeat(turned[:, None], tried.size, axis=1)
     waves[:, 0] = np.exp(1j * tried[0] * few.position)
     waves = np.multiply.accumulate(waves, axis=1)
     cosine, sine = few.fit_column_sets(waves.real, waves.imag)
     left = np.hypot(cosine, sine)
-    for _ in range(SHOWN):
+    for _ in range(PEAKS):
         best = int(np.argmax(left))
         yield {
             "cosine": float(cosine[best]),
@@ -75,7 +75,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: the ripple that teeth and magnets leave in any mechanism."""
+    """Whether it is normal: teeth and magnets cause as much in any mechanism."""
     return math.hypot(values["cosine"], values["sine"]) <= EVERYDAY
 
 

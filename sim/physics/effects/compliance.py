@@ -1,10 +1,10 @@
-"""Compliance: what joins motor and load gives way and swings back.
+"""Compliance: an elastic joint between motor and load, which oscillates.
 
     push = (x_motor - x_load)/softness, and damping
 
-A belt, a long shaft, an arm that bends: the motor's encoder sees the load swing after every change
+A belt, a long shaft, an arm that bends: the motor's encoder shows an oscillation after every change
 of voltage. ``share`` of kA and ``motor_friction`` of the friction are on the motor's side;
-``damping`` is that of the swing, as a share of critical damping.
+``damping`` is a share of critical damping.
 """
 
 import math
@@ -14,13 +14,13 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
 SLOWEST, NEXT, TRIED = 2.0, 1.15, 23
-"""[Hz] of swings that a log can show, how many times faster the next one is, and how many: between
-two of them a search finds its way, unless the motor is light; up to 43 Hz, which look slower."""
-LIGHT, HALF = 0.15, 0.5  # [1] shares of the motor: a search from one seldom finds the other
+"""[Hz] lowest frequency of the start values, ratio of each to the one before, and their number. The
+last is 43 Hz. From a neighbor a search converges, unless the motor is light."""
+LIGHT, HALF = 0.15, 0.5  # [1] shares of kA: a search from one seldom finds the other
 
 
 def joint_compliance(softness: float) -> float:
-    """[unit/V] compliance of the joint between motor and load."""
+    """[unit/V] compliance of the joint: the parameter ``softness`` itself."""
     return softness
 
 
@@ -40,15 +40,15 @@ def motor_friction_share(motor_friction: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of a given size; size 1 is a swing at 5 Hz, the motor held; larger is slower."""
+    """Parameters of a given size; size 1 oscillates at 5 Hz with the motor held."""
     stiff = 0.7 * scale.ka * (2.0 * math.pi * 5.0) ** 2
     return {"softness": size / stiff, "share": 0.3, "damping": 0.05, "motor_friction": 0.3}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: resonances that a log can show; the motor has little or half of the inertia."""
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: resonances of 2 to 43 Hz, with little or half of the inertia in the motor."""
     for share in (LIGHT, HALF):
-        reduced = share * (1.0 - share) * abs(seen.gains["kA"])
+        reduced = share * (1.0 - share) * abs(residual.gains["kA"])
         for number in range(TRIED):
             stiff = reduced * (2.0 * math.pi * SLOWEST * NEXT**number) ** 2
             soft = 1.0 / max(stiff, 1e-9)

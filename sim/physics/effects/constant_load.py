@@ -1,4 +1,4 @@
-"""Constant load: a force that is always there, whichever way it moves: weight, a slope.
+"""Constant load: a force in one direction, like weight or a slope.
 
     V = ... + load
 
@@ -12,7 +12,7 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.025  # [V] what a run's own friction differs by anyway: a tenth of a usual kS
+EVERYDAY = 0.025  # [V] by which friction varies between runs anyway: a tenth of a usual kS
 
 
 def force(load: float) -> float:
@@ -30,14 +30,14 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"load": 0.125 * scale.step * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the constant that the voltage residual contains, fitted beside the gains."""
-    (load,) = seen.fit_columns(np.ones_like(seen.missing))
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on a constant."""
+    (load,) = residual.fit_columns(np.ones_like(residual.missing))
     yield {"load": float(load)}
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: no floor is level, and no gear runs alike both ways."""
+    """Whether it is normal: no floor is level, and no gear is equal in both directions."""
     return abs(values["load"]) <= EVERYDAY
 
 

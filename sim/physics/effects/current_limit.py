@@ -1,8 +1,9 @@
-"""Current limit: the controller holds the motor's current, and with it the torque, below a bound.
+"""Current limit: the controller limits the motor's current, and so its torque.
 
     |u - kV·v| ≤ limit        limit = R·I, the voltage that drives the limiting current
 
-The rise of a step is a straight line instead of an exponential until the limit lets go.
+While the limit is active, the velocity of a step rises in a straight line instead of an
+exponential.
 """
 
 from collections.abc import Iterator, Mapping
@@ -24,13 +25,13 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"limit": max(0.55 * scale.step / size, 1.2 * scale.ks)}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the largest torque voltage of the acceleration, and shares of it."""
-    torque = seen.voltage - seen.gains["kV"] * seen.velocity
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: the largest u - kV·v that the motion needs, and shares of the commanded one."""
+    torque = residual.voltage - residual.gains["kV"] * residual.velocity
     most = float(np.max(np.abs(torque), initial=0.0))
-    had = np.abs(torque - seen.missing)
-    if had.size:
-        yield {"limit": max(float(np.quantile(had, 0.98)), 0.1)}
+    needed = np.abs(torque - residual.missing)
+    if needed.size:
+        yield {"limit": max(float(np.quantile(needed, 0.98)), 0.1)}
     for part in (0.8, 0.6, 0.4):
         yield {"limit": max(part * most, 0.1)}
 

@@ -3,7 +3,7 @@
     u = 0 where |u| < band
 
 Phoenix calls it the neutral deadband. Phoenix 5 sets 4 % (0.48 V of 12), Phoenix 6 none; teams can
-set up to 25 %. Friction that is smaller than the deadband does not show. Phoenix 6:
+set up to 25 %. A kS below the deadband does not show in a log. Phoenix 6:
 https://api.ctr-electronics.com/phoenix6/stable/cpp/_motor_output_configs_8hpp_source.html
 """
 
@@ -23,15 +23,15 @@ def transform_voltage(u: float, band: float) -> float:
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of a given size; size 1 is a third of a volt more than kS already holds."""
+    """Parameters of a given size; size 1 is a third of a volt above kS."""
     return {"band": scale.ks + 0.33 * size}
 
 
 def find_start_values(_: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: all thresholds up to three volts, each an eighth above the one below.
+    """Start values: thresholds up to three volts, each an eighth above the one before.
 
-    The likelihood changes in jumps with a threshold, so a search from far away does not find it. On
-    a mechanism that sinks under its own weight, the ramps do not show where it is.
+    The likelihood changes in jumps with the threshold, so a search from far away does not converge.
+    If the mechanism sinks under its own weight, the ramps do not show the threshold either.
     """
     yield from ({"band": SMALLEST * NEXT**number} for number in range(TRIED))
 

@@ -2,7 +2,7 @@
 
     u(t) = V(t - lag)
 
-The bus, the controller's own loop, a filter on the command: everything happens a little later.
+The causes are the CAN bus, the loop of the controller, and filters on the command.
 """
 
 from collections.abc import Iterator, Mapping
@@ -12,11 +12,11 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.006  # [s]
+EVERYDAY = 0.006  # [s] of a CAN bus and a loop of 200 Hz
 
 
 def command_delay(lag: float) -> float:
-    """[s] by which a command comes late."""
+    """[s] delay of a command: the parameter ``lag`` itself."""
     return lag
 
 
@@ -25,22 +25,22 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     return {"lag": 0.03 * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the delay with which steps begin to move, and a few more."""
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: the time from a step to the motion, less that of the model, and a few more."""
     steps = []
-    for run in seen.log.runs:
-        moving = np.abs(run.velocity) > 0.05 * seen.top_speed
+    for run in residual.log.runs:
+        moving = np.abs(run.velocity) > 0.05 * residual.top_speed
         if run.kind == "dynamic" and moving.any():
             steps.append(float(run.time[np.argmax(moving)] - run.time[0]))
     if steps:
-        expected = 0.05 * seen.gains["kA"] / max(seen.gains["kV"], 1e-9)
+        expected = 0.05 * residual.gains["kA"] / max(residual.gains["kV"], 1e-9)
         yield {"lag": float(np.clip(np.median(steps) - expected, 0.002, 0.2))}
     for lag in (0.01, 0.03, 0.06):
         yield {"lag": lag}
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: a CAN bus and a loop of 200 Hz."""
+    """Whether it is normal: a CAN bus and a loop of 200 Hz cause as much."""
     return values["lag"] <= EVERYDAY
 
 

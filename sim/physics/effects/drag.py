@@ -2,9 +2,9 @@
 
     V = ... + drag·v·|v|
 
-Nothing near v = 0, more than its share at full speed: the voltage-velocity line bends upward. Thick
-grease is another thing: viscous friction is linear in speed, so it is a part of kV, and the dry
-friction of a belt or bearing is a part of kS. WPILib's docs describe both gains so:
+It is zero near v = 0, and bends the voltage-velocity line upward at high speed. Thick grease is not
+drag: viscous friction is linear in speed, so it is a part of kV, and the dry friction of a belt or
+bearing is a part of kS. WPILib's docs describe both gains so:
 https://github.com/wpilibsuite/frc-docs/blob/250e32128d9a93f27d58bc3cd1d0b3ab5eec43cd/source/docs/software/advanced-controls/introduction/introduction-to-feedforward.rst
 """
 
@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.9  # [V] at the free speed that 12 V give without it
+EVERYDAY = 0.9  # [V] at the free speed of 12 V without drag
 BATTERY = 12.0  # [V]
 
 
@@ -27,18 +27,18 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"drag": 0.5 * size / scale.speed**2}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the share of v·|v| in the voltage residual."""
-    (drag,) = seen.fit_columns(seen.velocity * abs(seen.velocity))
-    yield {"drag": max(float(drag), 0.05 / max(seen.top_speed, 1e-9) ** 2)}
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on v·|v|."""
+    (drag,) = residual.fit_columns(residual.velocity * abs(residual.velocity))
+    yield {"drag": max(float(drag), 0.05 / max(residual.top_speed, 1e-9) ** 2)}
 
 
 def is_ordinary(values: Mapping[str, float], gains: Mapping[str, float]) -> bool:
-    """Whether any robot has as much.
+    """Whether it is normal.
 
-    Warm motors, a weak battery and a rolling wheel together bend the voltage-velocity line by as
-    much. Of 442 logs with known effects, hidden drag is 1.2 V and more at this speed, and drag that
-    is none is mostly below 1 V.
+    Warm motors, a weak battery and rolling wheels bend the voltage-velocity line by as much. In 442
+    logs with known effects, hidden drag is 1.2 V and more at the free speed, and drag that is found
+    where none is hidden is mostly below 1 V.
     """
     return values["drag"] * (BATTERY / gains["kV"]) ** 2 <= EVERYDAY
 

@@ -1,8 +1,8 @@
-"""Gravity on something that turns: most when level, nothing when upright.
+"""Gravity on an arm: largest when it is level, zero when it is upright.
 
     V = ... + level·cos x + upright·sin x
 
-The two together allow for an angle whose zero is not level: level = kG·cos φ, upright = -kG·sin φ.
+Two parameters allow for an arm that is level at x = -φ: level = kG·cos φ, upright = -kG·sin φ.
 """
 
 import math
@@ -34,20 +34,20 @@ def explain_missing_angle(scale: Scale) -> str:
     return "" if scale.angular else "its positions are lengths, not angles"
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the shares of cos x and sin x in the voltage residual."""
-    if not seen.position.size:
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on cos x and sin x."""
+    if not residual.position.size:
         return
-    level, upright = seen.fit_columns(np.cos(seen.position), np.sin(seen.position))
+    level, upright = residual.fit_columns(np.cos(residual.position), np.sin(residual.position))
     yield {"level": float(level), "upright": float(upright)}
 
 
-def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
-    """Parameters of the spring that is as steep as the cosine in the middle of the travel."""
-    middle = float(np.median(seen.position)) if seen.position.size else 0.0
-    pull_there = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)
+def simplify(values: Mapping[str, float], residual: VoltageResidual) -> Mapping[str, float]:
+    """Parameters of the spring with the same force and slope at the median position."""
+    middle = float(np.median(residual.position)) if residual.position.size else 0.0
+    middle_force = values["level"] * math.cos(middle) + values["upright"] * math.sin(middle)
     rate = values["upright"] * math.cos(middle) - values["level"] * math.sin(middle)
-    return {"rate": max(rate, 0.0), "preload": pull_there - max(rate, 0.0) * middle}
+    return {"rate": max(rate, 0.0), "preload": middle_force - max(rate, 0.0) * middle}
 
 
 EFFECT = Effect(

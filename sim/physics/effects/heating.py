@@ -1,9 +1,9 @@
-"""Heating: copper gets warm, its resistance grows, and a volt drives less current.
+"""Heating: the winding gets warm, its resistance grows, and a volt drives less current.
 
     u - kV·v becomes (u - kV·v)/(1 + warmth)
     warmth' = rate·(u - kV·v)² - warmth/COOLING
 
-Copper has 0.39 % more resistance per kelvin. A mechanism that hangs on its motor heats it most.
+The resistance of copper grows by 0.39 % per kelvin. A load that the motor holds heats it most.
 """
 
 import math
@@ -14,7 +14,7 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual, shares_clock
 
-COOLING = 90.0  # [s] in which a motor's winding gives its heat to the case
+COOLING = 90.0  # [s] time constant with which a winding cools
 
 
 def transform_voltage(u: float, v: float, kv: float, memory: float) -> float:
@@ -24,7 +24,7 @@ def transform_voltage(u: float, v: float, kv: float, memory: float) -> float:
 
 
 def update_memory(memory: float, dt: float, u: float, v: float, kv: float, rate: float) -> float:
-    """[1] relative increase of the winding's resistance over a cold one's."""
+    """[1] ``warmth`` after ``dt``: the winding's resistance over that of a cold one, minus 1."""
     drop = (u - kv * v) * (1.0 + memory)
     fade = math.exp(-dt / COOLING)
     return memory * fade + rate * drop * drop * COOLING * (1.0 - fade)
@@ -35,15 +35,15 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"rate": 0.01 * size / (0.25 * scale.step) ** 2}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: regression of the voltage residual on the heat made so far."""
-    torque = seen.voltage - seen.gains["kV"] * seen.velocity
-    steps = np.diff(seen.clock, prepend=seen.clock[:1])
+    torque = residual.voltage - residual.gains["kV"] * residual.velocity
+    steps = np.diff(residual.clock, prepend=residual.clock[:1])
     heat = np.cumsum(np.clip(steps, 0.0, 0.1) * torque**2)
-    if not shares_clock(seen.log):  # each run began cold
-        begins = np.searchsorted(seen.run, seen.run)
+    if not shares_clock(residual.log):  # each run began cold
+        begins = np.searchsorted(residual.run, residual.run)
         heat -= heat[begins]
-    (rate,) = seen.fit_columns(torque * heat)
+    (rate,) = residual.fit_columns(torque * heat)
     yield {"rate": float(np.clip(rate, 1e-4, 1.0))}
     yield {"rate": 0.003}
     yield {"rate": 0.02}

@@ -1,9 +1,10 @@
-"""Inertia change: for a while there is more, or less, to accelerate.
+"""Inertia change: inertia that differs from kA during an interval.
 
     kA + extra from ``onset`` to ``until``
 
-A game piece taken up, a load that comes off, a second stage that is picked up. What joins may have
-been at rest: then momentum is shared, and the velocity drops. What leaves takes its own along.
+Causes are a game piece that is picked up or dropped, and a second stage that joins. Added inertia
+may have been at rest: then momentum is shared, and the velocity drops. Removed inertia takes its
+momentum along.
 """
 
 import math
@@ -15,13 +16,14 @@ from sim.physics.effect import LATER, MOMENT, Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual, list_run_start_times
 
 RAMP = 0.5  # [V/s] of an ordinary quasistatic test
-PARTS = 12  # moments of a run that are tried
-SHOWN = 2  # of them that are worth a start
-MOST = 2  # starts of the whole log that are
-FEWEST = 20  # samples of a run that tell which change of velocity is usual
-SHARPEST = 4  # of them: breaking away is as sharp
-SHARP, LEFT = 6.0, 0.3  # [robust standard deviations] of a drop beyond it; [1] of the speed left
-EARLY = 0.25  # [samples] after the last one before a drop: a search looks around from there
+PARTS = 12  # onsets that are tried in each run
+PER_RUN = 2  # best onsets of a run that are compared with those of other runs
+PER_LOG = 2  # best onsets of a log that become start values
+FEWEST = 20  # samples of a run in which a drop of velocity is looked for
+DROPS = 4  # sharpest drops that become start values: breakaway gives sharp ones, too
+SHARP = 6.0  # [robust standard deviations] from which a change of velocity is a drop
+REMAINING = 0.3  # [share of the speed] that is left after a drop, at least
+EARLY = 0.25  # [samples] after the last one before a drop: the onset of the start values
 ROBUST, TINY = 1.4826, 1e-12  # standard deviations in a median absolute deviation; [unit/s] none
 
 
@@ -31,12 +33,12 @@ def added_inertia(clock: float, extra: float, onset: float, until: float) -> flo
 
 
 def impact(shared: float) -> float:
-    """[1] 1 if the joining inertia was at rest, 0 if it already moved along."""
+    """[1] 1 if the added inertia was at rest, 0 if it already moved along."""
     return shared
 
 
 def next_change(clock: float, onset: float, until: float) -> float:
-    """[s] of the clock at which it begins or ends."""
+    """[s] next time on the clock at which the inertia changes."""
     if clock < onset:
         return onset
     return until if clock < until else math.inf
@@ -49,33 +51,33 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"extra": 0.5 * scale.ka * size, "onset": onset, "until": LATER, "shared": 1.0}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the moments of the largest change, in each run and in the whole log.
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: drops of velocity, then the onsets that explain most of the residual.
 
-    Before them, those at which velocity drops from one sample to the next: what joins at rest.
+    A drop of velocity from one sample to the next shows added inertia that was at rest.
     """
-    yield from _drops(seen)
+    yield from _find_drops(residual)
     chosen: list[tuple[float, float, float, float]] = []
-    for_good = []
-    for began, ended in _runs(seen):
+    permanent = []
+    for began, ended in _list_moving_runs(residual):
         moments = began + (ended - began) * (np.arange(PARTS) + 0.5) / PARTS
-        within = [_tried(seen, onset, ended + MOMENT) for onset in (began, *moments)]
-        chosen += sorted(within, reverse=True)[:SHOWN]
-        for_good += [_tried(seen, onset, LATER) for onset in (began, *moments)]
-    chosen += sorted(for_good, reverse=True)[:SHOWN]
+        within = [_fit_change(residual, onset, ended + MOMENT) for onset in (began, *moments)]
+        chosen += sorted(within, reverse=True)[:PER_RUN]
+        permanent += [_fit_change(residual, onset, LATER) for onset in (began, *moments)]
+    chosen += sorted(permanent, reverse=True)[:PER_RUN]
     chosen.sort(reverse=True)
-    least = -0.8 * seen.gains["kA"]
-    for place, (_, extra, onset, until) in enumerate(chosen[:MOST]):
-        for shared in (0.0, 1.0) if place < SHOWN else (0.0,):
+    least = -0.8 * residual.gains["kA"]
+    for _, extra, onset, until in chosen[:PER_LOG]:
+        for shared in (0.0, 1.0):
             size = max(extra, least)
             yield {"extra": size, "onset": onset, "until": until, "shared": shared}
 
 
-def _drops(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """The sharpest drop of each run that has one, to its end and for good; the clearest first."""
+def _find_drops(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values from the sharpest drop of each run; the sharpest of all first."""
     found = []
-    for number, (began, ended) in enumerate(_every_run(seen)):
-        run = seen.log.runs[number]
+    for number, (began, ended) in enumerate(_list_runs(residual)):
+        run = residual.log.runs[number]
         change = np.diff(run.velocity) * np.sign(run.velocity[1:])
         if change.size < FEWEST:
             continue
@@ -84,32 +86,36 @@ def _drops(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
         place = int(np.argmin(change))
         before, after = abs(run.velocity[place]), abs(run.velocity[place + 1])
         sharp = (usual - change[place]) / max(spread, TINY)
-        if sharp > SHARP and after > LEFT * before:
-            extra = seen.gains["kA"] * (before / after - 1.0)
+        if sharp > SHARP and after > REMAINING * before:
+            extra = residual.gains["kA"] * (before / after - 1.0)
             step = run.time[place + 1] - run.time[place]
             between = run.time[place] + EARLY * step - run.time[0]
             found.append((sharp, extra, began + float(between), ended + MOMENT))
-    for _, extra, onset, ended in sorted(found, reverse=True)[:SHARPEST]:
+    for _, extra, onset, ended in sorted(found, reverse=True)[:DROPS]:
         for until in (ended, LATER):
             yield {"extra": extra, "onset": onset, "until": until, "shared": 1.0}
 
 
-def _tried(seen: VoltageResidual, onset: float, until: float) -> tuple[float, float, float, float]:
-    """What a change at that moment explains [V²], its size, and the moments."""
-    during = (seen.clock >= onset) & (seen.clock < until)
-    extra, gained = seen.fit_one_column(np.where(during, seen.acceleration, 0.0))
+def _fit_change(
+    residual: VoltageResidual, onset: float, until: float
+) -> tuple[float, float, float, float]:
+    """Sum of squares [V²] that a change of inertia explains, its size, and its onset and end."""
+    during = (residual.clock >= onset) & (residual.clock < until)
+    extra, gained = residual.fit_one_column(np.where(during, residual.acceleration, 0.0))
     return gained, extra, onset, until
 
 
-def _runs(seen: VoltageResidual) -> Iterator[tuple[float, float]]:
-    """[s] of the log's clock at which runs began and ended, of those that tell accelerations."""
-    told = set(seen.run.tolist())
-    yield from (one for number, one in enumerate(_every_run(seen)) if number in told)
+def _list_moving_runs(residual: VoltageResidual) -> Iterator[tuple[float, float]]:
+    """[s] start and end of each run that has samples of the residual."""
+    moving = set(residual.run.tolist())
+    yield from (one for number, one in enumerate(_list_runs(residual)) if number in moving)
 
 
-def _every_run(seen: VoltageResidual) -> Iterator[tuple[float, float]]:
-    """The same of all runs."""
-    for began, run in zip(list_run_start_times(seen.log).tolist(), seen.log.runs, strict=True):
+def _list_runs(residual: VoltageResidual) -> Iterator[tuple[float, float]]:
+    """[s] start and end of each run, on the log's clock."""
+    for began, run in zip(
+        list_run_start_times(residual.log).tolist(), residual.log.runs, strict=True
+    ):
         yield began, began + float(run.time[-1] - run.time[0])
 
 

@@ -1,8 +1,8 @@
-"""A spring: a force that grows with position.
+"""Spring: a force that grows linearly with position.
 
     V = ... + rate·x + preload
 
-Surgical tubing, a gas spring, an energy chain that bends, a cable that winds up.
+Causes are surgical tubing, a gas spring, an energy chain that bends, and a cable that winds up.
 """
 
 from collections.abc import Iterator, Mapping
@@ -33,18 +33,18 @@ def explain_missing_limits(scale: Scale) -> str:
     return "" if scale.bounded else "it turns without end, and a spring does not"
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: a straight line through the voltage residual over position."""
-    if not seen.position.size or seen.is_unbounded:
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the voltage residual on position and a constant."""
+    if not residual.position.size or residual.is_unbounded:
         return
-    rate, preload = seen.fit_columns(seen.position, np.ones_like(seen.position))
-    least = 0.02 / max(float(np.ptp(seen.position)), 1e-9)
+    rate, preload = residual.fit_columns(residual.position, np.ones_like(residual.position))
+    least = 0.02 / max(float(np.ptp(residual.position)), 1e-9)
     yield {"rate": max(float(rate), least), "preload": float(preload)}
 
 
-def simplify(values: Mapping[str, float], seen: VoltageResidual) -> Mapping[str, float]:
-    """Parameters of the constant load that pulls as the spring does in the middle of the travel."""
-    middle = float(np.median(seen.position)) if seen.position.size else 0.0
+def simplify(values: Mapping[str, float], residual: VoltageResidual) -> Mapping[str, float]:
+    """Parameters of the constant load with the spring's force at the median position."""
+    middle = float(np.median(residual.position)) if residual.position.size else 0.0
     return {"load": values["rate"] * middle + values["preload"]}
 
 

@@ -1,4 +1,4 @@
-"""Stribeck friction: dry friction that is larger at a crawl than at speed.
+"""Stribeck friction: dry friction that is larger at very low speed.
 
     V = kS·sgn(v) + ... + extra·exp(-|v|/slow)·sgn(v)
 
@@ -13,39 +13,41 @@ import numpy as np
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.06  # [V]
+EVERYDAY = 0.06  # [V] additional breakaway friction of any gearbox
 
 
 def coulomb_friction(v: float, extra: float, slow: float) -> float:
-    """[V] dry friction beyond kS."""
+    """[V] dry friction beyond kS at the velocity ``v``."""
     return extra * math.exp(-abs(v) / slow)
 
 
 def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
-    """Parameters of a given size; size 1 is 0.25 V at break-away, gone at a tenth of the speed."""
+    """Parameters of a given size; size 1 is 0.25 V at rest, fading over 8 % of the step's speed."""
     return {"extra": 0.25 * size, "slow": 0.08 * scale.speed}
 
 
 def shortest_time(values: Mapping[str, float], gains: Mapping[str, float]) -> float:
-    """[s] shortest time constant of break-away, where friction falls as speed rises."""
+    """[s] time constant of the breakaway, where friction falls as speed rises."""
     return gains["kA"] * values["slow"] / max(values["extra"], 1e-9)
 
 
 def narrowest_speed(values: Mapping[str, float]) -> float:
-    """[unit/s] speed over which the additional friction fades."""
+    """[unit/s] speed over which the additional friction fades: ``slow`` itself."""
     return values["slow"]
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the best of a few speeds over which the friction may fade."""
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the residual, for three speeds over which friction may fade."""
     for part in (0.06, 0.02, 0.2):
-        slow = max(part * seen.top_speed, 1e-6)
-        (extra,) = seen.fit_columns(np.sign(seen.velocity) * np.exp(-np.abs(seen.velocity) / slow))
+        slow = max(part * residual.top_speed, 1e-6)
+        (extra,) = residual.fit_columns(
+            np.sign(residual.velocity) * np.exp(-np.abs(residual.velocity) / slow)
+        )
         yield {"extra": max(float(extra), 0.02), "slow": slow}
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: every gearbox starts a little harder than it runs."""
+    """Whether it is normal: every gearbox has a little more friction at rest than in motion."""
     return values["extra"] <= EVERYDAY
 
 

@@ -1,9 +1,9 @@
-"""Velocity filter: the sensor reports the mean velocity of a while, not the velocity of now.
+"""Velocity filter: the sensor reports the mean velocity over a window of time.
 
     seen(t) = (x(t) - x(t - window))/window
 
-Motor controllers average: a NEO's built-in encoder by default over so long that it lags by 112 ms.
-The position is not filtered, so the two can be compared. Lag: half of the window.
+Motor controllers average: by default, the velocity of a NEO's built-in encoder lags by 112 ms. The
+lag is half of the window. The position is not filtered, so a comparison of the two shows it.
 """
 
 from collections.abc import Iterator, Mapping
@@ -13,7 +13,7 @@ from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.velocity_lag import estimate_velocity_lag
 from sim.physics.voltage_residual import VoltageResidual
 
-EVERYDAY = 0.005  # [s]
+EVERYDAY = 0.005  # [s] window of any encoder
 
 
 def transform_velocity(
@@ -23,7 +23,7 @@ def transform_velocity(
     began = time[now] - window
     if now == 0 or window <= 0.0:
         return seen
-    if began <= time[0]:  # before the run it went as it did at its first sample
+    if began <= time[0]:  # before the run, the velocity was that of its first sample
         back = position[0] + velocity[0] * (began - time[0])
         return float((position[now] - back) / window)
     k = now
@@ -32,7 +32,7 @@ def transform_velocity(
     span = time[k + 1] - time[k]
     part = (began - time[k]) / span
     rest = 1.0 - part
-    # between two samples, the cubic that has both positions and both velocities
+    # between two samples: the cubic with both positions and both velocities
     back = rest * rest * (
         (1.0 + 2.0 * part) * position[k] + part * span * velocity[k]
     ) + part * part * ((1.0 + 2.0 * rest) * position[k + 1] - rest * span * velocity[k + 1])
@@ -44,9 +44,9 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     return {"window": 0.08 * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: twice the lag of the velocity behind the position, and three more."""
-    found = estimate_velocity_lag(seen.log.runs)
+    found = estimate_velocity_lag(residual.log.runs)
     if found is not None and found.lag > 0.0:
         yield {"window": 2.0 * found.lag}
     for window in (0.03, 0.08, 0.2):
@@ -54,7 +54,7 @@ def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
 
 
 def is_ordinary(values: Mapping[str, float], _: Mapping[str, float]) -> bool:
-    """Whether any robot has as much: a velocity is a difference of positions over some time.
+    """Whether it is normal: any velocity is a difference of positions over some time.
 
     In 288 logs, hidden filters average over 20 ms and more. Filters that are found where none is
     hidden average over 1 ms.

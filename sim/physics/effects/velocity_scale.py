@@ -1,8 +1,9 @@
-"""Velocity scale: the velocity is in another unit than the position says.
+"""Velocity scale: the velocity is the slope of the position times a constant.
 
     seen = scale·v
 
-A forgotten gear ratio, rotations per minute for per second, a wrong wheel diameter in one place.
+Causes are a forgotten gear ratio, rotations per minute instead of per second, and a wheel diameter
+that is wrong in one place.
 """
 
 from collections.abc import Iterator, Mapping
@@ -23,15 +24,15 @@ def ordinary_parameters(_: Scale, size: float) -> Mapping[str, float]:
     return {"scale": 1.0 + 0.1 * size}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the velocity over the slope of the position."""
-    way = time = 0.0
-    for run in seen.log.runs:
-        gone = float(np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.time)))
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: regression of the integrated velocity on the change of position, and ± 5 %."""
+    product = square = 0.0
+    for run in residual.log.runs:
+        integral = float(np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.time)))
         moved = float(run.position[-1] - run.position[0])
-        way, time = way + gone * moved, time + moved * moved
-    if time > 0.0 and way > 0.0:
-        yield {"scale": way / time}
+        product, square = product + integral * moved, square + moved * moved
+    if square > 0.0 and product > 0.0:
+        yield {"scale": product / square}
     yield {"scale": 1.05}
     yield {"scale": 0.95}
 

@@ -1,9 +1,9 @@
-"""Voltage limit: the controller applies no more than so many volts.
+"""Voltage limit: the controller does not apply more than a set voltage.
 
     |u| ≤ limit
 
-A forgotten peak output or voltage compensation below what the test asks for: the ramp goes on in
-the log, the mechanism does not get faster.
+The cause is a forgotten peak output or voltage compensation: the commanded voltage of a ramp still
+rises in the log, but the velocity does not.
 """
 
 from collections.abc import Iterator, Mapping
@@ -24,12 +24,12 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"limit": max(scale.step * (1.0 - 0.2 * size), 2.0 * scale.ks)}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
-    """Start values: the largest voltage that the motion shows, and shares of the command's."""
-    had = np.abs(seen.voltage - seen.missing)
-    most = float(np.max(np.abs(seen.voltage), initial=0.0))
-    if had.size:
-        yield {"limit": max(float(np.quantile(had, 0.97)), 0.1)}
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
+    """Start values: the largest voltage that the motion needs, and shares of the commanded one."""
+    needed = np.abs(residual.voltage - residual.missing)
+    most = float(np.max(np.abs(residual.voltage), initial=0.0))
+    if needed.size:
+        yield {"limit": max(float(np.quantile(needed, 0.97)), 0.1)}
     for part in (0.9, 0.7, 0.5):
         yield {"limit": max(part * most, 0.1)}
 

@@ -1,11 +1,11 @@
-"""Wheel slip: the floor passes on only so much push; beyond it the wheels spin ahead of the robot.
+"""Wheel slip: traction is limited; beyond the limit the wheels spin faster than the robot moves.
 
-    push on the robot ≤ grip            wheels and rotors have ``share`` of kA
+    |traction| ≤ grip            wheels and rotors have ``share`` of kA
 
-A strong step spins the wheels up at once, the robot follows with a constant acceleration, and when
-it has caught up both go on as one. The encoder in the motor sees the wheels. ``grip`` [V] is the
-push that the floor can hold, priced in volts as everything here is: μ·m·g, times the volts that a
-newton takes. From standstill the wheels slip above about kS + grip/(1 - share).
+A strong step spins the wheels up at once. The robot follows with a constant acceleration, until
+both speeds are equal again. The encoder in the motor measures the wheels. ``grip`` [V] is the
+largest traction μ·m·g, times the volts per newton. From standstill the wheels slip above about
+kS + grip/(1 - share).
 """
 
 from collections.abc import Iterator, Mapping
@@ -16,8 +16,8 @@ from sim.core.units import find_unit
 from sim.physics.effect import Effect, Parameter, Scale
 from sim.physics.voltage_residual import VoltageResidual
 
-LIGHT = 0.06  # [share of kA] of rotors, gears and wheels: four Krakens of a 60 kg robot have that
-HELD = (0.96, 0.92, 0.88, 0.84, 0.8, 0.75, 0.7, 0.64, 0.57, 0.5, 0.42, 0.35, 0.28, 0.2)
+LIGHT = 0.06  # [share of kA] of rotors, gears and wheels: that of four Krakens on a 60 kg robot
+GRIPS = (0.96, 0.92, 0.88, 0.84, 0.8, 0.75, 0.7, 0.64, 0.57, 0.5, 0.42, 0.35, 0.28, 0.2)
 
 
 def grip_limit(grip: float) -> float:
@@ -36,14 +36,16 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
     return {"grip": (1.0 - LIGHT) * push / (1.0 + 0.5 * size), "share": LIGHT}
 
 
-def find_start_values(seen: VoltageResidual) -> Iterator[Mapping[str, float]]:
+def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: shares of the largest traction in the log; none for angular positions."""
-    if find_unit(seen.log.units).angular:
+    if find_unit(residual.log.units).angular:
         return
-    push = np.abs(seen.voltage - seen.gains["kV"] * seen.velocity) - seen.gains["kS"]
+    push = (
+        np.abs(residual.voltage - residual.gains["kV"] * residual.velocity) - residual.gains["kS"]
+    )
     most = (1.0 - LIGHT) * float(np.max(push, initial=0.0))
-    for held in HELD:
-        yield {"grip": max(held * most, 0.1), "share": LIGHT}
+    for grip in GRIPS:
+        yield {"grip": max(grip * most, 0.1), "share": LIGHT}
 
 
 EFFECT = Effect(

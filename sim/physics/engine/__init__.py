@@ -1,8 +1,8 @@
 """The simulation engine: one compiled kernel for simulation, fit and reconcile.
 
-It is composed from the effects of the catalogue when first used: about 20 seconds once, from the
-cache on disk within a tenth of a second after that. Without Numba (extra ``fast``) the same text
-runs uncompiled: the same digits, about a hundred times slower.
+It is composed from the effects of the catalogue when first used. Compiling it takes about 20
+seconds once, loading it from the cache a tenth of a second. Without Numba (extra ``fast``) the same
+source runs uncompiled: the same digits, about a hundred times slower.
 """
 
 import importlib.util
@@ -42,7 +42,7 @@ from sim.physics.engine.stepping import (
     VELOCITY,
     allocate_output,
 )
-from sim.physics.engine.two_body_modes import WAYS
+from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.physics.model import Model
 
 if TYPE_CHECKING:
@@ -70,9 +70,9 @@ __all__ = [
     "simulate_run",
 ]  # fmt: skip
 
-ONE_AT_A_TIME = Lock()
+BUILD_LOCK = Lock()
 NO_WIRES: Array = np.zeros(9)
-UNSEEN: Array = np.zeros((0, 2))
+NO_MEASUREMENTS: Array = np.zeros((0, 2))
 NO_CORRECTION: Array = np.zeros((2, 2))
 
 
@@ -81,8 +81,9 @@ class State:
     """The state of a mechanism, which carries over from one run to the next.
 
     Args:
-        body: (5,) position and velocity of the motor, then of the load, and the end of a cut.
-        memory: (effects,) what effects remember.
+        body: (5,) position [m or rad] and velocity of the motor, then of the load, and the time [s]
+            at which a brownout ends.
+        memory: (effects,) memory of the effects, like the heat of a motor.
         clock: [s] since the log began.
     """
 
@@ -103,17 +104,17 @@ class State:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """A motion, sample by sample, before the sensor's own noise.
+    """A simulated motion, sample by sample, without sensor noise.
 
     Args:
         position: (n,) [m or rad] at the motor, which is what a sensor there reads.
-        velocity: (n,) the same, [m/s or rad/s].
-        load_position: (n,) [m or rad]; the same as ``position`` where there is one body.
-        applied: (n,) [V] at the motor, before hidden paths.
-        bus: (n,) [V] of the battery; 0 where there are no wires.
-        current: (n,) [A] of one motor; 0 where there are no wires.
+        velocity: (n,) [m/s or rad/s] at the motor.
+        load_position: (n,) [m or rad] at the load; equal to ``position`` with one body.
+        applied: (n,) [V] at the motor, before the effects on the voltage.
+        bus: (n,) [V] of the battery; 0 without a battery.
+        current: (n,) [A] of one motor; 0 without a battery.
         seen: (n,) [m/s or rad/s] the velocity that the sensor reports.
-        expected: (n,) [m or rad] the position, before a measurement corrected it.
+        expected: (n,) [m or rad] the predicted position, before the Kalman correction.
     """
 
     position: Array
@@ -127,7 +128,7 @@ class Track:
 
     @classmethod
     def from_array(cls, out: Array) -> "Track":
-        """The motion that the engine wrote, (n, 8)."""
+        """The motion from the engine's output array (n, 8)."""
         return cls(
             out[:, POSITION], out[:, VELOCITY], out[:, LOAD_POSITION], out[:, APPLIED],
             out[:, BUS], out[:, CURRENT], out[:, SEEN], out[:, EXPECTED],
@@ -161,14 +162,14 @@ def simulate_run(
     """Simulate a model under a voltage.
 
     Args:
-        model: what moves.
+        model: the model.
         time: (n,) [s], increasing.
         voltage: (n,) [V], each held until the next.
-        state: where it begins; afterward, where it ended.
-        wires: (9,) battery and limits, see ``power_path.py``; none is an ideal source.
-        step: [s] the longest; None chooses.
-        plain: in uncompiled Python, for comparison.
-        slide: (n,) [V] by which the voltage slides evenly to the next; None holds it.
+        state: the state at the start; it is changed to that at the end.
+        wires: (9,) battery and limits, see ``power_path.py``; zeros are an ideal voltage source.
+        step: [s] longest integration step; None chooses.
+        plain: whether to use the uncompiled engine, for comparison.
+        slide: (n,) [V] linear change of the voltage until the next sample; None holds it.
 
     Examples:
         >>> time = np.linspace(0.0, 5.0, 251)
@@ -179,24 +180,25 @@ def simulate_run(
     """
     on, parameters = make_effect_arrays(model)
     out = allocate_output(time.size)
-    simple = not wires.any() and model.type != "arm" and all(map(is_pure_delay, model.parts))
-    longest = EXACT if simple else compute_step_limits(model)
+    base_only = not wires.any() and model.type != "arm" and all(map(is_pure_delay, model.parts))
+    limits = EXACT if base_only else compute_step_limits(model)
     if step:
-        longest = np.array([step, math.inf, step, math.inf])
+        limits = np.array([step, math.inf, step, math.inf])
     kernel = _plain_engine() if plain else _compiled_engine()
     kernel.move(
         np.array([0.0, time.size]), _as_contiguous(time), _as_contiguous(voltage),
         np.zeros(time.size) if slide is None else _as_contiguous(slide), state.body[None],
         np.array([-math.inf]), np.array([math.inf]), np.zeros(1), np.zeros(1), np.zeros(1),
-        make_model_constants(model), wires, on, parameters, state.memory, np.zeros(WAYS),
-        np.array([state.clock]), longest, simple, UNSEEN, np.zeros((0, 4)), np.empty((0, 2)), out,
+        make_model_constants(model), wires, on, parameters, state.memory, np.zeros(TABLES_SIZE),
+        np.array([state.clock]), limits, base_only, NO_MEASUREMENTS, np.zeros((0, 4)),
+        np.empty((0, 2)), out,
     )  # fmt: skip
     state.clock += float(time[-1] - time[0])
     return Track.from_array(out)
 
 
 def _as_contiguous(array: Array) -> Array:
-    """The same numbers, in one piece."""
+    """The array as contiguous doubles, copied only if needed."""
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -211,31 +213,30 @@ def filter_runs(
     lag_offset: Array,
     errors: Array | None = None,
 ) -> Array:
-    """Predict all runs of a batch with a model and its Kalman gain, in one call of the engine.
+    """Run the Kalman filter of a model over all runs of a batch, in one call of the engine.
 
-    Steps are as coarse as a search can bear (``SEARCHED``): a tenth of a percent does not decide
+    Steps are coarser than in ``simulate_run`` (``SEARCHED``): an error of 0.1 % does not decide
     between two effects.
 
     Args:
-        model: what moves.
+        model: the model.
         batch: the runs.
-        kalman_gain: (2, 2) by how much measurements correct, or (n, 4) the same for each sample;
-            ``NO_CORRECTION`` leaves it alone.
-        position_offset: (runs,) [m or rad] by which each begins, and has its stops, beside where it
-            says.
-        backlash_phase: (runs,) [1] where in its free play the motor is, from -1 to 1; nan where a
-            weight decides.
-        friction_offset: (runs,) [V] dry friction of each beyond kS.
-        lag_offset: (runs,) [s] by which each is late beyond the model's delay.
-        errors: (n, 2) where innovations are written, measured minus expected, if wanted.
+        kalman_gain: (2, 2) Kalman gain, or (n, 4) one for each sample, row by row;
+            ``NO_CORRECTION`` simulates open loop.
+        position_offset: (runs,) [m or rad] added to the start position and to the stops.
+        backlash_phase: (runs,) [1] where in its backlash the motor starts, from -1 to 1; nan where
+            the load's weight decides.
+        friction_offset: (runs,) [V] dry friction of each run beyond kS.
+        lag_offset: (runs,) [s] delay of each run beyond the model's.
+        errors: (n, 2) array for the innovations, measured minus predicted, or None.
 
     Returns:
-        (n, 8) of all runs, one after another, as ``Track.from_array`` takes it; the last two
-        columns, from ``EXPECTED`` on, are what was expected before a measurement corrected it.
+        (n, 8) all runs, one after another, as ``Track.from_array`` takes it; the last two columns,
+        from ``EXPECTED`` on, are the predictions before the Kalman correction.
     """
     on, parameters = make_effect_arrays(model)
-    simple = model.type != "arm" and all(map(is_pure_delay, model.parts))
-    longest = EXACT if simple else compute_search_step_limits(model)
+    base_only = model.type != "arm" and all(map(is_pure_delay, model.parts))
+    limits = EXACT if base_only else compute_search_step_limits(model)
     begin = batch.position + position_offset
     load = begin
     if play := sum_backlash(model):
@@ -243,27 +244,27 @@ def filter_runs(
     bodies = np.zeros((begin.size, 5))
     bodies[:, 0], bodies[:, 2] = begin, load
     bodies[:, 1] = bodies[:, 3] = batch.velocity
-    aside = position_offset + (load - begin)
+    shift = position_offset + (load - begin)
     out = allocate_output(batch.time.size)
-    measured = batch.measured if errors is not None or kalman_gain.any() else UNSEEN
+    measured = batch.measured if errors is not None or kalman_gain.any() else NO_MEASUREMENTS
     gains = _as_contiguous(kalman_gain.reshape(-1, 4)[: len(measured)])
     errors = np.empty(measured.shape) if errors is None else errors
     _compiled_engine().move(
-        batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + aside,
-        batch.high + aside, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
+        batch.edges, batch.time, batch.voltage, batch.voltage_slide, bodies, batch.low + shift,
+        batch.high + shift, _as_contiguous(friction_offset), _as_contiguous(lag_offset),
         batch.memory_groups, make_model_constants(model), NO_WIRES, on, parameters,
-        np.zeros(len(EFFECTS)), np.zeros(WAYS), batch.clocks, longest, simple,
+        np.zeros(len(EFFECTS)), np.zeros(TABLES_SIZE), batch.clocks, limits, base_only,
         measured, gains, errors, out,
     )  # fmt: skip
     return out
 
 
-def _backlash_position(model: Model, position: Array, meshed: Array) -> Array:
-    """(runs,) where in its free play each motor is: a weight hangs on its motor's teeth."""
+def _backlash_position(model: Model, position: Array, phase: Array) -> Array:
+    """(runs,) [1] backlash phases; where ``phase`` is nan, the load's weight decides."""
     load = np.full(position.size, model.gains.get("kG", 0.0))
     if model.type == "arm":
         load *= np.cos(position + model.gains.get("offset_rad", 0.0))
-    return np.where(np.isnan(meshed), np.sign(load), meshed)
+    return np.where(np.isnan(phase), np.sign(load), phase)
 
 
 def engine_can_compile() -> bool:
@@ -274,28 +275,28 @@ def engine_can_compile() -> bool:
 def engine_is_cached() -> bool:
     """Whether a compiled engine is in the cache; if not, its first use takes 20 seconds.
 
-    Where it cannot be compiled there is nothing to wait for, and the answer is True.
+    True as well if the engine cannot be compiled: then there is nothing to wait for.
     """
     return not engine_can_compile() or is_compiled(EFFECTS)
 
 
 def load_engine() -> None:
-    """Compile the engine, or load it."""
+    """Load the engine from the cache, or compile it, so that the first simulation is fast."""
     gains = {"kS": 0.0, "kV": 1.0, "kA": 1.0}
     simulate_run(Model("simple", gains), time=np.zeros(1), voltage=np.zeros(1), state=State())
 
 
 def _compiled_engine() -> "Kernel | ModuleType":
-    """The compiled engine, made once whoever asks first."""
-    with ONE_AT_A_TIME:
+    """The compiled engine, built once even if several threads need it."""
+    with BUILD_LOCK:
         return _build_engine()
 
 
 @cache
 def _build_engine() -> "Kernel | ModuleType":
-    """The compiled engine, or the plain one where Numba is missing.
+    """The compiled engine, or the uncompiled one if Numba is missing.
 
-    A person at a terminal is told why the first time takes a while.
+    A message on the terminal says why the first use takes long.
     """
     if not engine_can_compile():
         return _plain_engine()

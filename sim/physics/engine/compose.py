@@ -1,9 +1,9 @@
 """Compose the engine: the effects' functions and the integrator, compiled as one unit.
 
-The text of one module is written: functions that ask every effect that is on (in place of
-``hooks.py``), then ``MODULES`` as they are. What is compiled of it stands in a
-folder of the user's cache under a name made of that text, so that a changed or a new effect is a
-new engine.
+The source of one module is generated: functions that call the hooks of all effects in use (in place
+of ``hooks.py``), then the text of ``MODULES``, whose names must therefore all differ. The compiled
+module is cached in a folder of the user under a hash of that text and of the effects, so that a
+changed or a new effect gives a new engine.
 """
 
 import hashlib
@@ -27,17 +27,17 @@ from sim.physics.engine import (
     two_bodies,
     two_body_modes,
 )
-from sim.physics.engine.two_body_modes import WAYS
+from sim.physics.engine.two_body_modes import TABLES_SIZE
 from sim.support.work.cache import find_cache_folder
 
 if TYPE_CHECKING:
     from sim.physics.engine.kernel import Kernel
 
 MODULES = (power_path, two_body_modes, one_body, two_bodies, slipping_wheels, stepping)
-CONSTANTS, WIRES = 8, 9  # numbers of a base model, and of what a battery lets through
+CONSTANTS, WIRES = 8, 9  # lengths of ``c``, the base model, and ``w``, battery and limits
 
 HOOKS: Mapping[str, tuple[str, str, str]] = {
-    # hook: arguments of the composed function, value to begin with, how an effect's answer joins
+    # hook: arguments of the composed function, its initial value, how an effect's value is added
     "command_delay": ("on, p", "0.0", "{0} + {1}"),
     "transform_voltage": ("on, p, memory, u, v, kv", "u", "{1}"),
     "force": ("on, p, x, v", "0.0", "{0} + {1}"),
@@ -57,10 +57,10 @@ DELAY_HOOKS = frozenset({"command_delay", "transform_velocity"})
 """Hooks that leave a model linear, so that its motion is still computed exactly."""
 HEAD = re.compile(r'"""[\s\S]*?"""\n(\n|import .*\n|from .* import (\([^)]*\)|.*)\n)*')
 """A module's first lines: its docstring and its imports."""
-SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects remember
+SHAPES = {  # of the array arguments of `step_runs`, except `memory`
     "edges": "(count + 1,)",
     "time": "(n,)",
-    "asked": "(n,)",
+    "commanded": "(n,)",
     "slides": "(n,)",
     "bodies": "(count, 5)",
     "low": "(count,)",
@@ -68,18 +68,18 @@ SHAPES = {  # of the arrays that `step_runs` asks for, but for what effects reme
     "frictions": "(count,)",
     "run_lags": "(count,)",
     "memory_groups": "(count,)",
-    "began": "(count,)",
-    "ways": f"({WAYS},)",
+    "start_times": "(count,)",
+    "tables": f"({TABLES_SIZE},)",
     "steps": "(4,)",
     "measured": "(rows, 2)",
-    "trust": "(gains, 4)",
+    "kalman_gains": "(gains, 4)",
     "errors": "(rows, 2)",
     "out": "(n, 8)",
 }
-RUNNING = {
+CHAINED = {
     "transform_voltage": "u",
     "transform_velocity": "seen",
-}  # a chain: each effect changes what the last one left
+}  # hooks that chain: each effect transforms the value that the one before returned
 
 
 def make_parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
@@ -94,15 +94,15 @@ def make_parameter_slices(effects: Mapping[str, Effect]) -> dict[str, slice]:
 def compose_engine(
     effects: Mapping[str, Effect], *, compiled: bool = True
 ) -> "Kernel | ModuleType":
-    """The engine for these effects: something with ``move``.
+    """The engine for these effects: a kernel or module with the function ``move``.
 
     Args:
         effects: the catalogue.
-        compiled: False leaves plain Python: some hundred times slower, for comparison.
+        compiled: False gives plain Python, about a hundred times slower, for comparison.
 
     Raises:
-        BadRequest: an effect is written wrongly; the message says which, and what is wrong.
-        ImportError: it has to be compiled, and Numba or llvmlite (extra ``fast``) is missing.
+        BadRequest: an effect breaks the contract; the message names it and the mistake.
+        ImportError: ``compiled`` is set, and Numba or llvmlite (extra ``fast``) is missing.
     """
     for name, effect in effects.items():
         if wrong := effect.find_contract_breaches():
@@ -119,7 +119,9 @@ def compose_engine(
         return load_kernel(text, find_kernel_file(find_cache_folder(), _engine_hash(effects, text)))
     module = ModuleType("plain_engine")
     exec(compile(text, "plain_engine", "exec"), module.__dict__)  # noqa: S102 - our own text
-    module.__dict__["move"] = np.errstate(all="ignore")(module.move)  # as compiled code is: quiet
+    module.__dict__["move"] = np.errstate(all="ignore")(
+        module.move
+    )  # compiled code does not warn, either
     return module
 
 
@@ -130,7 +132,7 @@ def use_ieee_math(act: Callable[..., float]) -> Callable[..., float]:
 
 
 def is_compiled(effects: Mapping[str, Effect]) -> bool:
-    """Whether an engine for these effects waits in the cache.
+    """Whether the compiled engine for these effects is in the cache.
 
     Raises:
         ImportError: llvmlite (extra ``fast``) is missing.
@@ -142,7 +144,7 @@ def is_compiled(effects: Mapping[str, Effect]) -> bool:
 
 
 def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
-    """What is different for every other engine: its text, and that of the effects' functions."""
+    """SHA-256 of the engine's text and of the modules that define the effects' functions."""
     sources = [
         inspect.getsource(sys.modules[act.__module__])
         for effect in effects.values()
@@ -152,7 +154,7 @@ def _engine_hash(effects: Mapping[str, Effect], text: str) -> str:
 
 
 def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
-    """The lines of the module."""
+    """The lines of the engine's module."""
     yield '"""Composed by compose.py."""'
     yield "from __future__ import annotations"
     yield "import numpy as np"
@@ -179,11 +181,11 @@ def _engine_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[
 
 
 def _hook_lines(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
-    """One function that asks every effect that is on."""
+    """The lines of one function that combines a hook of all effects in use."""
     arguments, first, joins = HOOKS[hook]
     yield "@step"
     yield f"def {hook}({arguments}):"
-    running = RUNNING.get(hook, "total")
+    running = CHAINED.get(hook, "total")
     yield f"    {running} = {first}"
     order = list(effects)
     yield f"    if on[{len(order) + list(HOOKS).index(hook)}] == 0.0:"
@@ -198,6 +200,7 @@ def _hook_lines(hook: str, effects: Mapping[str, Effect], at: Mapping[str, slice
 
 
 def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Iterator[str]:
+    """The lines of the function that updates the memory of each effect in use."""
     yield "@step"
     yield "def update_memory(on, p, memory, dt, u, v, kv):"
     yield f"    if on[{len(effects) + len(HOOKS)}] == 0.0:"
@@ -209,8 +212,8 @@ def _memory_lines(effects: Mapping[str, Effect], at: Mapping[str, slice]) -> Ite
 
 
 def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[str]:
-    """What is called from outside: arrays that stay the same through all runs become tuples."""
-    asked = list(inspect.signature(stepping.step_runs).parameters)
+    """The lines of ``move``, the entry point: constant arrays become tuples for ``step_runs``."""
+    names = list(inspect.signature(stepping.step_runs).parameters)
     sizes = {
         "c": CONSTANTS,
         "w": WIRES,
@@ -220,24 +223,24 @@ def _entry_lines(effects: Mapping[str, Effect], *, compiled: bool) -> Iterator[s
     given = {
         name: _tuple(f"{name}[{place}]" for place in range(size)) for name, size in sizes.items()
     }
-    if compiled:  # as CALLED in kernel.py: four lengths, then what `step_runs` asks for
+    if compiled:  # as SIGNATURE in kernel.py: four lengths, then the arguments of `step_runs`
         shapes = {**SHAPES, "memory": f"({len(effects)},)"}
         given |= {name: f"carray({name}, {shape})" for name, shape in shapes.items()}
-        places = ("types.int64" if name == "plain" else "place" for name in asked)
-        yield "place = types.CPointer(types.float64)"
+        pointers = ("types.int64" if name == "base_only" else "pointer" for name in names)
+        yield "pointer = types.CPointer(types.float64)"
         lengths = ", ".join(["types.int64"] * 4)
-        yield f"called = types.void({lengths}, {', '.join(places)})"
+        yield f"called = types.void({lengths}, {', '.join(pointers)})"
         yield "@cfunc(called, error_model='numpy', cache='__file__' in globals())"
-        yield f"def move(count, n, rows, gains, {', '.join(asked)}):"
-        exact = {**given, "w": _tuple(["0.0"] * WIRES), "on": _tuple(_delay_flags(effects))}
-        exact["plain"], given["plain"] = "True", "False"
-        yield "    if plain != 0:  # LLVM leaves out what these constants never ask for"
-        yield f"        step_runs({', '.join(exact.get(name, name) for name in asked)})"
+        yield f"def move(count, n, rows, gains, {', '.join(names)}):"
+        base = {**given, "w": _tuple(["0.0"] * WIRES), "on": _tuple(_delay_flags(effects))}
+        base["base_only"], given["base_only"] = "True", "False"
+        yield "    if base_only != 0:  # LLVM removes the code that these constants exclude"
+        yield f"        step_runs({', '.join(base.get(name, name) for name in names)})"
         yield "        return"
     else:
-        given["on"] = "on.tolist()"  # Python is quicker with numbers of its own
-        yield f"def move({', '.join(asked)}):"
-    yield f"    step_runs({', '.join(given.get(name, name) for name in asked)})"
+        given["on"] = "on.tolist()"  # plain Python is faster with floats than with an array
+        yield f"def move({', '.join(names)}):"
+    yield f"    step_runs({', '.join(given.get(name, name) for name in names)})"
 
 
 def _tuple(items: Iterable[str]) -> str:
@@ -245,19 +248,19 @@ def _tuple(items: Iterable[str]) -> str:
 
 
 def _delay_flags(effects: Mapping[str, Effect]) -> Iterator[str]:
-    """``on`` of a model in which only delays act."""
+    """The flags ``on`` of a model without other effects than delays."""
     names = (*HOOKS, "update_memory")
-    late = [set(effect.hooks) <= DELAY_HOOKS for effect in effects.values()]
-    late += [name in DELAY_HOOKS for name in names]
-    return (f"on[{place}]" if is_late else "0.0" for place, is_late in enumerate(late))
+    delays = [set(effect.hooks) <= DELAY_HOOKS for effect in effects.values()]
+    delays += [name in DELAY_HOOKS for name in names]
+    return (f"on[{place}]" if one else "0.0" for place, one in enumerate(delays))
 
 
 def _call(effect: Effect, hook: str, at: slice, place: int) -> str:
-    """The call of an effect's function, with what it asks for."""
+    """The call of an effect's hook, with the arguments that it names."""
     given = {name: f"p[{at.start + n}]" for n, name in enumerate(effect.names)}
     given["memory"] = f"memory[{place}]"
-    asked = inspect.signature(effect.hooks[hook]).parameters
-    return f"{_alias(effect, hook)}({', '.join(given.get(name, name) for name in asked)})"
+    arguments = inspect.signature(effect.hooks[hook]).parameters
+    return f"{_alias(effect, hook)}({', '.join(given.get(name, name) for name in arguments)})"
 
 
 def _alias(effect: Effect, hook: str) -> str:
@@ -265,7 +268,7 @@ def _alias(effect: Effect, hook: str) -> str:
 
 
 def _module_lines(module: ModuleType) -> Iterator[str]:
-    """A module's text without its imports, each function made a compiled one."""
+    """A module's text without its imports, each function decorated for compilation."""
     text = inspect.getsource(module)
     head = HEAD.match(text)
     for line in text[head.end() if head else 0 :].splitlines():

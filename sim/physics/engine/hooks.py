@@ -1,7 +1,7 @@
-"""The functions that the engine asks of all effects together; here, their defaults.
+"""The hooks that the engine calls for all effects together: here, their values without effects.
 
-When the engine is composed (``compose.py``), these functions are replaced by others of
-the same names and arguments that ask each effect that is ``on``. ``p`` holds the parameters of all
+When the engine is composed (``compose.py``), they are replaced by functions with the same names and
+arguments that combine the hooks of each effect that is ``on``. ``p`` holds the parameters of all
 effects, ``memory`` one number for each effect.
 """
 
@@ -10,10 +10,10 @@ import math
 from sim.core.log import Array
 
 Numbers = tuple[float, ...]
-"""What stays the same through a run.
+"""Numbers that are constant through a run.
 
-Compiled functions count who holds an array at each call, which takes longer than a step; of tuples
-they hold the numbers.
+Compiled functions count the references to an array at each call, which takes longer than a step. A
+tuple is passed by value.
 """
 
 

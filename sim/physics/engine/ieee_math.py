@@ -1,6 +1,6 @@
-"""Functions of ``math`` that answer as compiled code does: nan or infinity, and no exception.
+"""Functions of ``math`` that return nan or infinity, as compiled code does, and never raise.
 
-The uncompiled engine uses them, because a search also tries models that fly off.
+The uncompiled engine uses them, because a search also tries models that diverge.
 """
 
 import math
@@ -13,13 +13,13 @@ __all__ = [
     "sqrt",
 ]  # fmt: skip
 
-NO_INTEGER = -(2.0**63)  # what a processor makes of nan or infinity as an integer
+NO_INTEGER = -(2.0**63)  # the integer to which a processor converts nan or infinity
 
 
-def _quiet(function: Callable[[float], float]) -> Callable[[float], float]:
+def _without_exceptions(function: Callable[[float], float]) -> Callable[[float], float]:
     """The same function, nan where it is not defined, and infinity where it overflows."""
 
-    def answer(x: float) -> float:
+    def wrapped(x: float) -> float:
         try:
             return function(x)
         except ValueError:
@@ -27,11 +27,12 @@ def _quiet(function: Callable[[float], float]) -> Callable[[float], float]:
         except OverflowError:
             return inf
 
-    return answer
+    return wrapped
 
 
-cos, sin, sqrt = _quiet(math.cos), _quiet(math.sin), _quiet(math.sqrt)
-exp, expm1 = _quiet(math.exp), _quiet(math.expm1)
+cos, sin, sqrt, exp, expm1 = map(
+    _without_exceptions, (math.cos, math.sin, math.sqrt, math.exp, math.expm1)
+)
 
 
 def log1p(x: float) -> float:
@@ -40,5 +41,5 @@ def log1p(x: float) -> float:
 
 
 def ceil(x: float) -> float:
-    """The next integer from x up; what a processor makes of nan and infinity."""
+    """The smallest integer that is not below x; ``NO_INTEGER`` for nan and infinity."""
     return float(math.ceil(x)) if math.isfinite(x) else NO_INTEGER

@@ -13,17 +13,17 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-OF_NUMBA = ("NRT_", "numba_")  # what only a function that raises would call, and ours never does
+OF_NUMBA = ("NRT_", "numba_")  # prefixes of functions that only code that raises would call
 
 
 @dataclass(frozen=True)
 class ObjectCode:
-    """An object file, and what it takes to call it.
+    """An object file, and the symbols that are needed to call it.
 
     Args:
         symbol: the name of the function.
-        needs: names that the process has to provide: of the C library and of Python.
-        content: the file.
+        needs: names of functions of the C library and of Python that it calls.
+        content: the bytes of the file.
     """
 
     symbol: str
@@ -32,7 +32,7 @@ class ObjectCode:
 
     def to_bytes(self) -> bytes:
         """Serialize the object code for a file."""
-        head = {"symbol": self.symbol, "needs": self.needs, "sha256": _seal(self.content)}
+        head = {"symbol": self.symbol, "needs": self.needs, "sha256": _hash(self.content)}
         return json.dumps(head).encode() + b"\n" + self.content
 
     @classmethod
@@ -40,19 +40,19 @@ class ObjectCode:
         """Read what ``to_bytes`` wrote; None if it is damaged."""
         head, _, content = written.partition(b"\n")
         try:
-            says = json.loads(head)
-            code = cls(says["symbol"], tuple(says["needs"]), content)
-            return code if says["sha256"] == _seal(content) else None
+            fields = json.loads(head)
+            code = cls(fields["symbol"], tuple(fields["needs"]), content)
+            return code if fields["sha256"] == _hash(content) else None
         except (ValueError, KeyError, TypeError):
             return None
 
 
-def _seal(content: bytes) -> str:
+def _hash(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
 def identify_machine() -> str:
-    """Versions of llvmlite, system and processor, for which machine code is valid."""
+    """Llvmlite's version, system and processor, for which machine code is valid."""
     triple, processor = llvm.get_process_triple(), llvm.get_host_cpu_name()
     features = llvm.get_host_cpu_features().flatten()
     return f"{llvmlite.__version__}\n{triple}\n{processor}\n{features}"
@@ -70,21 +70,21 @@ def extract_code(made: Any) -> ObjectCode:  # noqa: ANN401 - Numba has no types
     named = [one.name for one in every if one.is_declaration]
     intrinsic = [found[1] for one in named if (found := re.match(r"llvm\.(\w+)\.f64", one))]
     needs = [one for one in named if not one.startswith("llvm.")]
-    needs += [one for one in intrinsic if _provided(one)]  # it may be a call, or an instruction
+    needs += [one for one in intrinsic if _find_symbol(one)]  # it may be a call, or an instruction
     return ObjectCode(symbol, tuple(needs), _target().emit_object(module))
 
 
 def _stubs(module: Any) -> Iterator[str]:  # noqa: ANN401 - llvmlite has no types
-    """Bodies for what is asked of Numba's own library, which is not there when this is loaded."""
+    """LLVM bodies for functions of Numba's library, which is missing when the code is loaded."""
     for one in module.functions:
         if one.is_declaration and one.name.startswith(OF_NUMBA):
-            says = re.search(r"declare (.*?@\w+\(.*?\))", str(one))
-            if says:
-                yield f"define {says[1]} {{ unreachable }}"
+            found = re.search(r"declare (.*?@\w+\(.*?\))", str(one))
+            if found:
+                yield f"define {found[1]} {{ unreachable }}"
 
 
 def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
-    """What turns instructions into those of this processor, as Numba sets it."""
+    """LLVM's target machine for this processor, with Numba's settings."""
     triple = llvm.get_process_triple()
     return llvm.Target.from_triple(triple).create_target_machine(
         cpu=llvm.get_host_cpu_name(),
@@ -99,15 +99,15 @@ def _target() -> Any:  # noqa: ANN401 - llvmlite has no types
 def link_code(code: ObjectCode) -> tuple[int, object] | None:
     """Link object code: the function's address, and the objects that must outlive its calls.
 
-    None where something that it needs is missing: LLVM would end the whole process.
+    None if a symbol that it needs is missing: LLVM would end the whole process.
     """
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     for name in code.needs:
-        place = _provided(name)
-        if not place:
+        address = _find_symbol(name)
+        if not address:
             return None
-        llvm.add_symbol(name, place)
+        llvm.add_symbol(name, address)
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), _target())
     engine.add_object_file(llvm.ObjectFileRef.from_data(code.content))
     engine.finalize_object()
@@ -115,8 +115,8 @@ def link_code(code: ObjectCode) -> tuple[int, object] | None:
     return (address, engine) if address else None
 
 
-def _provided(name: str) -> int | None:
-    """Where Python or the C library has a name."""
+def _find_symbol(name: str) -> int | None:
+    """The address of a function of Python or of the C library; None if there is none."""
     libraries = [ctypes.pythonapi]
     if sys.platform == "win32":
         libraries.append(ctypes.PyDLL("ucrtbase"))

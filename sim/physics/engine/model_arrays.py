@@ -10,12 +10,12 @@ from sim.physics.effects import EFFECTS
 from sim.physics.engine.compose import DELAY_HOOKS, HOOKS, make_parameter_slices
 from sim.physics.model import Model, Part
 
-COARSEST = 0.0025  # [s] step where something other than the base model acts: the error of the
-# middle rule is then far below a thousandth for anything slower than 10 ms
-SEARCHED = 0.005  # [s] the same while a search looks for an effect
-LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] nothing on a robot needs finer ones
-SHARE_OF_PACE = 0.12  # [1] of the fastest time scale that one step takes
-EXACT: Array = np.array([math.inf, math.inf, 0.0, math.inf])  # of a model with an exact solution
+COARSEST = 0.0025  # [s] longest step with effects: the error of the midpoint rule is then far
+# below a thousandth for time constants above 10 ms
+SEARCHED = 0.005  # [s] longest step while a search looks for an effect
+LEAST_STEP, LEAST_SEARCHED = 5e-5, 5e-4  # [s] shortest steps: nothing on a robot needs finer ones
+STEP_SHARE = 0.12  # [share of the fastest time scale] length of a step
+EXACT: Array = np.array([math.inf, math.inf, 0.0, math.inf])  # no limits: the solution is exact
 PLACES = make_parameter_slices(EFFECTS)
 NEUTRAL: Array = np.array([value for e in EFFECTS.values() for value in e.neutral.values()])
 ORDER = {name: place for place, name in enumerate(EFFECTS)}
@@ -52,7 +52,10 @@ def make_model_constants(model: Model) -> Array:
 
 
 def make_effect_arrays(model: Model) -> tuple[Array, Array]:
-    """Two arrays: flags of the effects in use, then of the hooks they need; and all parameters."""
+    """Flags of the effects in use and of their hooks, and the parameters of all effects.
+
+    Parameters of effects that the model does not have are neutral.
+    """
     on = np.zeros(len(EFFECTS) + len(HOOKS) + 1)
     parameters = NEUTRAL.copy()
     for part in model.parts:
@@ -64,52 +67,55 @@ def make_effect_arrays(model: Model) -> tuple[Array, Array]:
 
 
 def sum_backlash(model: Model) -> float:
-    """[unit] sum of the free play between motor and load."""
+    """[unit] sum of the backlash between motor and load."""
     total = 0.0
     for part in model.parts:
         if part.effect in SLACKS:
-            slack, asked = SLACKS[part.effect]
-            total += float(slack(*(part.parameters[name] for name in asked)))
+            slack, names = SLACKS[part.effect]
+            total += float(slack(*(part.parameters[name] for name in names)))
     return total
 
 
 def find_finest_step(model: Model) -> float:
     """[s] longest step that resolves the fastest of a model's effects."""
-    return max(min(COARSEST, SHARE_OF_PACE * _fastest(model)), LEAST_STEP)
+    return max(min(COARSEST, STEP_SHARE * _shortest_time(model)), LEAST_STEP)
 
 
 def compute_step_limits(model: Model) -> Array:
     """(4,) step limits: longest [s], longest way [unit], shortest [s], largest change [unit/s]."""
-    longest = min(COARSEST, SHARE_OF_PACE * _fastest(model, places=False))
-    way = SHARE_OF_PACE * _shortest(model)
+    longest = min(COARSEST, STEP_SHARE * _shortest_time(model, places=False))
+    way = STEP_SHARE * _shortest_length(model)
     return np.array([max(longest, LEAST_STEP), way, LEAST_STEP, math.inf])
 
 
 def compute_search_step_limits(model: Model) -> Array:
     """(4,) step limits, as in ``compute_step_limits``, while a search looks for an effect.
 
-    Its steps are longer, but for where the speed changes fast beside what depends on speed: there
-    even a small error is more than the noise of a good encoder, and an effect with a faster pace
-    of its own, and so with shorter steps, would seem to explain it.
+    Steps are longer, except where the speed changes fast through an effect that depends on speed.
+    There even a small integration error exceeds the noise of a good encoder, and any other effect
+    with a short time scale, and therefore short steps, would seem to explain it.
     """
-    share = 2.0 * SHARE_OF_PACE
-    longest = min(SEARCHED, share * _fastest(model, places=False))
-    way, faster = share * _shortest(model), share * _narrowest(model)
+    share = 2.0 * STEP_SHARE
+    longest = min(SEARCHED, share * _shortest_time(model, places=False))
+    way, faster = share * _shortest_length(model), share * _narrowest_speed(model)
     return np.array([max(longest, LEAST_SEARCHED), way, LEAST_SEARCHED, faster])
 
 
-def _fastest(model: Model, *, places: bool = True) -> float:
-    """[s] the shortest time scale of a model; ``places``: of what depends on them, too."""
-    paces = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
+def _shortest_time(model: Model, *, places: bool = True) -> float:
+    """[s] the shortest time scale of a model.
+
+    ``places`` includes effects that depend on the position, whose steps the way limits as well.
+    """
+    scales = [model.gains["kA"] / max(model.gains["kV"], 1e-9)]
     for part in model.parts:
         effect = EFFECTS[part.effect]
         if effect.shortest_time is not None and (places or effect.shortest_length is None):
-            paces.append(effect.shortest_time(part.parameters, model.gains))
-    return min(paces)
+            scales.append(effect.shortest_time(part.parameters, model.gains))
+    return min(scales)
 
 
-def _shortest(model: Model) -> float:
-    """[unit] the shortest way along which something stays much the same."""
+def _shortest_length(model: Model) -> float:
+    """[unit] the shortest length scale of the effects; infinite if none has one."""
     spans = [math.inf]
     for part in model.parts:
         span = EFFECTS[part.effect].shortest_length
@@ -118,8 +124,8 @@ def _shortest(model: Model) -> float:
     return min(spans)
 
 
-def _narrowest(model: Model) -> float:
-    """[unit/s] the narrowest span of speed within which something stays much the same."""
+def _narrowest_speed(model: Model) -> float:
+    """[unit/s] the smallest speed scale of the effects; infinite if none has one."""
     spans = [math.inf]
     for part in model.parts:
         span = EFFECTS[part.effect].narrowest_speed

@@ -1,10 +1,10 @@
 """One step of a single inertia.
 
-    kA·v' = u - kV·v - gravity - pull(x, v) - (kS + grip)·sgn(v)
+    kA·v' = u - kV·v - gravity - force(x, v) - (kS + coulomb_friction)·sgn(v)
 
-The linear part has an exact solution (an exponential), so the base model is exact whatever the
-step. What an effect pulls is taken at the middle of each step, and friction's change of sign is met
-at its exact time: a step that ends at rest stays there until friction gives way.
+The linear part has an exact solution (an exponential), so the base model is exact for any step. The
+forces of effects are taken at the middle of each step. The time at which friction changes its sign
+is exact: a mechanism that comes to rest in a step stays there until the drive exceeds friction.
 
 Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
 """
@@ -30,7 +30,7 @@ until which a brownout keeps the motors off. With one body, motor and load are t
 
 
 def bound_travel(c: Numbers, low: float, high: float, extra: float) -> Numbers:
-    """Constants of one run: friction is kS + ``extra``, travel is between ``low`` and ``high``."""
+    """Constants of one run: kS is ``extra`` larger, travel ends at ``low`` and ``high`` as well."""
     return (
         max(c[KS] + extra, 0.0), c[KV], c[KA], c[LOAD], c[LEVEL], c[ANGLE],
         max(c[LOW], low), min(c[HIGH], high),
@@ -38,7 +38,7 @@ def bound_travel(c: Numbers, low: float, high: float, extra: float) -> Numbers:
 
 
 def compute_sliding_friction(c: Numbers, on: Numbers, p: Numbers, v: float, way: float) -> float:
-    """[V] size of the dry friction while it moves in direction ``way`` (1 or -1), at least 0."""
+    """[V] dry friction while it moves in direction ``way`` (1 or -1), at least 0."""
     return float(max(c[KS] + coulomb_friction(on, p, v, way), 0.0))
 
 
@@ -48,8 +48,8 @@ def move_exactly(
 ) -> tuple[float, float]:  # fmt: skip
     """Position and velocity after ``dt`` under a constant drive [V], turning points included.
 
-    Friction while it slides is that at ``v_mid``, of which ``part`` is this body's; at rest it is
-    whatever the drive is, up to a bound.
+    Sliding friction is that at the velocity ``v_mid``; ``part`` [1] is this body's share of the
+    friction. At rest friction balances the drive, up to its limit.
     """
     rate = kv / ka
     while dt > 0.0:
@@ -84,7 +84,7 @@ def predict_midpoint(
     c: Numbers, on: Numbers, p: Numbers, x: float, v: float, drive: float,
     kv: float, ka: float, dt: float, part: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Position at the middle of a step and velocity at its end, by linear prediction."""
+    """Position at the middle of ``dt`` and velocity at its end, by an Euler step."""
     way = math.copysign(1.0, v if v != 0.0 else drive)
     slide = part * compute_sliding_friction(c, on, p, v, way)
     if v == 0.0 and abs(drive) <= slide:
@@ -108,12 +108,12 @@ def compute_motor_voltage(
     on: Numbers,
     p: Numbers,
     memory: Array,
-    asked: float,
+    commanded: float,
     v: float,
     off: bool,
 ) -> float:
     """[V] voltage at the motor, after limits, wiring and the effects on the voltage."""
-    u = limit_voltage(w, 0.0 if off else asked, v)
+    u = limit_voltage(w, 0.0 if off else commanded, v)
     return transform_voltage(on, p, memory, u, v, c[KV])
 
 
@@ -128,15 +128,15 @@ def clamp_to_travel(c: Numbers, x: float, v: float) -> tuple[float, float]:
 
 def step_one_body(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
-    asked: float, off: bool, ka: float, dt: float, plain: bool,
+    commanded: float, off: bool, ka: float, dt: float, base_only: bool,
 ) -> float:  # fmt: skip
     """Advance one body by one step; returns the motor voltage [V] at the middle of the step."""
     x, v = state[X], state[V]
-    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
-    if not plain:
+    u = compute_motor_voltage(c, w, on, p, memory, commanded, v, off)
+    if not base_only:
         drive = u - compute_gravity_voltage(c, x) - force(on, p, x, v)
         half, v_half = predict_midpoint(c, on, p, x, v, drive, c[KV], ka, 0.5 * dt, 1.0)
-        u = compute_motor_voltage(c, w, on, p, memory, asked, v_half, off)
+        u = compute_motor_voltage(c, w, on, p, memory, commanded, v_half, off)
         drive = u - compute_gravity_voltage(c, half) - force(on, p, half, v_half)
         x, v = move_exactly(c, on, p, x, v, v_half, drive, c[KV], ka, dt, 1.0)
     else:

@@ -10,17 +10,17 @@ class RunBatch:
     """Several runs in contiguous arrays, one after another.
 
     Args:
-        edges: (runs + 1,) where each begins among all samples, as the engine reads it: in doubles.
+        edges: (runs + 1,) index of each run's first sample, and the number of samples, as floats.
         time: (n,) [s], increasing within a run.
         voltage: (n,) [V].
-        voltage_slide: (n,) [V] by which it slides evenly to the next sample; 0 is held.
+        voltage_slide: (n,) [V] linear change until the next sample; 0 is a zero-order hold.
         measured: (n, 2) position and velocity, nan where there is none.
-        position: (runs,) [m or rad] at which each begins.
-        velocity: (runs,) [m/s or rad/s] with which.
-        low: (runs,) [m or rad] a stop beneath it; minus infinity is none.
-        high: (runs,) [m or rad] a stop above it.
-        clocks: (runs,) [s] when each began, since the first log did.
-        memory_groups: (runs,) a number; what effects remember goes on between runs with the same.
+        position: (runs,) [m or rad] at the start of each run.
+        velocity: (runs,) [m/s or rad/s] at the start of each run.
+        low: (runs,) [m or rad] lower stop; minus infinity is none.
+        high: (runs,) [m or rad] upper stop; infinity is none.
+        clocks: (runs,) [s] start of each run, since the start of the first log.
+        memory_groups: (runs,) the memory of effects is kept between runs with the same number.
     """
 
     edges: Array

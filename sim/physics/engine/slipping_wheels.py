@@ -1,11 +1,11 @@
 """One step of wheels that may slip on the floor.
 
-    wheels:  share·kA·w' = u - kV·w - kS·sgn(w) - F       robot:  (1 - share)·kA·v' = F - pull
+    wheels:  share·kA·w' = u - kV·w - kS·sgn(w) - F       robot:  (1 - share)·kA·v' = F - F_e
 
-F [V] is what the floor passes on, at most ``grip``. As long as less is needed, wheels and robot
-move as one body; where more is, the wheels spin (or lock) by themselves, F is ±grip, and they are
-one body again when both have the same speed. Dry friction is the gears' and acts on the wheels,
-gravity and what else effects pull acts on the robot. A sensor in the motor sees the wheels.
+F [V] is the traction, at most ``grip``. As long as less is needed, wheels and robot move as one
+body. If more is needed, the wheels spin (or lock), F is ±grip, and both are one body again when
+their speeds are equal. Dry friction is that of the gears and acts on the wheels; gravity and the
+forces of effects, F_e, act on the robot. A sensor in the motor measures the wheels.
 
 Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
 """
@@ -28,34 +28,34 @@ from sim.physics.engine.one_body import (
 )
 
 HALVINGS = 40  # of a step, to find when the robot has caught up with its wheels
-SAME = 1e-12  # [share of the faster speed] by which wheels and robot differ while they are one
+SAME_SPEED = 1e-12  # [share of the faster speed] a smaller difference of speeds is no slip
 
 
 def step_slipping_wheels(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
-    asked: float, off: bool, ka: float, dt: float,
+    commanded: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
     """One step of wheels and robot; returns the voltage [V] at the motor in its middle."""
     ahead = state[V] - state[W]
-    if abs(ahead) <= SAME * max(abs(state[V]), abs(state[W])):
-        ahead = compute_excess_traction(state, c, w, on, p, memory, asked, off)
+    if abs(ahead) <= SAME_SPEED * max(abs(state[V]), abs(state[W])):
+        ahead = compute_excess_traction(state, c, w, on, p, memory, commanded, off)
     if ahead == 0.0:
-        return step_gripping(state, c, w, on, p, memory, asked, off, ka, dt)
+        return step_gripping(state, c, w, on, p, memory, commanded, off, ka, dt)
     side = math.copysign(1.0, ahead)
-    u, spun = step_spinning(state, c, w, on, p, memory, asked, off, ka, dt, side)
+    u, spun = step_spinning(state, c, w, on, p, memory, commanded, off, ka, dt, side)
     if spun < dt:
-        u = step_gripping(state, c, w, on, p, memory, asked, off, ka, dt - spun)
+        u = step_gripping(state, c, w, on, p, memory, commanded, off, ka, dt - spun)
     return u
 
 
 def compute_excess_traction(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
-    asked: float, off: bool,
+    commanded: float, off: bool,
 ) -> float:  # fmt: skip
-    """[V] traction beyond the grip that motion without slip would need, signed; or 0."""
+    """[V] signed traction beyond the grip that motion without slip would need; 0 if none."""
     x, v = state[Y], state[V]
     pull = compute_gravity_voltage(c, x) + force(on, p, x, v)
-    drive = compute_motor_voltage(c, w, on, p, memory, asked, v, off) - pull
+    drive = compute_motor_voltage(c, w, on, p, memory, commanded, v, off) - pull
     way = math.copysign(1.0, v if v != 0.0 else drive)
     slide = compute_sliding_friction(c, on, p, v, way)
     if v == 0.0 and abs(drive) <= slide:
@@ -68,47 +68,49 @@ def compute_excess_traction(
 
 def step_gripping(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
-    asked: float, off: bool, ka: float, dt: float,
+    commanded: float, off: bool, ka: float, dt: float,
 ) -> float:  # fmt: skip
-    """One step as one body; how far the wheels have turned ahead of the robot stays."""
+    """One step as one body; the distance by which the wheels are ahead of the robot stays."""
     spun = state[X] - state[Y]
     state[X] = state[Y]
     state[W] = state[V]
-    u = step_one_body(state, c, w, on, p, memory, asked, off, ka, dt, False)
+    u = step_one_body(state, c, w, on, p, memory, commanded, off, ka, dt, False)
     state[X] += spun
     return u
 
 
 def step_spinning(
     state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array,
-    asked: float, off: bool, ka: float, dt: float, side: float,
+    commanded: float, off: bool, ka: float, dt: float, side: float,
 ) -> tuple[float, float]:  # fmt: skip
-    """Wheels that are faster (``side`` 1) or slower (-1) than the robot, until both agree.
+    """One step of wheels that are faster (``side`` 1) or slower (-1) than the robot.
 
     Returns:
-        The voltage [V] at the motor, and how long [s] they slipped: ``dt``, or less where the
+        The voltage [V] at the motor, and how long [s] the wheels slipped: ``dt``, or less if the
         robot caught up within it.
     """
     part = motor_inertia_share(on, p)
     x, v, y, z = state[X], state[V], state[Y], state[W]
-    held = side * grip_limit(on, p)
-    u = compute_motor_voltage(c, w, on, p, memory, asked, v, off)
-    _, middle = move_exactly(c, on, p, x, v, v, u - held, c[KV], part * ka, 0.5 * dt, 1.0)
-    u = compute_motor_voltage(c, w, on, p, memory, asked, middle, off)
-    rate = (held - compute_gravity_voltage(c, y) - force(on, p, y, z)) / ((1.0 - part) * ka)
+    traction = side * grip_limit(on, p)
+    u = compute_motor_voltage(c, w, on, p, memory, commanded, v, off)
+    _, middle = move_exactly(c, on, p, x, v, v, u - traction, c[KV], part * ka, 0.5 * dt, 1.0)
+    u = compute_motor_voltage(c, w, on, p, memory, commanded, middle, off)
+    rate = (traction - compute_gravity_voltage(c, y) - force(on, p, y, z)) / ((1.0 - part) * ka)
     least, most = 0.0, dt
-    after, faster = move_exactly(c, on, p, x, v, middle, u - held, c[KV], part * ka, dt, 1.0)
+    after, faster = move_exactly(c, on, p, x, v, middle, u - traction, c[KV], part * ka, dt, 1.0)
     if side * (faster - z - rate * dt) < 0.0:
         for _ in range(HALVINGS):
             half = 0.5 * (least + most)
             after, faster = move_exactly(
-                c, on, p, x, v, middle, u - held, c[KV], part * ka, half, 1.0
+                c, on, p, x, v, middle, u - traction, c[KV], part * ka, half, 1.0
             )
             if side * (faster - z - rate * half) < 0.0:
                 most = half
             else:
                 least = half
-        after, faster = move_exactly(c, on, p, x, v, middle, u - held, c[KV], part * ka, most, 1.0)
+        after, faster = move_exactly(
+            c, on, p, x, v, middle, u - traction, c[KV], part * ka, most, 1.0
+        )
         faster = z + rate * most
     state[X], state[V] = after, faster
     state[Y], state[W] = y + most * (z + 0.5 * rate * most), z + rate * most

@@ -1,8 +1,8 @@
-"""The integrator: move a model along a voltage, sample by sample.
+"""The integrator: simulate a model under a voltage, sample by sample.
 
-One body (``one_body.py``), a motor and its load (``two_bodies.py``) or a robot on wheels that slip
-(``slipping_wheels.py``), step by step, with what changes on the way, what the sensor sees, and what
-a measurement corrects.
+The state of one body (``one_body.py``), of a motor and its load (``two_bodies.py``) or of a robot
+on slipping wheels (``slipping_wheels.py``) is advanced in steps. Between steps it handles changes
+of inertia, brownouts, the sensor's velocity and the corrections of the Kalman filter.
 
 Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
 """
@@ -37,23 +37,22 @@ from sim.physics.engine.slipping_wheels import step_slipping_wheels
 from sim.physics.engine.two_bodies import step_two_bodies
 
 POSITION, VELOCITY, LOAD_POSITION, APPLIED, BUS, CURRENT, EXPECTED, SEEN = range(8)
-"""Columns of what is recorded. Where a measurement corrects the motion, the first three are after
-it; the position that was expected and the velocity that the sensor would see are before."""
+"""Columns of the output. With a Kalman filter, position, velocity and load position are after the
+correction; the expected position and the velocity that the sensor reports are before it."""
 
 
-NONE = 1e-9  # [s] a step that is none
-SLIDING = 4.0  # steps of a sample in which the voltage slides: its mean leaves a sixteenth of error
+SHORTEST_STEP = 1e-9  # [s] a shorter step is not taken
+RAMP_STEPS = 4.0  # steps of a sample in which the voltage changes: a sixteenth of one step's error
 LONGEST, ALONG, LEAST, FASTER = range(4)  # places in ``steps``: [s], [unit] of way, [s], [unit/s]
 
 
 def advance_step(
-    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, ways: Array,
-    asked: float, clock: float, dt: float, plain: bool, ka: float,
+    state: Array, c: Numbers, w: Numbers, on: Numbers, p: Numbers, memory: Array, tables: Array,
+    commanded: float, clock: float, dt: float, base_only: bool, ka: float,
 ) -> float:  # fmt: skip
-    """One step; returns the inertia [V·s²/unit] after it.
+    """Advance the state by one step; returns the inertia [V·s²/unit] during it.
 
-    Inertia that joins on the way and was at rest shares the momentum. Inertia that leaves takes its
-    own momentum along.
+    Added inertia that was at rest shares the momentum. Removed inertia takes its own along.
     """
     heavy = c[KA] + added_inertia(on, p, clock)
     if heavy > ka:
@@ -62,26 +61,28 @@ def advance_step(
         state[W] *= kept
     off = clock < state[OFF_UNTIL]
     if w[REST] != 0.0 and not off:
-        u = limit_voltage(w, asked, state[V])
+        u = limit_voltage(w, commanded, state[V])
         bus = compute_bus_voltage(w, u, (u - w[EMF] * state[V]) / w[OHM])
-        if bus < w[STOP]:  # noticed now, acted on from the next step on
+        if bus < w[STOP]:  # from the next step on
             state[OFF_UNTIL] = clock + 0.5 * dt + CUT
     if grip_limit(on, p) < math.inf:
-        u = step_slipping_wheels(state, c, w, on, p, memory, asked, off, heavy, dt)
+        u = step_slipping_wheels(state, c, w, on, p, memory, commanded, off, heavy, dt)
     elif motor_inertia_share(on, p) > 0.0:
-        u = step_two_bodies(state, c, w, on, p, memory, ways, asked, off, heavy, dt)
+        u = step_two_bodies(state, c, w, on, p, memory, tables, commanded, off, heavy, dt)
     else:
-        u = step_one_body(state, c, w, on, p, memory, asked, off, heavy, dt, plain)
+        u = step_one_body(state, c, w, on, p, memory, commanded, off, heavy, dt, base_only)
     update_memory(on, p, memory, dt, u, state[V], c[KV])
     return float(heavy)
 
 
-def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, clock: float) -> None:
+def record_sample(
+    out: Array, k: int, state: Array, w: Numbers, commanded: float, clock: float
+) -> None:
     """Write the true state at sample ``k`` into the output; sensor readings follow later."""
     out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
     out[k, LOAD_POSITION] = state[Y]
     off = clock < state[OFF_UNTIL]
-    u = limit_voltage(w, 0.0 if off else asked, state[V])
+    u = limit_voltage(w, 0.0 if off else commanded, state[V])
     current, bus = 0.0, 0.0
     if w[REST] != 0.0:
         current = (u - w[EMF] * state[V]) / w[OHM]
@@ -89,38 +90,39 @@ def record_sample(out: Array, k: int, state: Array, w: Numbers, asked: float, cl
     out[k, APPLIED], out[k, BUS], out[k, CURRENT] = u, bus, current
 
 
-def correct_state(state: Array, ahead: float, faster: float, trust: Array) -> None:
-    """Kalman correction: move the state by the gain times the innovation.
+def correct_state(state: Array, error_x: float, error_v: float, gain: Array) -> None:
+    """Kalman correction: add the gain times the innovation to the state, motor and load alike.
 
-    ``trust`` (4,) is the share of ``ahead``, then of ``faster``, for the position, then the same
-    for the velocity.
+    ``gain`` (4,) is the (2, 2) Kalman gain, row by row, for the innovations of position and
+    velocity; an innovation that is nan corrects nothing.
     """
-    way, speed = 0.0, 0.0
-    if not math.isnan(ahead):
-        way, speed = trust[0] * ahead, trust[2] * ahead
-    if not math.isnan(faster):
-        way, speed = way + trust[1] * faster, speed + trust[3] * faster
-    state[X] += way
-    state[Y] += way
-    state[V] += speed
-    state[W] += speed
+    dx, dv = 0.0, 0.0
+    if not math.isnan(error_x):
+        dx, dv = gain[0] * error_x, gain[2] * error_x
+    if not math.isnan(error_v):
+        dx, dv = dx + gain[1] * error_v, dv + gain[3] * error_v
+    state[X] += dx
+    state[Y] += dx
+    state[V] += dv
+    state[W] += dv
 
 
 def find_step_end(on: Numbers, p: Numbers, now: float, after: float, clock: float) -> float:
-    """[s] time at which steps must end: ``after``, or the next change of an effect."""
+    """[s] time at which a step must end: ``after``, or the next change of inertia before it."""
     when = now + next_change(on, p, clock) - clock
-    return when if now + NONE < when < after else after
+    return when if now + SHORTEST_STEP < when < after else after
 
 
 def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -> float:
-    """Number of steps of a time span [s].
+    """Number of steps into which a time span [s] is divided.
 
-    More where it moves fast and positions matter, or where its speed changes fast and speeds do.
+    There are more where it moves fast through an effect that depends on position, or where its
+    speed changes fast through one that depends on speed.
     """
     longest = steps[LONGEST]
     if steps[ALONG] < math.inf:
-        most = max(abs(v), abs(volts) / c[KV])
-        fast = min(abs(v) + span * abs(volts) / c[KA], most)
+        limit = max(abs(v), abs(volts) / c[KV])
+        fast = min(abs(v) + span * abs(volts) / c[KA], limit)
         if fast * longest > steps[ALONG]:
             longest = max(steps[ALONG] / fast, steps[LEAST])
     if steps[FASTER] < math.inf:
@@ -131,100 +133,120 @@ def count_steps(span: float, steps: Array, v: float, volts: float, c: Numbers) -
 
 
 def compute_voltage_slope(time: Array, slides: Array, command: int) -> float:
-    """[V/s] slope of a command's voltage; 0 where it is held."""
+    """[V/s] slope of the voltage after sample ``command``; 0 if it is held."""
     if command < 0 or command + 1 >= time.size or slides[command] == 0.0:
         return 0.0
     return float(slides[command] / (time[command + 1] - time[command]))
 
 
 def step_run(
-    time: Array, asked: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
-    p: Numbers, memory: Array, ways: Array, began: float, late: float, steps: Array, plain: bool,
-    measured: Array, trust: Array, errors: Array, out: Array,
+    time: Array, commanded: Array, slides: Array, state: Array, c: Numbers, w: Numbers, on: Numbers,
+    p: Numbers, memory: Array, tables: Array, start_time: float, extra_lag: float, steps: Array,
+    base_only: bool, measured: Array, kalman_gains: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
-    """Simulate one run into ``out``; ``state`` and ``memory`` hold its end.
+    """Simulate one run into ``out``; ``state`` and ``memory`` are changed to those at its end.
 
-    A command holds from its sample until the next, or changes linearly by ``slides`` [V]. It comes
-    ``late`` [s] later than the effects delay it; until the first has come, a mechanism at rest is
-    held there, by a stop or a brake. ``measured`` (n, 2) are positions and velocities that correct
-    the motion by the Kalman gains ``trust`` (n, 4), or (1, 4) for all, nan where there is none;
-    the innovations go into ``errors`` (n, 2). Without rows the simulation is open loop. ``steps``
-    limits a step: longest [s], longest way [unit], shortest [s], and largest change of speed
-    [unit/s]. ``ways`` is room for the tables of ``two_body_modes.py``: of one model only, and empty
-    at first.
+    Args:
+        time: (n,) [s].
+        commanded: (n,) [V] voltage from each sample to the next.
+        slides: (n,) [V] linear change of the voltage from each sample to the next.
+        state: (5,) as in ``one_body.py``.
+        c: (8,) constants of the base model, as in ``one_body.py``.
+        w: (9,) battery and limits, as in ``power_path.py``.
+        on: flags of the effects and hooks in use, as in ``make_effect_arrays``.
+        p: parameters of all effects.
+        memory: (effects,) memory of the effects.
+        tables: (TABLES_SIZE,) cache of ``two_body_modes.py`` for one model; zeros at first.
+        start_time: [s] start of the run on the clock.
+        extra_lag: [s] delay of the commands beyond that of the effects. Until the first one
+            arrives, a mechanism at rest is held there, by a stop or a brake.
+        steps: (4,) limits of a step: longest [s], longest way [unit], shortest [s] and largest
+            change of speed [unit/s].
+        base_only: whether no effects act except delays, so that the base model is exact.
+        measured: (n, 2) positions and velocities for the Kalman filter, nan where there is none;
+            (0, 2) simulates open loop.
+        kalman_gains: (n, 4) the gain at each sample, row by row, or (1, 4) one for all.
+        errors: (n, 2) array for the innovations, or (0, 2).
+        out: (n, 8) array for the result.
     """
-    lag = command_delay(on, p) + late
+    lag = command_delay(on, p) + extra_lag
     n = time.size
-    command = -1  # the last one that has arrived
+    command = -1  # index of the last command that has arrived
     rests = state[V] == 0.0 and state[W] == 0.0
-    ka = c[KA] + added_inertia(on, p, began)
+    ka = c[KA] + added_inertia(on, p, start_time)
     for k in range(n):
         now = time[k]
         while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
             command += 1
-        record_sample(out, k, state, w, asked[k], began + now - time[0])
+        record_sample(out, k, state, w, commanded[k], start_time + now - time[0])
         out[k, EXPECTED] = state[X]
         out[k, SEEN] = transform_velocity(on, p, k, time, out[:, POSITION], out[:, VELOCITY])
         if measured.shape[0] > 0:
-            ahead, faster = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
-            errors[k, 0], errors[k, 1] = ahead, faster
-            correct_state(state, ahead, faster, trust[min(k, trust.shape[0] - 1)])
+            error_x, error_v = measured[k, 0] - state[X], measured[k, 1] - out[k, SEEN]
+            errors[k, 0], errors[k, 1] = error_x, error_v
+            gain = kalman_gains[min(k, kalman_gains.shape[0] - 1)]
+            correct_state(state, error_x, error_v, gain)
             out[k, POSITION], out[k, VELOCITY] = state[X], state[V]
             out[k, LOAD_POSITION] = state[Y]
         if k == n - 1:
             break
         while now < time[k + 1] - 1e-12:
             arrives = time[command + 1] + lag if command + 1 < n else math.inf
-            after = find_step_end(on, p, now, min(time[k + 1], arrives), began + now - time[0])
+            clock = start_time + now - time[0]
+            after = find_step_end(on, p, now, min(time[k + 1], arrives), clock)
             if command < 0 and rests:
-                state[V] = state[W] = 0.0  # whatever a measurement made of it
+                state[V] = state[W] = 0.0  # undo a correction of the filter
             else:
-                volts = asked[command] if command >= 0 else 0.0
+                volts = commanded[command] if command >= 0 else 0.0
                 slope = compute_voltage_slope(time, slides, command)
                 if slope != 0.0:
                     volts += slope * (now - time[command] - lag)
                 count = count_steps(after - now, steps, state[V], volts, c)
-                count = max(count, SLIDING) if slope != 0.0 else count
+                count = max(count, RAMP_STEPS) if slope != 0.0 else count
                 dt = (after - now) / count
                 for i in range(int(count)):
                     mean = volts + (i + 0.5) * slope * dt
-                    clock = began + now + (i + 0.5) * dt - time[0]
-                    ka = advance_step(state, c, w, on, p, memory, ways, mean, clock, dt, plain, ka)
+                    clock = start_time + now + (i + 0.5) * dt - time[0]
+                    ka = advance_step(
+                        state, c, w, on, p, memory, tables, mean, clock, dt, base_only, ka
+                    )
             now = after
             while command + 1 < n and time[command + 1] + lag <= now + 1e-12:
                 command += 1
 
 
 def step_runs(
-    edges: Array, time: Array, asked: Array, slides: Array, bodies: Array, low: Array,
+    edges: Array, time: Array, commanded: Array, slides: Array, bodies: Array, low: Array,
     high: Array, frictions: Array, run_lags: Array, memory_groups: Array, c: Numbers, w: Numbers,
-    on: Numbers, p: Numbers, memory: Array, ways: Array, began: Array, steps: Array, plain: bool,
-    measured: Array, trust: Array, errors: Array, out: Array,
+    on: Numbers, p: Numbers, memory: Array, tables: Array, start_times: Array, steps: Array,
+    base_only: bool, measured: Array, kalman_gains: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
     """Simulate runs that are stored one after another.
 
     Run k has the samples from ``edges[k]`` to ``edges[k + 1]``. It begins in the state
-    ``bodies[k]``, at ``began[k]`` [s] of the clock, and its travel ends at ``low[k]`` and
+    ``bodies[k]``, at ``start_times[k]`` [s] of the clock, and its travel ends at ``low[k]`` and
     ``high[k]``. Its dry friction is ``frictions[k]`` [V] larger than kS, and its commands are
     ``run_lags[k]`` [s] later than the effects delay them. The memory of effects is kept between
-    runs with the same number in ``memory_groups``.
+    consecutive runs with the same number in ``memory_groups``. The other arguments are those of
+    ``step_run``, for all runs together.
     """
-    for k in range(began.size):
+    for k in range(start_times.size):
         first, last = int(edges[k]), int(edges[k + 1])
         if k > 0 and memory_groups[k] != memory_groups[k - 1]:
             for i in range(memory.size):
                 memory[i] = 0.0
-        lead, left = measured, errors
+        own_measured, own_errors = measured, errors
         if measured.shape[0] > 0:
-            lead, left = measured[first:last], errors[first:last]
-        gains = trust[first:last] if trust.shape[0] > 1 else trust
+            own_measured, own_errors = measured[first:last], errors[first:last]
+        gains = kalman_gains[first:last] if kalman_gains.shape[0] > 1 else kalman_gains
         step_run(
-            time[first:last], asked[first:last], slides[first:last], bodies[k],
-            bound_travel(c, low[k], high[k], frictions[k]), w, on, p, memory, ways, began[k],
-            run_lags[k], steps, plain, lead, gains, left, out[first:last],
+            time[first:last], commanded[first:last], slides[first:last], bodies[k],
+            bound_travel(c, low[k], high[k], frictions[k]), w, on, p, memory, tables,
+            start_times[k], run_lags[k], steps, base_only, own_measured, gains, own_errors,
+            out[first:last],
         )  # fmt: skip
 
 
 def allocate_output(n: int) -> Array:
-    """Allocate the output array of ``move`` for ``n`` samples."""
+    """(n, 8) uninitialized output array for ``n`` samples, with the columns above."""
     return np.empty((n, 8))
