@@ -3,10 +3,10 @@
     from sim.fit import fit
     fit(sim.read("drive.wpilog")).gains
 
-Method ``output-error``, the default, simulates and follows the log: any runs, friction that holds,
-late and averaged velocities, and error bars that hold. Method ``sysid`` is the recipe of WPILib
-SysId 2026.2.2 to the last digit, with its silent failures spoken aloud: what SysId answers, this
-answers; what it answers with NaN or with nonsense, this refuses or doubts, and says why.
+Method ``output-error``, the default, compares the log with a simulation. It takes any runs,
+includes static friction and delayed or averaged velocities, and gives realistic standard errors.
+Method ``sysid`` is the recipe of WPILib SysId 2026.2.2 to the last digit. Where SysId gives NaN or
+nonsense, it refuses or warns, and says why.
 """
 
 from sim.core.doubt import Doubt
@@ -23,16 +23,17 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
 
     Args:
         log: the runs.
-        type: ``simple``, ``elevator`` or ``arm``; empty takes what the log says, else ``simple``.
-        method: one of ``METHODS``.
+        type: ``simple``, ``elevator`` or ``arm``; empty takes the type in the log, else ``simple``.
+        method: ``output-error`` or ``sysid``.
         median: [samples] window of a median filter on the velocity; 1 is none.
 
     Returns:
-        Gains with their errors, in SI; ``Fit.in_units`` turns them into the owner's unit.
+        Gains with their errors, in SI; ``Fit.in_units`` converts them.
 
     Raises:
-        BadRequest: an unknown type or method, or an arm whose position is no angle.
-        NotIdentifiable: the log cannot tell these gains; the message says what would.
+        BadRequest: an unknown type or method, a median filter with ``output-error``, or an arm
+            whose position is not an angle.
+        NotIdentifiable: the log does not determine these gains; the message says which test would.
 
     Examples:
         >>> import numpy as np
@@ -71,6 +72,7 @@ def fit(log: Log, *, type: str = "", method: str = METHODS[0], median: int = 1) 
 
 
 def _type_from_name(log: Log) -> Doubt:
+    """A warning that the type was taken from the name of the mechanism."""
     return Doubt(
         "type-from-name",
         f"Fitted as of type {log.type}, as the log's mechanism is named {log.mechanism!r}. If "

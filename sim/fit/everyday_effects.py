@@ -1,10 +1,10 @@
-"""Small effects that every mechanism has, fitted beside the gains with a prior on their size.
+"""Small effects that every mechanism has, fitted together with the gains, with a prior on them.
 
-Friction that differs a little between the directions, breakaway friction, air drag and a floor
-that is not level are on any robot. Without them in the model, kS, kV and kG take them up: the gains
-shift by many times the error that noise alone would leave. Each has a normal prior about zero whose
-standard deviation is what a robot in good order has; the data decide how much of it there is, and
-what they cannot decide widens the errors of the gains.
+Every robot has friction that differs a little between the directions, breakaway friction, air drag
+and a floor that is not level. A model without them puts them into kS, kV and kG, whose bias is then
+many times the standard error from noise alone. Each has a normal prior about zero with the standard
+deviation of robots in good order. What the data do not determine makes the errors of the gains
+larger.
 
 Source: parameters with a prior, as maximum a posteriori estimates (Ljung, *System Identification*,
 section 7.4).
@@ -24,14 +24,14 @@ from sim.fit.search import ROUGHLY, STEPS, TRACKING, fit_open_loop
 from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 
-LEAST_KS = 0.05  # [V] of which friction's shares are taken where kS is less
+LEAST_KS = 0.05  # [V] a smaller kS has the friction priors of this one
 LEAN = 0.05  # [of kS] difference of friction between a direction and their mean
 BREAKAWAY = 0.15  # [of kS] friction at rest beyond that in motion
-FADES = 0.3  # [of the top speed] over which breakaway friction is gone
-DRAG = 0.05  # [V] at the speed of an ordinary step: half a volt at full speed
-SLOPE = 0.02  # [V] of a floor, a cable, a spring
-FIRST = 0.3  # [of a standard deviation] where a search begins for what cannot be negative
-WORTH = 8.0  # [of -2 log L] what they must explain together to be believed
+FADES = 0.3  # [of the top speed] over which breakaway friction fades
+DRAG = 0.05  # [V] drag at the top speed of the log: half a volt at full speed
+SLOPE = 0.02  # [V] constant load of a floor, a cable, a spring
+FIRST = 0.3  # [of a standard deviation] start value of a parameter that cannot be negative
+WORTH = 8.0  # [of -2 log L] improvement from which on they are included
 NAMES = ("asymmetric-friction", "stribeck", "drag", "constant-load")
 _ABSENT: WeakKeyDictionary[
     Estimate, tuple[PredictionErrorProblem, PredictionErrorProblem, Estimate]
@@ -41,7 +41,7 @@ _ABSENT: WeakKeyDictionary[
 def make_everyday_priors(
     problem: PredictionErrorProblem, values: Mapping[str, float]
 ) -> dict[str, float]:
-    """``effect.parameter`` of a small effect -> standard deviation of its prior, in SI.
+    """``effect.parameter`` of each small effect -> standard deviation of its prior, in SI.
 
     Args:
         problem: the measurements.
@@ -62,7 +62,7 @@ def add_absent_effects(
 ) -> tuple[PredictionErrorProblem, Estimate]:
     """The estimate in a model with the small effects at size zero; cached per estimate.
 
-    One Jacobian then tells whether they explain anything, and what they add to the errors.
+    Its Jacobian shows whether they explain anything, and how much they add to the errors.
     """
     found = _ABSENT.get(point)
     if found is None or found[0] is not problem:
@@ -78,14 +78,14 @@ def add_everyday_effects(
     Args:
         problem: the measurements.
         point: an estimate.
-        first: [standard deviations] size of those that cannot be negative; 0 leaves all absent.
+        first: [standard deviations] size of those that cannot be negative; 0 makes all absent.
     """
     priors = make_everyday_priors(problem, point.values)
     structure = replace(point.structure, effects=(*point.structure.effects, *NAMES))
     values = dict(point.values)
     for name, sd in priors.items():
         known = structure.parameters[name]
-        shape = known.neutral > 0.0  # how it looks, not how large it is
+        shape = known.neutral > 0.0  # a parameter of the effect's shape, not of its size
         size = (FIRST if shape else first if known.least >= 0.0 else 0.0) * sd
         values[name] = min(max(size, known.least), known.most)
     extended = replace(problem, priors=priors)
@@ -98,14 +98,15 @@ def add_everyday_effects(
 def fit_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate]:
-    """Fit gains and small effects together, if the data ask for the effects.
+    """Fit gains and small effects together, if the effects improve the fit enough.
 
     Args:
         problem: the measurements.
         point: the best estimate without them.
 
     Returns:
-        Both as they were if the small effects do not explain enough.
+        The problem with priors and the new estimate, or both unchanged if the small effects do not
+        explain enough.
     """
     if not predict_step_improvement(*add_absent_effects(problem, point)) > WORTH:
         return problem, point
@@ -130,7 +131,7 @@ def predict_step_improvement(problem: PredictionErrorProblem, point: Estimate) -
 
 
 def remove_everyday_effects(point: Estimate) -> Estimate:
-    """The estimate without small effects; its innovations and cost no longer hold."""
+    """The estimate without small effects; its innovations and cost are not updated."""
     effects = tuple(name for name in point.structure.effects if name not in NAMES)
     return replace(point, structure=replace(point.structure, effects=effects))
 

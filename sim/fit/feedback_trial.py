@@ -1,9 +1,9 @@
 """Step responses of the suggested feedback gains and of the learner's own.
 
-SysId's recipe makes up for a delay by looking ahead: K ← K (A - BK)^(delay/period). Where the delay
-is longer than the mechanism takes, what it sees ahead has turned round, and so has the sign of kP.
-That is its arithmetic and stays so; but such gains, and any that do not settle in simulation, are
-not handed over without a word, nor without others that do.
+SysId's recipe compensates a delay by predicting the state: K ← K (A - BK)^(delay/period). If the
+delay is longer than the closed loop's time constant, the predicted state can have the other sign,
+and so can kP. The suggestions are SysId's, unchanged. But gains of a wrong sign, or whose step
+response does not settle, come with a warning and, if possible, with better gains.
 """
 
 from collections.abc import Iterator
@@ -28,15 +28,20 @@ from sim.feedback.regulator import POSITION_ERROR
 from sim.fit import Fit
 
 SUGGESTED, OWN = "suggested", "your own"
-GENTLER = tuple(2.0**k for k in range(1, 11))  # times SysId's allowed errors
-STIFFER = tuple(2.0**-k for k in range(1, 7))  # times its allowed error of position
+GENTLER = tuple(2.0**k for k in range(1, 11))  # factors on SysId's allowed errors, for lower gains
+STIFFER = tuple(2.0**-k for k in range(1, 7))  # the same, for higher gains
 WEAK = ("slow", "stays-short")
-LEAST_DELAY = 5e-4  # [s] a shorter one is not worth a word
+LEAST_DELAY = 5e-4  # [s] a shorter one is not mentioned
 
 
 @dataclass(frozen=True)
 class OwnGains:
-    """The learner's gains of one loop, in the output units of the preset."""
+    """The learner's gains of one loop, in the output units of the preset.
+
+    Args:
+        loop: ``velocity`` or ``position``.
+        gains: kP and kD.
+    """
 
     loop: str
     gains: Feedback
@@ -51,9 +56,9 @@ class FeedbackTrial:
         loop: ``velocity`` or ``position``.
         gains: in the output units of the preset.
         preset: the motor controller.
-        delay: [s] of its measurement.
-        response: to a step, in the fit's unit.
-        verdict: of that response.
+        delay: [s] delay of its measurement.
+        response: the step response, in the fit's unit.
+        verdict: the verdict on that response.
     """
 
     owner: str
@@ -66,7 +71,7 @@ class FeedbackTrial:
 
     @property
     def is_good(self) -> bool:
-        """Whether these gains are a good start: of one sign, with a response that settles."""
+        """Whether these gains are a good start: not negative, with a response that settles."""
         return self.verdict.is_good and min(self.gains.kp, self.gains.kd) >= 0.0
 
 
@@ -76,9 +81,9 @@ def try_feedback_gains(
     """Simulate a fit's suggested gains and the learner's own; none if nothing can be suggested.
 
     Args:
-        found: the fit, in the unit that the gains count in.
+        found: the fit, in the unit of position of the gains.
         preset: the motor controller.
-        own: the learner's, to try beside them.
+        own: the learner's gains, to try as well.
     """
     tried = [(SUGGESTED, loop, gains) for loop, gains in found.feedback(preset).items()]
     if own is not None and tried:
@@ -93,8 +98,9 @@ def try_feedback_gains(
 def _try_loop(
     found: Fit, preset: Preset, *, whose: str, loop: str, gains: Feedback
 ) -> FeedbackTrial | None:
-    held = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # friction below zero would push
-    plant = Plant(found.type, held, angle=find_unit(found.units).si)
+    """The trial of gains of one loop; None if no step of it can be simulated."""
+    gains_of_plant = {**found.gains, "kS": max(found.gains["kS"], 0.0)}  # no negative friction
+    plant = Plant(found.type, gains_of_plant, angle=find_unit(found.units).si)
     target, delay = plant.choose_target_step(loop), choose_feedback_delay(found, preset, loop=loop)
     if not target > 0.0:
         return None
@@ -105,7 +111,7 @@ def _try_loop(
 
 
 def choose_feedback_delay(found: Fit, preset: Preset, *, loop: str) -> float:
-    """[s] delay that gains are computed for: the log's with the default preset, else its own."""
+    """[s] delay for which gains are designed: the log's for the default preset, else its own."""
     if preset is not PRESETS["default"]:
         return preset.delay
     return max(0.0, found.velocity_delay if loop == "velocity" else found.position_delay)
@@ -115,7 +121,7 @@ def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tup
     """Warnings about suggested gains that are no good start, with better ones if any.
 
     Args:
-        found: the fit, in the unit that the gains count in.
+        found: the fit, in the unit of position of the gains.
         tried: its trials, from ``try_feedback_gains``.
     """
     return tuple(
@@ -124,6 +130,7 @@ def warn_of_bad_suggestions(found: Fit, tried: tuple[FeedbackTrial, ...]) -> tup
 
 
 def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
+    """A warning about one suggestion, with the first better one."""
     late = f" with {1000 * trial.delay:.3g} ms of delay" if trial.delay > LEAST_DELAY else ""
     other = next((one for one in _suggest_others(found, trial) if one.is_good), None)
     cure = (
@@ -142,7 +149,7 @@ def _doubt(found: Fit, trial: FeedbackTrial) -> Doubt:
 
 
 def _suggest_others(found: Fit, trial: FeedbackTrial) -> Iterator[FeedbackTrial]:
-    """What the same recipe suggests for other allowed errors; what is too weak, for smaller."""
+    """Suggestions for larger allowed errors, or for smaller ones if the gains are too weak."""
     kv, ka, preset, delay = found.gains["kV"], found.gains["kA"], trial.preset, trial.delay
     allowed = compute_allowed_velocity_error(ks=found.gains["kS"], kv=kv)
     weak = trial.verdict.kind in WEAK and trial.gains.kp > 0.0

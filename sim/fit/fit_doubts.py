@@ -10,14 +10,18 @@ from sim.physics.effects import EFFECTS
 from sim.physics.model import Part
 
 FAR = 0.1  # [share of the top speed] error from which the gains cannot be right
-NOTICED = 0.06  # [share of the top speed] error beyond noise that a controller has to make up for
-STRONG = 2.5  # [standard deviations of what is ordinary] from which an effect is no longer small
-SOON = 0.004  # [s] a later answer is worth a word
+NOTICED = 0.06  # [share of the top speed] error beyond noise that a controller has to correct
+STRONG = 2.5  # [standard deviations of the prior] from which an effect is no longer small
+LEAST_LAG = 0.004  # [s] a longer delay is mentioned
 
 
-def warn_of_opposed_signs(way: float) -> tuple[Doubt, ...]:
-    """A warning if positive voltage drives the mechanism backward."""
-    if way > 0.0:
+def warn_of_opposed_signs(sign: float) -> tuple[Doubt, ...]:
+    """A warning if positive voltage drives the mechanism backward.
+
+    Args:
+        sign: of the velocity under a positive voltage, 1 or -1.
+    """
+    if sign > 0.0:
         return ()
     return (
         Doubt(
@@ -30,7 +34,12 @@ def warn_of_opposed_signs(way: float) -> tuple[Doubt, ...]:
 
 
 def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
-    """Warnings about a filtered velocity and about a delay [s]."""
+    """Warnings about a filtered velocity and about a delay.
+
+    Args:
+        window: [s] time over which the velocity is averaged; 0 if it is not.
+        lag: [s] delay from voltage to motion.
+    """
     said = []
     if window > 0.0:
         said.append(
@@ -41,7 +50,7 @@ def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
                 "controller gets the same delay: shorten the filter of the motor controller.",
             )
         )
-    if lag > SOON:
+    if lag > LEAST_LAG:
         said.append(
             Doubt(
                 "late-answer",
@@ -53,18 +62,19 @@ def warn_of_lags(window: float, lag: float) -> tuple[Doubt, ...]:
 
 
 def warn_of_misfit(
-    followed: OpenLoopReplay, alone: OpenLoopReplay, *, per: Unit, hint: str = ""
+    replay: OpenLoopReplay, gains_only: OpenLoopReplay, *, per: Unit, hint: str = ""
 ) -> tuple[Doubt, ...]:
     """A warning if a simulation differs from the log by more than its noise.
 
     Args:
-        followed: replay of the fitted model, with its small effects.
-        alone: replay of the gains alone, which are all that a feedforward has.
-        per: the unit of position of the log's owner.
-        hint: which type would do better, if one does.
+        replay: replay of the fitted model, with its small effects.
+        gains_only: replay without the small effects, which a feedforward does not have.
+        per: the log's unit of position.
+        hint: a sentence that names a better type, or empty.
     """
-    share = alone.excess / alone.top_speed if alone.top_speed > 0.0 else 0.0
-    size = f"{alone.excess / per.si:.2g} {per.symbol}/s (RMS), {share:.1%} of its top speed"
+    excess, top_speed = gains_only.excess, gains_only.top_speed
+    share = excess / top_speed if top_speed > 0.0 else 0.0
+    size = f"{excess / per.si:.2g} {per.symbol}/s (RMS), {share:.1%} of its top speed"
     if share > NOTICED:
         return (
             Doubt(
@@ -76,7 +86,7 @@ def warn_of_misfit(
                 grave=share > FAR,
             ),
         )
-    if not followed.has_misfit:
+    if not replay.has_misfit:
         return ()
     return (
         Doubt(
@@ -93,7 +103,7 @@ def warn_of_strong_effects(parts: Sequence[Part], priors: Mapping[str, float]) -
 
     Args:
         parts: the small effects of a fit.
-        priors: ``effect.parameter`` -> its standard deviation on ordinary robots.
+        priors: ``effect.parameter`` -> standard deviation of its prior.
     """
     strong = [
         EFFECTS[part.effect].summary

@@ -1,8 +1,9 @@
-"""Covariances of the fitted gains: sensor noise, errors that last, and variation between runs.
+"""Covariances of the fitted gains: sensor noise, model error, and variation between runs.
 
-The error of a gain is the largest that one of these gives. Noise alone is right for a model that
-holds. What a model lacks errs one way for a while, which a sandwich estimate over intervals allows
-for, and differs from run to run, which random effects do.
+The standard error of a gain is the largest of those from the three causes. Sensor noise alone is
+right for a correct model. The innovations of an incomplete model are correlated in time, which a
+sandwich estimate over intervals allows for, and gains that differ from run to run are random
+effects.
 """
 
 from collections.abc import Iterator
@@ -18,23 +19,23 @@ from sim.fit.everyday_effects import add_absent_effects
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.search import OPEN_LOOP
 
-EXACT = 1e-5  # [1/s] q over a velocity's variance that noise never asks for: more, and errors last
-FORM = 0.05  # [of a small effect] by which its formula is wrong on a robot
-TOGETHER = 0.5  # [s] for which what is missing errs one way
+EXACT = 1e-5  # [1/s] q over the velocity variance; more shows that the model is incomplete
+FORM = 0.05  # [share of a small effect] error of its formula on a robot
+INTERVAL = 0.5  # [s] within which the innovations of an incomplete model are correlated
 
 
 def compute_gain_covariances(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+    problem: PredictionErrorProblem, point: Estimate, replay: OpenLoopReplay
 ) -> Iterator[tuple[Estimate, Array]]:
-    """For each cause of error, an estimate and the (searched, searched) covariance by this cause.
+    """For each cause of error, an estimate and the (searched, searched) covariance from this cause.
 
-    The causes are noise with effects too small to see, variation from run to run, and what the
-    model lacks.
+    The causes are noise, together with undetected small effects, variation from run to run, and
+    errors of the model.
 
     Args:
-        problem: what was searched.
+        problem: the measurements.
         point: the best estimate.
-        followed: how it follows.
+        replay: its open-loop replay.
     """
     extended, wide = problem, point
     if not problem.priors:
@@ -44,14 +45,14 @@ def compute_gain_covariances(
     known = extended.select_priors(wide.structure)
     weak = np.zeros(table.shape[1], dtype=bool)
     weak[:count] = [name in known for name in wide.structure.searched_names]
-    noise, together = invert_information(table, weak=weak)
-    yield wide, noise[:count, :count] + _form_covariance(wide, together[:count], weak[:count])
+    noise, sensitivity = invert_information(table, weak=weak)
+    yield wide, noise[:count, :count] + _form_covariance(wide, sensitivity[:count], weak[:count])
     yield wide, compute_run_variation_covariance(extended, wide, table, rest)
-    lacks = point.process_noise > EXACT * problem.noise.velocity**2
-    if followed.has_misfit or lacks:
+    incomplete = point.process_noise > EXACT * problem.noise.velocity**2
+    if replay.has_misfit or incomplete:
         yield wide, _sandwich(extended, table, rest, noise)[:count, :count]
-    if lacks and not followed.has_misfit:
-        del table, rest, noise  # large for a long log, and so are their successors
+    if incomplete and not replay.has_misfit:
+        del table, rest, noise  # large for a long log, and so are those that follow
         q = OPEN_LOOP * problem.noise.velocity**2
         left = extended.evaluate(wide.structure, wide.values, wide.nuisance, q)
         if not problem.priors:
@@ -62,29 +63,29 @@ def compute_gain_covariances(
         yield left, _sandwich(extended, table, rest, noise)[:count, :count]
 
 
-def _form_covariance(point: Estimate, together: Array, effects: NDArray[np.bool_]) -> Array:
-    """(searched, searched) covariance from small effects whose form is only about right.
+def _form_covariance(point: Estimate, sensitivity: Array, effects: NDArray[np.bool_]) -> Array:
+    """(searched, searched) covariance from small effects whose formula is only approximate.
 
-    Friction at a crawl is no exact exponential, and drag no exact square. Each fitted size is
-    known to ``FORM`` of itself at best; the other parameters shift with it.
+    Breakaway friction is not exactly exponential, and drag not exactly quadratic. Each fitted size
+    has an error of ``FORM`` of itself, and the other parameters change with it.
 
     Args:
         point: the best estimate.
-        together: (searched, effects) by how much all parameters move with each small effect.
-        effects: (searched,) which parameters are those of small effects.
+        sensitivity: (searched, effects) change of all parameters per change of each small effect.
+        effects: (searched,) whether a parameter is that of a small effect.
     """
     values = np.array([point.values[name] for name in point.structure.searched_names])
-    shift = FORM * values[effects] * together
+    shift = FORM * values[effects] * sensitivity
     return np.asarray(shift @ shift.T)
 
 
 def _sandwich(problem: PredictionErrorProblem, table: Array, rest: Array, bread: Array) -> Array:
-    """(parameters, parameters) covariance with scores summed over ``TOGETHER``.
+    """(parameters, parameters) covariance with scores summed over ``INTERVAL``.
 
     Source: the sandwich of White (1980).
     """
     rows, parts = 2 * len(problem.measured), []
     for record, first in zip(problem.records, problem.run_edges, strict=False):
-        parts.append(2 * (first + find_interval_starts(record.measurements.time, TOGETHER)))
+        parts.append(2 * (first + find_interval_starts(record.measurements.time, INTERVAL)))
     scores = np.add.reduceat(table[:rows].T * rest[:rows], np.concatenate(parts), axis=1)
     return np.asarray(bread @ (scores @ scores.T) @ bread)

@@ -10,7 +10,7 @@ from sim.estimation.model_structure import ModelStructure
 from sim.fit.open_loop_fallback import OpenLoopReplay, replay_open_loop
 from sim.fit.search import fit_tracking, make_fit_problem
 
-PLAINLY = 0.33  # [1] of what a simple model strays, that another may
+IMPROVED = 0.33  # [share of the simple model's RMS error] another type must be below it
 ACTS = {
     "elevator": "a constant force acts in one direction",
     "arm": "a force depends on its angle",
@@ -20,7 +20,7 @@ ACTS = {
 def hint_gravity_type(
     log: Log,
     problem: PredictionErrorProblem,
-    followed: OpenLoopReplay,
+    replay: OpenLoopReplay,
     *,
     type: str,  # noqa: A002 - the field's own word
 ) -> str:
@@ -29,13 +29,13 @@ def hint_gravity_type(
     Args:
         log: any runs.
         problem: its measurements.
-        followed: how closely its best estimate follows.
-        type: as of which it was fitted.
+        replay: open-loop replay of its best estimate.
+        type: the type with which it was fitted.
 
     Returns:
         A sentence that names the type to try; empty if there is none.
     """
-    if type != "simple" or not followed.has_misfit:
+    if type != "simple" or not replay.has_misfit:
         return ""
     angular = find_unit(log.units).angular
     left = {
@@ -44,7 +44,7 @@ def hint_gravity_type(
         if angular or name != "arm"
     }
     best = min(left, key=lambda name: left[name])
-    if not left[best] < PLAINLY * followed.rmse:
+    if not left[best] < IMPROVED * replay.rmse:
         return ""
     return f"Fit it with --type {best} if gravity acts on it: {ACTS[best]}."
 
@@ -52,10 +52,10 @@ def hint_gravity_type(
 def _typical_velocity_error(log: Log, problem: PredictionErrorProblem, type: str) -> float:  # noqa: A002 - the field's own word
     """[unit/s] typical velocity error of a quick fit as another type."""
     try:
-        log, guess, _ = orient_forward(log, type=type)  # weight may hide which way is forward
+        log, guess, _ = orient_forward(log, type=type)  # gravity may hide the sign of kV
     except NotIdentifiable:
         return float("inf")
     guess = clamp_to_physical(guess, period=problem.period)
-    # with gravity it may lean on a stop, which no model has
+    # with gravity it may lean on a stop, which is not in the model
     other = make_fit_problem(log, measure_runs(log, friction=guess["kS"]))
     return replay_open_loop(other, fit_tracking(other, ModelStructure(type), guess)).rmse

@@ -12,28 +12,25 @@ from sim.estimation.measurements import RunMeasurements
 from sim.fit.open_loop_fallback import OpenLoopReplay
 from sim.fit.result import format_gain_unit
 
-TELLS = 0.08  # [share of a gain] of a larger standard error, three are a quarter: no answer
-FOLLOWS = 0.5  # [share of the velocity's variance] a simulation of less is of something else
-REBOUND = 0.02  # [share of what moves] that a stop throws back
-LEAST = {
-    "kS": 0.35,
-    "kG": 0.2,
-}  # [V] an error smaller than this is no matter, however small the gain
-SETTLES = {
+LARGEST_ERROR = 0.08  # [share of a gain] standard error; three of them are a quarter of the gain
+LEAST_R2 = 0.5  # [share of the velocity's variance] that a simulation must explain
+REBOUND = 0.02  # [share of the moving samples] in which a stop throws a mechanism back
+ACCEPTED = {"kS": 0.35, "kG": 0.2}  # [V] a smaller standard error is accepted for any gain
+TEST_FOR = {  # gain -> the test that would determine it
     "kS": "Add the other direction, and a slow ramp that begins at rest.",
     "kV": "Let it run longer at a steady speed: a quasistatic test.",
     "kA": "Add a dynamic test: only a change of speed shows inertia.",
     "kG": "Add the other direction: weight helps one way and hinders the other.",
 }
-TOGETHER = (
+TEST_FOR_BOTH = (
     "Add the other direction: on the way up gravity and friction add, on the way down "
     "they act against each other."
 )
 
 
-def moves_both_ways(seen: Sequence[RunMeasurements]) -> bool:
+def moves_both_ways(measured: Sequence[RunMeasurements]) -> bool:
     """Whether the mechanism is driven in both directions; a rebound does not count."""
-    speeds = np.concatenate([run.measured[run.moving, 1] for run in seen])
+    speeds = np.concatenate([run.measured[run.moving, 1] for run in measured])
     up, down = int(np.count_nonzero(speeds > 0.0)), int(np.count_nonzero(speeds < 0.0))
     return min(up, down) >= REBOUND * (up + down)
 
@@ -49,19 +46,20 @@ def refuse_unidentifiable(
     """Refuse gains that the log does not determine.
 
     Args:
-        gains: name -> value.
-        errors: one standard error of each.
-        log: where they come from.
+        gains: gain -> value, in SI.
+        errors: gain -> one standard error, in SI.
+        log: the log.
         type: ``simple``, ``elevator`` or ``arm``.
-        hint: better advice than another test, if there is one.
+        hint: advice that replaces the suggested test, or empty.
 
     Raises:
-        NotIdentifiable: naming the gains and the test that would settle them.
+        NotIdentifiable: the message names the gains and the test that would determine them.
     """
     unknown = [
         name
-        for name in SETTLES
-        if name in gains and not errors[name] <= max(TELLS * abs(gains[name]), LEAST.get(name, 0.0))
+        for name in TEST_FOR
+        if name in gains
+        and not errors[name] <= max(LARGEST_ERROR * abs(gains[name]), ACCEPTED.get(name, 0.0))
     ]
     if not unknown:
         return
@@ -78,27 +76,28 @@ def refuse_unidentifiable(
     raise NotIdentifiable(
         f"this log does not determine {said}",
         where=log.source,
-        advice=hint or (TOGETHER if pair else SETTLES[unknown[-1]]),
+        advice=hint or (TEST_FOR_BOTH if pair else TEST_FOR[unknown[-1]]),
     )
 
 
-def refuse_unrelated(followed: OpenLoopReplay, *, log: Log, hint: str = "") -> None:
-    """Refuse gains whose simulation has little to do with the log.
+def refuse_unrelated(replay: OpenLoopReplay, *, log: Log, hint: str = "") -> None:
+    """Refuse gains whose simulation explains too little of the log.
 
     Args:
-        followed: how it follows.
-        log: where they come from.
-        hint: better advice than to inspect it, if there is one.
+        replay: open-loop replay of the fit.
+        log: the log.
+        hint: advice that replaces that to inspect the log, or empty.
 
     Raises:
-        NotIdentifiable: the model lacks what matters most.
+        NotIdentifiable: R² of the velocity is below ``LEAST_R2``.
     """
-    if followed.r2 >= FOLLOWS:
+    if replay.r2 >= LEAST_R2:
         return
     per = find_unit(log.units)
+    error, top_speed = (_format_speed(one, per) for one in (replay.rmse, replay.top_speed))
     raise NotIdentifiable(
         "no gains describe this log: the velocity error of the best simulation is "
-        f"{_size(followed.rmse, per)}, with a top speed of {_size(followed.top_speed, per)}",
+        f"{error}, with a top speed of {top_speed}",
         where=log.source,
         advice=hint
         or "Run `sysid inspect` to look for faults, check the type and the units, then run `sysid "
@@ -106,6 +105,6 @@ def refuse_unrelated(followed: OpenLoopReplay, *, log: Log, hint: str = "") -> N
     )
 
 
-def _size(speed: float, per: Unit) -> str:
-    """A speed [m/s or rad/s] in the unit of the log's owner."""
+def _format_speed(speed: float, per: Unit) -> str:
+    """A speed [m/s or rad/s] in the log's unit."""
     return f"{speed / per.si:.3g} {per.symbol}/s" if math.isfinite(speed) else "any amount"

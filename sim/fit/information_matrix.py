@@ -1,11 +1,11 @@
 """Fisher information of a log about each gain, before anything is fitted.
 
-Each row is one equation, V = kS·sgn(v) + kV·v + kA·a (+ kG·…): what stands beside a gain is its
-column. With X the columns and σ the noise of a row in volts, XᵀX/σ² is what the rows tell of all
-gains together, and its inverse holds the squares of their standard errors. A column that the others
-make up leaves no inverse: that gain is unknown, however many rows there are.
+Each row is one equation, V = kS·sgn(v) + kV·v + kA·a (+ kG·…), and each gain has a regressor, its
+column. With X the columns and σ the noise of a row in volts, XᵀX/σ² is the Fisher information, and
+the diagonal of its inverse holds the squares of the standard errors. If a column is a combination
+of the others, there is no inverse: that gain is not identifiable, however many rows there are.
 
-Feed it rows without noise, from the bench: noise in an acceleration looks like acceleration.
+Use simulated rows without noise: noise in an acceleration would count as excitation.
 """
 
 import math
@@ -19,8 +19,8 @@ from sim.core.log import Array
 from sim.core.vocabulary import TYPES
 from sim.fit.sysid_rows import Rows
 
-NOTHING = 1e-12  # share of the best known combination; below it, the digits are rounding errors
-TAKES_PART = 1e-5  # share of a gain in an unknown combination; below it, the gain is known
+LEAST_EIGENVALUE = 1e-12  # [share of the largest] a smaller one is rounding
+LEAST_WEIGHT = 1e-5  # [1] of a gain in an unknown combination; with less, the gain is known
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +28,8 @@ class InformationMatrix:
     """Fisher information about the gains.
 
     Args:
-        names: of the gains.
-        information: (gains, gains), XᵀX/σ² [1/unit² of the gains].
+        names: names of the gains.
+        information: (gains, gains) XᵀX/σ² [1/unit² of the gains].
     """
 
     names: tuple[str, ...]
@@ -41,19 +41,19 @@ class InformationMatrix:
         size = np.sqrt(np.diag(self.information))
         scale = np.where(size > 0.0, size, 1.0)
         values, vectors = np.linalg.eigh(self.information / np.outer(scale, scale))
-        told = values > NOTHING * max(float(values[-1]), 1e-300)
-        squares = (vectors[:, told] ** 2 / values[told]).sum(axis=1)
-        lost = (np.abs(vectors[:, ~told]) > TAKES_PART).any(axis=1)
+        known = values > LEAST_EIGENVALUE * max(float(values[-1]), 1e-300)
+        squares = (vectors[:, known] ** 2 / values[known]).sum(axis=1)
+        unknown = (np.abs(vectors[:, ~known]) > LEAST_WEIGHT).any(axis=1)
         return {
-            name: math.inf if gone else math.sqrt(float(square)) / float(one)
-            for name, gone, square, one in zip(self.names, lost, squares, scale, strict=True)
+            name: math.inf if lost else math.sqrt(float(square)) / float(one)
+            for name, lost, square, one in zip(self.names, unknown, squares, scale, strict=True)
         }
 
     def compute_pair_information(self, first: str, second: str) -> Array:
-        """(2, 2) information about two gains while the others are unknown.
+        """(2, 2) information about two gains, the others marginalized.
 
         Args:
-            first: a gain, as ``kV``.
+            first: a gain, like ``kV``.
             second: another one.
 
         Raises:
@@ -75,9 +75,9 @@ def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) ->
     """Information of rows about kS, kV, kA, and about kG where there is gravity.
 
     Args:
-        rows: test -> its rows, such as ``sim.fit.sysid_rows`` leaves; any tests, at least one.
+        rows: test -> its rows, as from ``sim.fit.sysid_rows``; any tests, at least one.
         type: ``simple``, ``elevator`` or ``arm``.
-        noise: [V] of a row, one standard deviation: kA times that of its acceleration.
+        noise: [V] standard deviation of a row: kA times that of its acceleration.
 
     Raises:
         BadRequest: no rows, an unknown type, or a noise that is not above zero.
@@ -103,7 +103,7 @@ def compute_information(rows: Mapping[str, Rows], *, type: str, noise: float) ->
 
 
 def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - the field's word
-    """(gains, n) what stands beside each gain."""
+    """(gains, n) the regressor of each gain."""
     columns = [np.sign(rows.velocity), rows.velocity, rows.acceleration]
     if type == "elevator":
         columns.append(np.ones(len(rows)))

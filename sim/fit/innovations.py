@@ -1,9 +1,8 @@
-"""Innovations of a fitted model: each reading less what the readings before it predict.
+"""Innovations of a fitted model: each reading minus its prediction from the readings before it.
 
-A replay (``replay.py``) runs on its own from the start of a run, so that one slip shifts all that
-comes after it. An innovation forgets: the Kalman filter corrects the model with each reading, so
-what stands out stands where it happened. Where a model holds, innovations are white (Ljung, *System
-Identification*, section 16.6).
+A replay (``replay.py``) is an open-loop simulation, so one slip shifts everything after it. The
+Kalman filter corrects the state with each reading, so a large innovation is at the time of its
+cause. The innovations of a correct model are white (Ljung, *System Identification*, section 16.6).
 """
 
 import math
@@ -24,10 +23,10 @@ class RunInnovations:
     """Innovations of one run, at the readings that were compared.
 
     Args:
-        position_time: (m,) [s] in the log's own time.
-        position: (m,) [m or rad].
-        velocity_time: (n,) [s] the same.
-        velocity: (n,) [m/s or rad/s].
+        position_time: (m,) [s] times of the position readings, as in the log.
+        position: (m,) [m or rad] innovations of the position.
+        velocity_time: (n,) [s] times of the velocity readings.
+        velocity: (n,) [m/s or rad/s] innovations of the velocity.
     """
 
     position_time: Array
@@ -39,19 +38,19 @@ class RunInnovations:
 def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
     """The innovations of a fit's model on every run that is long enough.
 
-    The process noise is the likeliest for these gains, as in the fit. A reading that repeats the
-    one before it is no new one, and has no innovation.
+    The process noise is the likeliest for these gains, as in the fit. A reading that only repeats
+    the one before it has no innovation.
 
     Args:
         found: the fit, in any unit.
-        log: what it was fitted to, or any other of the same mechanism.
+        log: the fitted log, or any other of the same mechanism.
 
     Raises:
-        BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
+        BadRequest: one measures a length, the other an angle, or kV or kA is not positive.
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    way, model = make_fit_model(fitted)
-    runs = tuple(replace(run, voltage=way * run.voltage) for run in log.runs if len(run) >= FEWEST)
+    sign, model = make_fit_model(fitted)
+    runs = tuple(replace(run, voltage=sign * run.voltage) for run in log.runs if len(run) >= FEWEST)
     log = replace(log, runs=runs)
     friction = None if fitted.type == "simple" else model.gains["kS"]
     problem = make_fit_problem(log, measure_runs(log, friction=friction))
@@ -69,11 +68,11 @@ def compute_innovations(found: Fit, log: Log) -> tuple[RunInnovations, ...]:
     if not point.innovations.size:
         return ()
     compared = ~problem.ignored_readings
-    several = []
+    innovations = []
     for record, first, last in zip(
         problem.records, problem.run_edges[:-1], problem.run_edges[1:], strict=True
     ):
         time, errors = record.measurements.time, point.innovations[first:last]
         x, v = compared[first:last].T
-        several.append(RunInnovations(time[x], errors[x, 0], time[v], errors[v, 1]))
-    return tuple(several)
+        innovations.append(RunInnovations(time[x], errors[x, 0], time[v], errors[v, 1]))
+    return tuple(innovations)

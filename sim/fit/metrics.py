@@ -2,8 +2,8 @@
 
     RMSE = sqrt( Σ (v - v̂)² / N )        R² = 1 - RMSE / sqrt( Σ v² / N )
 
-This R² is SysId's own: no square, no mean subtracted. 0.9 of it is 0.99 in the textbook sense.
-SysId computes both over the direction its plots show, which is forward until somebody clicks.
+This R² is SysId's own: it has no squares, and no mean is subtracted. Its 0.9 is 0.99 in the usual
+definition. SysId computes both for the direction that its plots show, by default forward.
 Source: WPILib SysId 2026.2.2, ``view/AnalyzerPlot.cpp`` and ``analysis/*Sim.cpp``; checked against
 its figures.
 """
@@ -25,7 +25,7 @@ class SimulationScore:
 
     Args:
         r2: SysId's simulated velocity R².
-        rmse: [m/s or rad/s].
+        rmse: [m/s or rad/s] RMS velocity error.
     """
 
     r2: float
@@ -44,9 +44,12 @@ def score_simulated_velocity(
     friction (and an arm's gravity, taken half a step on) are frozen, as SysId does.
 
     Args:
-        rows: the tests, raw.
-        gains: as fitted, in SI.
+        rows: rows of the tests, as recorded.
+        gains: the fitted gains, in SI.
         type: ``simple``, ``elevator`` or ``arm``.
+
+    Returns:
+        R² and RMSE; minus infinity and infinity if the simulation diverges or nothing moves.
     """
     missed, total, count = 0.0, 0.0, 0
     for part in rows:
@@ -55,7 +58,7 @@ def score_simulated_velocity(
             model = _simulate_arm(part, decay, gain, gains)
         else:
             model = _simulate_without_gravity_angle(part, decay, gain, gains)
-        with np.errstate(over="ignore", invalid="ignore"):  # gains of nonsense may run away
+        with np.errstate(over="ignore", invalid="ignore"):  # with wrong gains it may diverge
             error = part.velocity - model
             missed += float(error @ error)
         total += float(part.velocity[1:] @ part.velocity[1:])

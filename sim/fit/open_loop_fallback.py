@@ -1,8 +1,9 @@
-"""Fit the open-loop velocity where the model does not follow the log.
+"""Fit the open-loop velocity if the likeliest model does not reproduce the log.
 
-Where something is missing from a model, the likeliest innovations are those of a model that is
-corrected at every sample, and such a one says little about gains: inertia can pass for anything.
-What gains are for is to say a velocity ahead, so then the velocities of whole runs are compared.
+The likeliest process noise of an incomplete model is large: the filter corrects the state at every
+sample, and the innovations then say little about the gains, above all about kA. A feedforward has
+to predict velocities, so in this case the gains are those with the smallest open-loop velocity
+error.
 """
 
 import math
@@ -17,10 +18,10 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.optimize import levenberg_marquardt
 from sim.fit.search import TRACKING
 
-STRAYS = 2.0  # [1] open-loop velocity error over the sensor's noise, from which a model strays
-SMALL = 0.0125  # [share of the top speed] error that is small whatever the noise
-HOLDS = 0.05  # [1/s] q over the variance of a velocity: a model that needs more lacks something
-STEPS = 30  # of the search
+MISFIT = 2.0  # [1] open-loop velocity error over the sensor noise; more is a misfit
+SMALL = 0.0125  # [share of the top speed] an error below it is no misfit for any noise
+HOLDS = 0.05  # [1/s] q over the velocity variance; a model that needs more is incomplete
+STEPS = 30  # of the search, at most
 LAGS = ("velocity-filter.window", "delay.lag")
 
 
@@ -29,13 +30,14 @@ class OpenLoopReplay:
     """An open-loop simulation and its log, sample by sample.
 
     Args:
-        velocity: (n,) measured [m/s or rad/s].
-        error: (n,) measured less simulated.
-        moving: (n,) where either moves.
-        noise: of the velocity, measured without a model.
-        velocity_only: whether the likeliest gains strayed, and these only hide it better.
-        change: (m,) [unit/s²] between two measured velocities, as long as it moves.
-        simulated_change: (m,) the same of the simulated ones.
+        velocity: (n,) [m/s or rad/s] measured velocity.
+        error: (n,) [m/s or rad/s] measured minus simulated velocity.
+        moving: (n,) whether the mechanism moves, in the log or in the simulation.
+        noise: [m/s or rad/s] standard deviation of the velocity, estimated without a model.
+        velocity_only: whether the gains were fitted to the velocity only, because the likeliest
+            ones had a misfit.
+        change: (m,) [unit/s²] slope between two measured velocities in motion.
+        simulated_change: (m,) [unit/s²] the same of the simulated velocities.
     """
 
     velocity: Array
@@ -59,13 +61,13 @@ class OpenLoopReplay:
     @property
     def r2(self) -> float:
         """Share of the velocity's variance that the simulation explains."""
-        seen = self.velocity[self.moving]
-        spread = float(np.sum((seen - seen.mean()) ** 2)) if seen.size else 0.0
+        measured = self.velocity[self.moving]
+        spread = float(np.sum((measured - measured.mean()) ** 2)) if measured.size else 0.0
         return 1.0 - float(np.sum(self.error[self.moving] ** 2)) / max(spread, 1e-300)
 
     @property
     def acceleration_scores(self) -> tuple[float, float]:
-        """R² and RMSE [unit/s²] of the changes of velocity."""
+        """R² and RMSE [unit/s²] of the slopes between velocities."""
         if not self.change.size:
             return 0.0, 0.0
         left = float(np.mean((self.change - self.simulated_change) ** 2))
@@ -73,14 +75,14 @@ class OpenLoopReplay:
 
     @cached_property
     def top_speed(self) -> float:
-        """[m/s or rad/s] speed that hardly any sample exceeds."""
+        """[m/s or rad/s] top speed: the 0.98 quantile of the measured speeds."""
         return float(np.quantile(np.abs(self.velocity), 0.98)) if self.velocity.size else 0.0
 
     @property
     def has_misfit(self) -> bool:
-        """Whether the velocity error exceeds the noise by more than a little."""
+        """Whether the velocity error is clearly larger than the noise, and not small."""
         small = 0.0 if self.velocity_only else SMALL * self.top_speed
-        return self.rmse > max(STRAYS * self.noise, small)
+        return self.rmse > max(MISFIT * self.noise, small)
 
 
 def replay_open_loop(
@@ -88,13 +90,13 @@ def replay_open_loop(
 ) -> OpenLoopReplay:
     """Simulate every run from its first sample, without correction.
 
-    The start offsets of an estimate with process noise may lie anywhere, and do not count here; the
-    lags of the runs do.
+    The start offsets of an estimate with process noise are hardly determined and are not used; the
+    lags of the runs are.
 
     Args:
-        problem: measurements.
-        point: the values.
-        velocity_only: as of ``OpenLoopReplay``.
+        problem: the measurements.
+        point: the estimate.
+        velocity_only: as in ``OpenLoopReplay``.
     """
     nuisance = problem.initial_nuisance.add_lag(point.nuisance.lag_offset)
     track = problem.simulate(point.structure.model(point.values), nuisance)
@@ -106,30 +108,32 @@ def replay_open_loop(
         going = np.flatnonzero(fresh[first : first + run.time.size] & run.moving)
         times = run.time[going]
         changes.append(np.diff(both[first + going], axis=0) / np.diff(times)[:, None])
-    change, told = np.concatenate(changes).T
+    change, simulated_change = np.concatenate(changes).T
     measured, simulated = both[fresh].T
     return OpenLoopReplay(
         measured, measured - simulated, (problem.moving | (track.velocity != 0.0))[fresh],
         noise=problem.noise.velocity, velocity_only=velocity_only, change=change,
-        simulated_change=told,
+        simulated_change=simulated_change,
     )  # fmt: skip
 
 
 def fit_velocity_only(
     problem: PredictionErrorProblem, point: Estimate, before: OpenLoopReplay
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """Fit the open-loop velocity alone.
+    """Fit the open-loop velocity alone, if the likeliest estimate has a misfit.
 
-    Lags stay: how late a velocity is shows beside the position, and alone it passes for inertia.
+    The lags are kept: a delay of the velocity shows in comparison with the position. Without the
+    position it could not be told from inertia.
 
     Args:
-        problem: what was searched.
-        point: the likeliest point.
-        before: how that follows.
+        problem: the measurements.
+        point: the likeliest estimate.
+        before: its open-loop replay.
 
     Returns:
-        All as they were if the model holds, or if nothing comes closer; and if the likeliest point
-        is pardoned next to nothing, for then it is a simulation already, of the position too.
+        The problem without positions, the new estimate, and its replay. All are unchanged if there
+        is no misfit, if the new RMS error is not smaller, or if the process noise is so small that
+        the estimate already fits the open-loop simulation.
     """
     if point.process_noise <= TRACKING * problem.noise.velocity**2 or not before.has_misfit:
         return problem, point, before
@@ -139,15 +143,15 @@ def fit_velocity_only(
         measured[:, 0] = np.nan
         run = replace(record.measurements, measured=measured)
         records.append(replace(record, measurements=run))
-    blind = replace(problem, records=tuple(records), lag_sd=0.0)
+    velocities = replace(problem, records=tuple(records), lag_sd=0.0)
     structure = replace(point.structure, fixed=LAGS)
-    nuisance = blind.initial_nuisance.add_lag(point.nuisance.lag_offset)
+    nuisance = velocities.initial_nuisance.add_lag(point.nuisance.lag_offset)
     found = levenberg_marquardt(
-        blind,
-        blind.evaluate(structure, point.values, nuisance, 0.0),
+        velocities,
+        velocities.evaluate(structure, point.values, nuisance, 0.0),
         steps=STEPS,
         enough=0.01,
     )
     after = replay_open_loop(problem, found, velocity_only=True)
-    # samples that were left out may weigh more than all that was gained
-    return (blind, found, after) if after.rmse < before.rmse else (problem, point, before)
+    # samples that are not compared count in the replay, so its error may have grown
+    return (velocities, found, after) if after.rmse < before.rmse else (problem, point, before)

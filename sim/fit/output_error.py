@@ -16,7 +16,7 @@ from sim.core.log import Array, Log, Run
 from sim.core.units import find_unit
 from sim.estimation.initial_guess import clamp_to_physical, orient_forward
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
-from sim.estimation.measurements import RunMeasurements, measure_runs
+from sim.estimation.measurements import measure_runs
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import compute_parameter_covariance, make_joint_jacobian
 from sim.fit.everyday_effects import (
@@ -53,21 +53,21 @@ from sim.fit.search import (
 )
 from sim.fit.sysid_doubts import warn_of_uncertain_gains
 
-WORTH = 8.0  # [of -2 log L] what a lag must explain to be believed: odds of some fifty to one
-CHANCE = 4.0  # [of -2 log L] more for a window below a sample, of which noise looks like one
-HINT = 2.0  # [of -2 log L] what a short one must promise before longer ones are tried
+WORTH = 8.0  # [of -2 log L] improvement from which on a lag is included: odds of fifty to one
+EXTRA = 4.0  # [of -2 log L] more for a window below a sample period, which noise can imitate
+HINT = 2.0  # [of -2 log L] predicted improvement by short lags from which on longer ones are tried
 FIRST_LAGS = {"velocity-filter.window": (0.5, 2.0, 6.0), "delay.lag": (0.3, 1.0, 2.0, 4.0)}
 SHORT_WINDOWS = (0.1, 1.0, 0.5)
 SHORT_LAGS = {"velocity-filter.window": SHORT_WINDOWS, "delay.lag": (0.05, 0.2)}
-"""[sample periods] from which a search begins, and from which again when gains are nearly right.
+"""[sample periods] start values of lags: of the first search, and when the gains are nearly right.
 
-An answer a millisecond late passes for inertia: 3 % of it where kA/kV is 35 ms.
+A delay of a millisecond looks like inertia: 3 % of it if kA/kV is 35 ms.
 """
 PAIRS = {"velocity-filter.window": (0.0, 1.0, 2.5, 5.0), "delay.lag": (0.3, 1.0, 2.0)}
-"""[sample periods] from which a search of both begins."""
-GLANCE, HOPEFUL = 2, 3  # steps from each of these, and how many of them go on
-FASTEST, SLOWEST = 1e-4, 0.5  # [s] between samples; other clocks do not tell seconds
-HOLE = 10.0  # [s] in which anything might have happened
+"""[sample periods] start values of both lags together."""
+FIRST_STEPS, BEST = 2, 3  # steps of a search from each pair, and how many pairs are then continued
+FASTEST, SLOWEST = 1e-4, 0.5  # [s] sample periods; outside of them the times are not in seconds
+HOLE = 10.0  # [s] longest gap in a run
 
 
 def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's word
@@ -78,8 +78,8 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         type: ``simple``, ``elevator`` or ``arm``.
 
     Raises:
-        BadRequest: an arm whose position is no angle.
-        NotIdentifiable: the log cannot tell these gains; the message says what would.
+        BadRequest: an arm whose position is not an angle.
+        NotIdentifiable: the log does not determine these gains; the message says which test would.
     """
     per = find_unit(log.units)
     if type == "arm" and not per.angular:
@@ -90,7 +90,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
         )
     _check_times(log)
     try:
-        with np.errstate(all="ignore"):  # what overflows is refused
+        with np.errstate(all="ignore"):  # gains that are not finite are refused
             found = _fit_problem(log, type=type)
     except np.linalg.LinAlgError:
         found = None
@@ -102,7 +102,7 @@ def fit_output_error(log: Log, *, type: str) -> Fit:  # noqa: A002 - SysId's wor
 
 
 def _check_times(log: Log) -> None:
-    """Refuse times that are no seconds, and a run with a hole in it."""
+    """Refuse times that are not in seconds, and a run with a long gap."""
     steps = [(run.test, np.diff(run.time)) for run in log.runs if len(run) > 1]
     if not steps:
         return
@@ -123,6 +123,7 @@ def _check_times(log: Log) -> None:
 
 
 def _refuse_motion(log: Log) -> NotIdentifiable:
+    """The error for a log that no gains can simulate."""
     return NotIdentifiable(
         "its motion does not match its voltage",
         where=log.source,
@@ -131,60 +132,57 @@ def _refuse_motion(log: Log) -> NotIdentifiable:
 
 
 def _fit_problem(log: Log, *, type: str) -> Fit:  # noqa: A002 - as above
-    log, guess, way = orient_forward(
-        log, type=type
-    )  # fitted as if the leads were swapped, and told
+    log, guess, sign = orient_forward(log, type=type)  # a negative sign becomes a warning
     begin = clamp_to_physical(guess, period=_sample_period(log.runs))
-    seen = measure_runs(log, friction=None if type == "simple" else begin["kS"])
-    problem = make_fit_problem(log, seen)
+    measured = measure_runs(log, friction=None if type == "simple" else begin["kS"])
+    problem = make_fit_problem(log, measured)
     plain = fit_tracking(problem, ModelStructure(type), begin)
     if not math.isfinite(plain.cost):
         raise _refuse_motion(log)
     every = problem
-    problem, likeliest, followed = _choose_lags(problem, plain)
-    problem, likeliest, followed = _add_run_lags(
-        problem, likeliest, followed, every=every, period=_sample_period(log.runs)
+    problem, likeliest, replay = _choose_lags(problem, plain)
+    problem, likeliest, replay = _add_run_lags(
+        problem, likeliest, replay, every=every, period=_sample_period(log.runs)
     )
-    problem, likeliest, followed = _add_everyday_effects(problem, likeliest, followed)
-    searched, point, followed = fit_velocity_only(problem, likeliest, followed)
+    problem, likeliest, replay = _add_everyday_effects(problem, likeliest, replay)
+    searched, point, replay = fit_velocity_only(problem, likeliest, replay)
     gains, errors = _gains_with_errors(
         point, compute_parameter_covariance(searched, point), type=type
     )
-    # what a model that does not hold adds to the errors is doubted; what noise alone would leave
-    # unknown is refused
+    # a gain is refused if noise alone leaves it undetermined; errors of the model are warnings
     share = searched.noise.velocity / float(np.sqrt(point.innovation_cov[1, 1]))
     least = {name: min(share, 1.0) * error for name, error in errors.items()}
     if type == "elevator" and not moves_both_ways(
         [record.measurements for record in searched.records]
     ):
         least |= {"kS": math.inf, "kG": math.inf}
-    hint = hint_gravity_type(log, problem, followed, type=type)
+    hint = hint_gravity_type(log, problem, replay, type=type)
     refuse_unidentifiable(gains, least, log=log, type=type, hint=hint)
-    refuse_unrelated(followed, log=log, hint=hint)
-    for wide, spread in compute_gain_covariances(searched, point, followed):
+    refuse_unrelated(replay, log=log, hint=hint)
+    for wide, spread in compute_gain_covariances(searched, point, replay):
         others = _gains_with_errors(wide, spread, type=type)[1]
         errors = {name: max(error, others[name]) for name, error in errors.items()}
-    alone = followed
+    gains_only = replay
     if list_everyday_effects(point):
-        alone = replay_open_loop(searched, remove_everyday_effects(point))
+        gains_only = replay_open_loop(searched, remove_everyday_effects(point))
     said = (
-        *warn_of_misfit(followed, alone, per=find_unit(log.units), hint=hint),
+        *warn_of_misfit(replay, gains_only, per=find_unit(log.units), hint=hint),
         *warn_of_strong_effects(list_everyday_effects(point), searched.priors),
     )
     return _make_result(
-        log, problem, point, way=way, gains=gains, errors=errors, followed=followed, said=said
+        log, problem, point, sign=sign, gains=gains, errors=errors, replay=replay, said=said
     )
 
 
-def _sample_period(seen: Sequence[RunMeasurements | Run]) -> float:
-    """[s] between two samples."""
-    return float(np.median(np.concatenate([np.diff(run.time) for run in seen])))
+def _sample_period(runs: Sequence[Run]) -> float:
+    """[s] median time between two samples."""
+    return float(np.median(np.concatenate([np.diff(run.time) for run in runs])))
 
 
 def _choose_lags(
     problem: PredictionErrorProblem, plain: Estimate
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """The best point, with a velocity that is averaged, a late answer, or both, if worth it."""
+    """The best estimate, with an averaged velocity, a delay, or both, if they improve it enough."""
     point = _add_lags(problem, plain, FIRST_LAGS, settle=fit_tracking)
     everything, problem = problem, drop_outliers(problem, point)
 
@@ -197,63 +195,65 @@ def _choose_lags(
     if point is not plain:
         without = open_loop(plain)
         found = found if found.cost < without.cost - WORTH else without
-    followed = replay_open_loop(problem, found)
-    if followed.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
+    replay = replay_open_loop(problem, found)
+    if replay.has_misfit or found.process_noise > HOLDS * problem.noise.velocity**2:
         other = open_loop(_fit_both_lags(problem, plain))
         more = len(other.structure.effects) - len(found.structure.effects)
         if other.cost < found.cost - WORTH * max(more, 0):
-            found, followed = other, replay_open_loop(problem, other)
-    if followed.has_misfit:  # a millisecond is not what is wrong
-        return problem, found, followed
+            found, replay = other, replay_open_loop(problem, other)
+    if replay.has_misfit:  # short lags are not the cause
+        return problem, found, replay
     best = _add_short_lags(problem, found)
-    return problem, best, followed if best is found else replay_open_loop(problem, best)
+    return problem, best, replay if best is found else replay_open_loop(problem, best)
 
 
 def _add_run_lags(
     problem: PredictionErrorProblem,
     point: Estimate,
-    followed: OpenLoopReplay,
+    replay: OpenLoopReplay,
     *,
     every: PredictionErrorProblem,
     period: float,
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """The same with a lag of each run's own, where the runs' likelihood asks for it."""
-    if _lacks_more(problem, point, followed):
-        return problem, point, followed
+    """The same with a lag for each run, if the likelihood improves enough."""
+    if _is_incomplete(problem, point, replay):
+        return problem, point, replay
     extended, found = fit_run_lags(problem, point, every=every, period=period)
     if found is point:
-        return problem, point, followed
+        return problem, point, replay
     found = _add_short_lags(extended, found)
     after = replay_open_loop(extended, found)
-    if _lacks_more(extended, found, after):
-        return problem, point, followed
+    if _is_incomplete(extended, found, after):
+        return problem, point, replay
     return extended, found, after
 
 
-def _lacks_more(problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay) -> bool:
-    """Whether so much is missing from a model that its small parameters stand in for it."""
-    return followed.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
+def _is_incomplete(
+    problem: PredictionErrorProblem, point: Estimate, replay: OpenLoopReplay
+) -> bool:
+    """Whether a model is so incomplete that lags and small effects would only imitate the rest."""
+    return replay.has_misfit and point.process_noise > TRACKING * problem.noise.velocity**2
 
 
 def _add_everyday_effects(
-    problem: PredictionErrorProblem, point: Estimate, followed: OpenLoopReplay
+    problem: PredictionErrorProblem, point: Estimate, replay: OpenLoopReplay
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """The same with the small effects of every mechanism, where they make the model hold."""
+    """The same with the small effects of every mechanism, if the model is then complete."""
     extended, found = fit_everyday_effects(problem, point)
-    # as long as more is missing, or the runs differ, small effects only stand in for that
+    # if more is missing, or the runs differ, small effects would only imitate that
     if found is point or found.process_noise > TRACKING * problem.noise.velocity**2:
-        return problem, point, followed
+        return problem, point, replay
     return extended, found, replay_open_loop(extended, found)
 
 
 def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate:
-    """The best point of those that begin with a window and a lag at once.
+    """The best of the estimates that start with a window and a lag at once.
 
-    Where both act, the gains of a model that has neither are so far off that what one of them alone
-    promises is worth little.
+    If the log has both, the gains of a model without them are so wrong that the predicted
+    improvement by one alone is unreliable.
 
     Args:
-        problem: what is searched.
+        problem: the measurements.
         plain: the best estimate without either.
     """
     points = []
@@ -263,14 +263,14 @@ def _fit_both_lags(problem: PredictionErrorProblem, plain: Estimate) -> Estimate
             if size > 0.0:
                 structure += name.partition(".")[0]
                 values[name] = size * problem.period
-        points.append(fit_tracking(problem, structure, values, steps=GLANCE))
+        points.append(fit_tracking(problem, structure, values, steps=FIRST_STEPS))
     points.sort(key=lambda one: one.cost)
-    best = (fit_tracking(problem, one.structure, one.values) for one in points[:HOPEFUL])
+    best = (fit_tracking(problem, one.structure, one.values) for one in points[:BEST])
     return min(best, key=lambda one: one.cost)
 
 
 def _add_short_lags(problem: PredictionErrorProblem, found: Estimate) -> Estimate:
-    """An estimate whose gains are nearly right, with the short lags that are worth it."""
+    """An estimate with nearly correct gains, with those short lags that improve it enough."""
 
     def settle(
         problem: PredictionErrorProblem, structure: ModelStructure, values: Mapping[str, float]
@@ -288,29 +288,29 @@ def _add_lags(
     *,
     settle: Callable[[PredictionErrorProblem, ModelStructure, Mapping[str, float]], Estimate],
 ) -> Estimate:
-    """A point with those lags that are worth it, one after another.
+    """An estimate with those lags that improve it enough, added one after another.
 
     Args:
-        problem: what is searched.
-        point: a best estimate.
-        lags: name -> [sample periods] from which to try.
-        settle: the best estimate near some values.
+        problem: the measurements.
+        point: the best estimate without them.
+        lags: parameter -> start values [sample periods].
+        settle: fits a structure from some values.
     """
     left = {name: sizes for name, sizes in lags.items() if name not in point.values}
     while left:
-        # a lag of any size shows in what one of the first two promises
+        # the first two start values show whether there is a lag of any size
         firsts, others = (
             [(name, size * problem.period) for name, sizes in left.items() for size in sizes[part]]
             for part in (slice(2), slice(2, None))
         )
         kept = make_joint_jacobian(problem, point, fine=True)
-        promised = predict_improvement(problem, point, firsts, kept=kept)
-        if not promised.max() > HINT:
+        first = predict_improvement(problem, point, firsts, kept=kept)
+        if not first.max() > HINT:
             break
         more = predict_improvement(problem, point, others, kept=kept)
         tried = firsts + others
-        least = np.array([WORTH + CHANCE * (left[name] is SHORT_WINDOWS) for name, _ in tried])
-        worth = np.concatenate([promised, more]) - least
+        least = np.array([WORTH + EXTRA * (left[name] is SHORT_WINDOWS) for name, _ in tried])
+        worth = np.concatenate([first, more]) - least
         if not worth.max() > 0.0:
             break
         best = int(np.argmax(worth))
@@ -351,14 +351,16 @@ def _gains_with_errors(
 
 
 def _make_result(
-    log: Log, problem: PredictionErrorProblem, point: Estimate, *, way: float,
-    gains: Mapping[str, float], errors: Mapping[str, float], followed: OpenLoopReplay,
+    log: Log, problem: PredictionErrorProblem, point: Estimate, *, sign: float,
+    gains: Mapping[str, float], errors: Mapping[str, float], replay: OpenLoopReplay,
     said: tuple[Doubt, ...],
 ) -> Fit:  # fmt: skip
-    """The result: gains, how well they follow, and what to doubt."""
-    change = followed.acceleration_scores
+    """The result: gains, goodness of fit, and warnings."""
+    change = replay.acceleration_scores
     window, lag = (point.values.get(name, 0.0) for name in LAGS)
-    signed = {name: value if name == "offset_rad" else way * value for name, value in gains.items()}
+    signed = {
+        name: value if name == "offset_rad" else sign * value for name, value in gains.items()
+    }
     return Fit(
         type=point.structure.type,
         method="output-error",
@@ -368,8 +370,8 @@ def _make_result(
         errors=errors,
         acceleration_r2=change[0],
         acceleration_rmse=change[1],
-        simulated_velocity_r2=followed.r2,
-        simulated_velocity_rmse=followed.rmse,
+        simulated_velocity_r2=replay.r2,
+        simulated_velocity_rmse=replay.rmse,
         samples_used=_count_samples(log, problem),
         position_delay=lag,
         velocity_delay=lag + 0.5 * window,
@@ -378,7 +380,7 @@ def _make_result(
         parts=list_everyday_effects(point),
         doubts=(
             *log.doubts,
-            *warn_of_opposed_signs(way),
+            *warn_of_opposed_signs(sign),
             *warn_of_lags(window, lag),
             *said,
             *warn_of_uncertain_gains(signed, errors, per=find_unit(log.units)),
@@ -387,9 +389,9 @@ def _make_result(
 
 
 def _count_samples(log: Log, problem: PredictionErrorProblem) -> dict[str, int]:
-    """Test -> samples in motion that were compared."""
+    """Test -> number of samples in motion that were compared."""
     counts: dict[str, int] = {}
-    long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as ``see`` has it
+    long = [run for run in log.runs if len(run) > 3]  # noqa: PLR2004 - as in ``measure_runs``
     for run, record in zip(long, problem.records, strict=True):
         counts[run.test] = counts.get(run.test, 0) + int(record.measurements.moving.sum())
     return counts

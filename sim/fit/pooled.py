@@ -1,10 +1,10 @@
-"""One answer from several fits of alike parts: both sides, four modules, repeated recordings.
+"""Pool fits of equal parts: both sides, four modules, repeated recordings.
 
-Each part is fitted alone and the gains are averaged; the samples of two parts never are. Two sides
-report at times of their own, so the mean of their samples changes at twice as many moments, each by
-half a step, and a fit takes these steps for noise or motion: kA came out at 9e-05 where either side
-alone had 0.38 and 0.40. A joint fit with common gains would avoid that too, but its gains may lie
-outside those of both parts and its errors do not know that the parts differ.
+Each part is fitted alone and the gains are averaged; the samples are not. Two sides report at
+different times, so the mean of their samples changes twice as often, each time by half a step, and
+a fit takes these steps for noise or motion: kA became 9e-05 where the sides alone had 0.38 and
+0.40. A joint fit with common gains would avoid that too, but its gains may lie outside those of
+both parts, and its errors ignore that the parts differ.
 
 The mean is that of the random-effects model (R. DerSimonian and N. Laird, "Meta-analysis in
 clinical trials", 1986): with s_i the standard error of part i and t² the variance between parts,
@@ -23,16 +23,16 @@ from sim.core.doubt import Doubt
 from sim.core.errors import BadRequest
 from sim.fit.result import Fit
 
-EXACT = 1e-9  # [share of a gain] no error is smaller
+LEAST_ERROR = 1e-9  # [share of a gain] smaller standard errors count as this
 
 
 def pool_fits(fits: Mapping[str, Fit]) -> Fit:
-    """The weighted mean of the fits of alike parts, in the unit of the first.
+    """The weighted mean of the fits of equal parts, in the unit of the first.
 
-    Delays are means, the quality is that of each part simulated with its own gains.
+    Delays are means. R² and RMSE are those of each part simulated with its own gains.
 
     Args:
-        fits: the name of each part -> its fit; at least one.
+        fits: name of each part -> its fit; at least one.
 
     Raises:
         BadRequest: they are of different types, or one measures a length and another an angle.
@@ -46,11 +46,11 @@ def pool_fits(fits: Mapping[str, Fit]) -> Fit:
         )
     if not others:
         return first
-    alike = _faced_alike([first, *(one.in_units(first.units) for one in others)])
+    alike = _orient_alike([first, *(one.in_units(first.units) for one in others)])
     first = alike[0]
     pooled = {
         name: pool_values(
-            [_near(first, one, name) for one in alike],
+            [_get_gain(first, one, name) for one in alike],
             [one.errors.get(name, math.nan) for one in alike],
         )
         for name in first.gains
@@ -66,7 +66,7 @@ def pool_fits(fits: Mapping[str, Fit]) -> Fit:
         acceleration_rmse=accelerations[1],
         simulated_velocity_r2=r2,
         simulated_velocity_rmse=rmse,
-        samples_used=_counted(alike),
+        samples_used=_sum_samples(alike),
         position_delay=_mean(one.position_delay for one in alike),
         velocity_delay=_mean(one.velocity_delay for one in alike),
         velocity_threshold=_mean(one.velocity_threshold for one in alike),
@@ -79,12 +79,15 @@ def pool_values(values: list[float], errors: list[float]) -> tuple[float, float]
     """The mean of values with known standard errors, and its standard error.
 
     Args:
-        values: (n,) of which each part has one.
-        errors: (n,) one standard error of each; not finite where it is not known.
+        values: (n,) the value of each part.
+        errors: (n,) one standard error of each; not finite if it is unknown.
+
+    Returns:
+        The mean and its standard error, which is nan if one of the errors is unknown.
     """
     if not all(map(math.isfinite, errors)):
         return _mean(values), math.nan
-    least = max(EXACT * max(map(abs, values)), 1e-300)
+    least = max(LEAST_ERROR * max(map(abs, values)), 1e-300)
     own = [max(error, least) ** 2 for error in errors]
     between = _between(values, own)
     weights = [1.0 / (square + between) for square in own]
@@ -97,7 +100,7 @@ def pool_values(values: list[float], errors: list[float]) -> tuple[float, float]
 
 
 def merge_doubts(fits: Mapping[str, Fit]) -> tuple[Doubt, ...]:
-    """The doubts of all parts: what several of them have in common is said once, with their names.
+    """The doubts of all parts; one that several parts have is given once, with their names.
 
     Args:
         fits: the name of each part -> its fit.
@@ -110,7 +113,7 @@ def merge_doubts(fits: Mapping[str, Fit]) -> tuple[Doubt, ...]:
 
 
 def _merged(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
-    """The doubts of one code, as few as say the same: those of the worst part."""
+    """The doubts of one code: one for all parts if they are equal, else those of the worst part."""
     kinds = {tuple(doubts) for doubts in several.values()}
     if len(kinds) == 1 and len(several) == whole:
         return list(next(iter(kinds)))
@@ -122,23 +125,24 @@ def _merged(several: Mapping[str, list[Doubt]], *, whole: int) -> list[Doubt]:
     return [replace(doubt, message=f"{names}: {doubt.message}") for doubt in worst]
 
 
-def _faced_alike(fits: list[Fit]) -> list[Fit]:
-    """The fits with gains below zero turned, where another part has them above zero.
+def _orient_alike(fits: list[Fit]) -> list[Fit]:
+    """The fits with negative gains inverted, unless those of all parts are negative.
 
-    A part whose voltage was logged with the wrong sign has all gains below zero, and says so.
+    A part whose voltage was logged with the wrong sign has negative gains, and a warning.
     """
     if all(one.gains["kV"] < 0.0 for one in fits):
         return fits
-    return [_turned(one) if one.gains["kV"] < 0.0 else one for one in fits]
+    return [_invert_gains(one) if one.gains["kV"] < 0.0 else one for one in fits]
 
 
-def _turned(found: Fit) -> Fit:
+def _invert_gains(found: Fit) -> Fit:
+    """The fit with all gains times -1."""
     gains = {name: value if name == "offset_rad" else -value for name, value in found.gains.items()}
     return replace(found, gains=gains)
 
 
-def _near(first: Fit, other: Fit, name: str) -> float:
-    """A gain of another part; an angle within half a turn of the first part's."""
+def _get_gain(first: Fit, other: Fit, name: str) -> float:
+    """A gain of another part; an angle is brought within half a turn of the first part's."""
     value = other.gains[name]
     if name != "offset_rad":
         return value
@@ -156,6 +160,7 @@ def _between(values: list[float], own: list[float]) -> float:
 
 
 def _scatter(values: list[float], weights: list[float], mean: float) -> float:
+    """The weighted sum of squared deviations from the mean."""
     return math.fsum(w * (value - mean) ** 2 for w, value in zip(weights, values, strict=True))
 
 
@@ -171,8 +176,8 @@ def _quality(fits: list[Fit], scores: Callable[[Fit], tuple[float, float]]) -> t
     return share, math.sqrt(missed)
 
 
-def _counted(fits: list[Fit]) -> dict[str, int]:
-    """Test -> how many samples of all parts were used."""
+def _sum_samples(fits: list[Fit]) -> dict[str, int]:
+    """Test -> number of samples used, summed over the parts."""
     counts: dict[str, int] = {}
     for one in fits:
         for test, count in one.samples_used.items():

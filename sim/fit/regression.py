@@ -1,10 +1,10 @@
-"""SysId's regression: ordinary least squares of the acceleration, turned into gains.
+"""SysId's regression: ordinary least squares of the acceleration, converted into gains.
 
     a = α·v + β·V + γ·sgn(v) [+ δ | + δ·cos θ + ε·sin θ]
 
     kS = -γ/β    kV = -α/β    kA = 1/β    kG = -δ/β  or  hypot(δ, ε)/β    offset = atan2(ε, -δ)
 
-The acceleration stands on the left because it is the noisiest of the columns. Source: WPILib SysId
+The acceleration is the dependent variable because it is the noisiest column. Source: WPILib SysId
 2026.2.2, ``analysis/FeedforwardAnalysis.cpp`` and ``analysis/OLS.cpp``.
 """
 
@@ -18,16 +18,16 @@ from sim.core.errors import NotIdentifiable
 from sim.core.log import FOUR_TESTS, Array
 from sim.fit.sysid_rows import Rows
 
-WEAKEST = 1e-11  # smallest eigenvalue of the scaled normal equations that still carries digits
+LEAST_EIGENVALUE = 1e-11  # [1] of the scaled normal equations; a smaller one is rounding
 
 
 @dataclass(frozen=True, eq=False)
 class Regression:
-    """Gains with their spread, and how well the acceleration was explained.
+    """Gains with their standard errors, and goodness of fit of the acceleration.
 
     Args:
         gains: gain -> value [V, V·s/m, V·s²/m; angles in rad].
-        errors: gain -> one standard error, of noise in the acceleration alone.
+        errors: gain -> one standard error, from noise in the acceleration alone.
         r2: SysId's adjusted R² of the acceleration.
         rmse: [m/s² or rad/s²] of the acceleration.
     """
@@ -76,7 +76,7 @@ def regress_acceleration(rows: Mapping[str, Rows], *, type: str) -> Regression: 
 
 
 def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - SysId's word
-    """(columns, n) what the acceleration is regressed on."""
+    """(columns, n) the regressors of the acceleration."""
     columns = [rows.velocity, rows.voltage, np.copysign(1.0, rows.velocity)]
     if type == "elevator":
         columns.append(np.ones(len(rows)))
@@ -86,17 +86,17 @@ def _columns(rows: Rows, *, type: str) -> Array:  # noqa: A002 - SysId's word
 
 
 def _least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
-    """Solve the normal equations, scaled and refined once; also hand back (XᵀX)⁻¹.
+    """Coefficients (k,) of the regressors (k, n), and (k, k) the inverse of XᵀX.
 
     Raises:
-        NotIdentifiable: a combination of columns is not excited by these tests.
+        NotIdentifiable: the tests do not excite a combination of columns.
     """
     size = np.sqrt(np.einsum("ij,ij->i", columns, columns))
     size[size == 0.0] = 1.0
     scaled = columns / size[:, None]
     normal = scaled @ scaled.T
     values, vectors = np.linalg.eigh(normal)
-    if not values[0] > WEAKEST:
+    if not values[0] > LEAST_EIGENVALUE:
         weak = ("kV", "kA", "kS", "kG", "kG's angle")[int(np.argmax(np.abs(vectors[:, 0])))]
         raise NotIdentifiable(
             f"these tests cannot separate {weak} from the other gains",
@@ -105,12 +105,12 @@ def _least_squares(columns: Array, y: Array) -> tuple[Array, Array]:
         )
     inverse = (vectors / values) @ vectors.T
     beta = inverse @ (scaled @ y)
-    beta += inverse @ (scaled @ (y - beta @ scaled))  # one refinement: digits a plain solve loses
+    beta += inverse @ (scaled @ (y - beta @ scaled))  # one step of iterative refinement
     return beta / size, inverse / np.outer(size, size)
 
 
 def _gains(beta: Array, *, type: str) -> tuple[dict[str, float], dict[str, Array]]:  # noqa: A002
-    """Gains from the coefficients, and the slope of each gain along each coefficient."""
+    """Gains, and the derivatives (k,) of each gain by the coefficients ``beta`` (k,)."""
     alpha, per_volt, gamma = beta[:3]
     unit = np.eye(beta.size)
 

@@ -1,7 +1,7 @@
 """Simulate a fit's gains under each run's voltage and compare with the measurement.
 
-Open loop, from where each run began, with the lag and the averaging of the velocity that the fit
-found: what remains is what the gains do not explain, and the noise that no gains could.
+The simulation is open loop and starts with each run. It includes the lag and the averaging of the
+velocity that the fit found, so the residual is noise and what the gains do not explain.
 """
 
 import math
@@ -19,8 +19,8 @@ from sim.fit import Fit
 from sim.physics.engine import State, Track, simulate_run
 from sim.physics.model import Model, Part
 
-FEWEST = 4  # samples of a run: shorter ones are no test
-SHORTEST = 1e-5  # [s] a lag below it is none
+FEWEST = 4  # samples of a run that is simulated
+LEAST_LAG = 1e-5  # [s] a shorter lag is left out
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,12 +28,12 @@ class RunReplay:
     """One run, measured and simulated.
 
     Args:
-        run: from its first sample that a fit uses.
-        position: (n,) [m or rad] simulated.
-        velocity: (n,) [m/s or rad/s] simulated, as its sensor would say it.
-        moving: (n,) where it moves.
-        position_noise: [m or rad] standard deviation of one sample, measured without a model.
-        velocity_noise: [m/s or rad/s] the same.
+        run: the run, from the first sample that a fit uses.
+        position: (n,) [m or rad] simulated position.
+        velocity: (n,) [m/s or rad/s] simulated velocity, as the sensor would report it.
+        moving: (n,) whether the mechanism moves.
+        position_noise: [m or rad] standard deviation of one sample.
+        velocity_noise: [m/s or rad/s] standard deviation of one sample.
     """
 
     run: Run
@@ -59,13 +59,13 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
 
     Args:
         found: the fit, in any unit.
-        log: what it was fitted to, or any other of the same mechanism.
+        log: the fitted log, or any other of the same mechanism.
 
     Raises:
-        BadRequest: one measures a length, the other an angle, or nothing moves with these gains.
+        BadRequest: one measures a length, the other an angle, or kV or kA is not positive.
     """
     fitted = found.in_units("radians" if find_unit(log.units).angular else "meters")
-    way, model = make_fit_model(fitted)
+    sign, model = make_fit_model(fitted)
     runs = [run for run in log.runs if len(run) >= FEWEST]
     friction = None if fitted.type == "simple" else model.gains["kS"]
     seen = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
@@ -73,7 +73,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
         return ()
     tracks = [
         simulate_run(
-            model, time=part.time, voltage=way * part.voltage,
+            model, time=part.time, voltage=sign * part.voltage,
             state=State.cold_at(part.position, part.velocity),
         )
         for part in seen
@@ -93,23 +93,27 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
 
 
 def make_fit_model(found: Fit) -> tuple[float, Model]:
-    """Sign of the voltage that drives forward, and the model of a fit."""
-    way = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
+    """Sign of the voltage that drives forward, and the model of a fit.
+
+    Raises:
+        BadRequest: kV or kA is not positive, or only one of them is negative.
+    """
+    sign = -1.0 if found.gains["kV"] < 0.0 and found.gains["kA"] < 0.0 else 1.0
     gains = {
-        name: value if name == "offset_rad" else way * value for name, value in found.gains.items()
+        name: value if name == "offset_rad" else sign * value for name, value in found.gains.items()
     }
-    gains["kS"] = max(gains["kS"], 0.0)  # friction below zero would push
+    gains["kS"] = max(gains["kS"], 0.0)  # no negative friction
     if not (gains["kV"] > 0.0 and gains["kA"] > 0.0):
         raise BadRequest(
             f"nothing can be simulated with kV = {found.gains['kV']:.3g}, "
             f"kA = {found.gains['kA']:.3g}",
             advice="First find out why a gain is negative.",
         )
-    return way, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
+    return sign, Model(found.type, gains, (*_sensor_lags(found), *found.parts))
 
 
 def _sensor_lags(found: Fit) -> list[Part]:
-    """The lag and the averaging of the velocity that the fit found; the recipe's are no model's."""
+    """The lag and the averaging of the velocity that an output-error fit found."""
     if found.method != "output-error":
         return []
     window = 2.0 * (found.velocity_delay - found.position_delay)
@@ -117,14 +121,16 @@ def _sensor_lags(found: Fit) -> list[Part]:
         "velocity-filter": ("window", window),
         "delay": ("lag", found.position_delay),
     }
-    return [Part(effect, {name: size}) for effect, (name, size) in sizes.items() if size > SHORTEST]
+    return [
+        Part(effect, {name: size}) for effect, (name, size) in sizes.items() if size > LEAST_LAG
+    ]
 
 
 def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
     """[m or rad] position noise, from third differences of the residual.
 
-    They hardly depend on errors of the model. Those of the position itself would take a late sample
-    for noise.
+    They hardly depend on errors of the model. Those of the position itself would be large wherever
+    a sample is late.
     """
     thirds = [
         np.diff((run.measured[:, 0] - track.position)[run.moving], 3)

@@ -24,23 +24,25 @@ class Fit:
 
     Args:
         type: ``simple``, ``elevator`` or ``arm``.
-        method: how it was found.
-        units: the unit of position the numbers below are in; meters or radians when fresh.
-        log_units: the unit the log's owner thinks in.
+        method: ``output-error`` or ``sysid``.
+        units: unit of position of the numbers below; meters or radians from a fit.
+        log_units: unit of position of the log.
         gains: kS [V], kV [V·s/unit], kA [V·s²/unit], kG [V], offset_rad [rad].
-        errors: one standard error of each.
-        acceleration_r2: SysId's adjusted R² of the acceleration.
-        acceleration_rmse: [unit/s²].
-        simulated_velocity_r2: SysId's own, of the open-loop simulation; -inf if it diverges.
-        simulated_velocity_rmse: [unit/s].
-        samples_used: test -> how many samples the regression saw.
-        position_delay: [s] from voltage to motion, seen in the position.
-        velocity_delay: [s] the same, seen in the velocity.
-        velocity_threshold: [unit/s] slower quasistatic samples were taken for standstill.
-        step_duration: [s] how much of each dynamic test was used.
-        parts: small effects that were fitted beside the gains, in SI; a simulation needs them, a
-            feedforward leaves them out.
-        doubts: what to know before trusting the numbers.
+        errors: gain -> one standard error.
+        acceleration_r2: R² of the acceleration; with ``sysid`` SysId's adjusted one.
+        acceleration_rmse: [unit/s²] RMS error of the acceleration.
+        simulated_velocity_r2: R² of the open-loop velocity; with ``sysid`` SysId's own, of the
+            forward tests, -inf if the simulation diverges.
+        simulated_velocity_rmse: [unit/s] RMS error of the open-loop velocity.
+        samples_used: test -> number of samples that were used.
+        position_delay: [s] delay from voltage to position.
+        velocity_delay: [s] delay from voltage to velocity.
+        velocity_threshold: [unit/s] slower quasistatic samples were left out; 0 with
+            ``output-error``.
+        step_duration: [s] used part of each dynamic test; 0 with ``output-error``.
+        parts: small effects that were fitted together with the gains, in SI. A simulation needs
+            them, a feedforward leaves them out.
+        doubts: warnings about the numbers.
     """
 
     type: str
@@ -62,10 +64,10 @@ class Fit:
     doubts: tuple[Doubt, ...] = field(default=())
 
     def in_units(self, name: str) -> "Fit":
-        """The fit converted to another unit of position: V·s/rotation from V·s/radian, say.
+        """The fit converted to another unit of position, as from V·s/radian to V·s/rotation.
 
         Raises:
-            BadRequest: an unknown unit, or an angle for a length.
+            BadRequest: an unknown unit, or one is an angle and the other a length.
         """
         old, new = find_unit(self.units), find_unit(name)
         if old.angular != new.angular:
@@ -87,14 +89,14 @@ class Fit:
         )
 
     def in_log_units(self) -> "Fit":
-        """The fit converted to the unit of position that the log's owner uses."""
+        """The fit converted to the unit of position of the log."""
         return self.in_units(self.log_units)
 
     def feedback(self, preset: Preset = PRESETS["default"]) -> dict[str, Feedback]:
-        """Suggested gains of the velocity and the position loop; empty if the model allows none.
+        """Loop -> suggested feedback gains; empty if kV or kA has the wrong sign.
 
-        With the default preset the measurement's delay is the one seen in the log, as SysId sets it
-        on loading; any other preset brings its own.
+        With the default preset the measurement's delay is that of the log, as in SysId. Other
+        presets have a delay of their own.
         """
         kv, ka = self.gains["kV"], self.gains["kA"]
         if not (kv >= 0.0 and ka > 0.0):
@@ -102,21 +104,21 @@ class Fit:
         allowed = compute_allowed_velocity_error(ks=self.gains["kS"], kv=kv)
         if not allowed > 0.0:
             return {}
-        seen = preset is PRESETS["default"]
+        of_log = preset is PRESETS["default"]
         return {
             "velocity": design_velocity_loop(
                 kv=kv,
                 ka=ka,
                 preset=preset,
                 velocity_error=allowed,
-                delay=self.velocity_delay if seen else None,
+                delay=self.velocity_delay if of_log else None,
             ),
             "position": design_position_loop(
                 kv=kv,
                 ka=ka,
                 preset=preset,
                 velocity_error=allowed,
-                delay=self.position_delay if seen else None,
+                delay=self.position_delay if of_log else None,
             ),
         }
 
@@ -137,7 +139,7 @@ class Fit:
         )
 
     def to_json(self, preset: Preset = PRESETS["default"]) -> dict[str, object]:
-        """The fit as plain data; the keys are fixed, other programs read them."""
+        """The fit as data for JSON; the keys are fixed, because other programs read them."""
         return {
             "type": self.type,
             "method": self.method,

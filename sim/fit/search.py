@@ -1,7 +1,7 @@
-"""The search for the gains of a log: first looking a little ahead, then with the likeliest noise.
+"""The search for the gains of a log: first with a large, then with the likeliest process noise.
 
-A search with a large process noise predicts only a little ahead and is not easily led astray; with
-a small one it simulates whole runs and knows more.
+With a large process noise the model predicts only a few samples ahead, and the search converges
+easily. With a small one it simulates whole runs, which determines the gains better.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,26 +16,26 @@ from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import JointJacobian, levenberg_marquardt, tune_process_noise
 from sim.estimation.run_records import make_separate_records
 
-SLACK = 0.02  # [m or rad] of a gear or a chain, which kS, kV and kA do not describe
-TRACKING = 1.0  # [1/s] q over the variance of a velocity: it moves by its noise in a second
-OPEN_LOOP = 1e-7  # [1/s] the same where a simulation is all but left to itself
-BETWEEN = (1e-4, 1e-2)  # [1/s] the same where some models are likeliest
-COARSE = 100.0  # [1] steps of q
-FARTHEST = 8  # steps of q in one round
-STEPS = 8  # of the gains in one round
+SLACK = 0.02  # [m or rad] backlash of a gear or a chain, which is not in the model
+TRACKING = 1.0  # [1/s] q over the velocity variance of a first search
+OPEN_LOOP = 1e-7  # [1/s] the same of an almost open-loop simulation
+BETWEEN = (1e-4, 1e-2)  # [1/s] other values, which are the likeliest for some models
+COARSE = 100.0  # [1] factor by which q shrinks
+MOST_ROUNDS = 8  # of a shrinking q
+STEPS = 8  # of a search, at most
 ENOUGH = 0.05  # [of -2 log L] a step that gains less ends a search
 ROUGHLY = 5.0  # [of -2 log L] the same of a first search
-OUTLIER = 6.0  # [standard deviations] farther than this no noise goes
-START = 0.15  # [s] of a motion in which nothing is left out: about two time constants
-AROUND = 2  # samples on both sides of an outlier
+OUTLIER = 6.0  # [standard deviations] a larger innovation is an outlier
+START = 0.15  # [s] of a motion in which there are no outliers: about two time constants
+AROUND = 2  # samples on both sides of an outlier, which are dropped with it
 
 
 def make_fit_problem(log: Log, measured: Sequence[RunMeasurements]) -> PredictionErrorProblem:
-    """The estimation problem of a log's runs, each by itself, for gains and lags.
+    """The estimation problem of a log's runs as independent records, for gains and lags.
 
     Args:
         log: the runs.
-        measured: of those with enough samples, the measurements.
+        measured: the measurements of each run that has enough samples.
     """
     records = make_separate_records(log, [merge_stale_samples(one) for one in measured])
     return PredictionErrorProblem.from_records(
@@ -50,16 +50,16 @@ def fit_tracking(
     *,
     steps: int = STEPS,
 ) -> Estimate:
-    """Fit from a first guess, with process noise as large as the sensor noise each second.
+    """Fit from a first guess, with process noise that equals the sensor noise in a second.
 
     Args:
         problem: the measurements.
-        structure: the parameters.
-        values: the guess.
-        steps: of the search, at most.
+        structure: the model structure.
+        values: value of each of its parameters, the guess.
+        steps: the largest number of steps.
 
     Returns:
-        The estimate; where nothing can be simulated from the guess, the guess, at an infinite cost.
+        The estimate; the guess with an infinite cost if it cannot be simulated.
     """
     q = TRACKING * problem.noise.velocity**2
     point = problem.evaluate(structure, values, problem.initial_nuisance, q)
@@ -69,17 +69,17 @@ def fit_tracking(
 def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """Fit with the likeliest process noise, from a tracking fit.
 
-    Either a model holds, and is likeliest with next to no process noise, or something is missing
-    from it. On the way from one to the other it may be less likely than at both ends, so the far
-    end is tried first. Failing that, the noise shrinks as long as that is likelier.
+    A correct model is likeliest with almost no process noise, an incomplete one with more. The
+    likelihood may have a minimum between the two, so almost no noise is tried first. If that is
+    less likely, the noise is reduced in steps as long as the likelihood grows.
     """
     size = problem.noise.velocity**2
-    deep = refine(problem, _with_noise(problem, point, OPEN_LOOP * size))
-    if deep.cost < point.cost:
-        others = [_with_noise(problem, deep, q * size) for q in BETWEEN]
-        best = tune_process_noise(problem, min(deep, *others, key=lambda one: one.cost))
-        return best if best is deep else refine(problem, best)
-    for _ in range(FARTHEST):
+    open_loop = refine(problem, _with_noise(problem, point, OPEN_LOOP * size))
+    if open_loop.cost < point.cost:
+        others = [_with_noise(problem, open_loop, q * size) for q in BETWEEN]
+        best = tune_process_noise(problem, min(open_loop, *others, key=lambda one: one.cost))
+        return best if best is open_loop else refine(problem, best)
+    for _ in range(MOST_ROUNDS):
         other = _with_noise(problem, point, point.process_noise / COARSE)
         other = levenberg_marquardt(problem, other, steps=1)
         if not other.cost < point.cost - 0.5:
@@ -89,7 +89,7 @@ def fit_open_loop(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def refine(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """Fit again with unchanged process noise."""
+    """The estimate after a search to convergence, with unchanged process noise."""
     return levenberg_marquardt(problem, point, steps=STEPS, enough=ENOUGH)
 
 
@@ -105,24 +105,26 @@ def predict_improvement(
     Args:
         problem: the measurements.
         point: the best estimate without them.
-        more: ``effect.parameter`` and its value.
+        more: each ``effect.parameter`` with its value, in SI.
         kept: the joint Jacobian at the estimate.
     """
-    now = kept.compute_residual_square(problem.whiten(point, point.innovations))
+    square = kept.compute_residual_square(problem.whiten(point, point.innovations))
     gains = []
     for name, value in more:
         structure = point.structure + name.partition(".")[0]
         values = {**point.values, name: value}
         other = problem.evaluate(structure, values, point.nuisance, point.process_noise)
-        gains.append(now - kept.compute_residual_square(problem.whiten(point, other.innovations)))
+        gains.append(
+            square - kept.compute_residual_square(problem.whiten(point, other.innovations))
+        )
     return np.array(gains)
 
 
 def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> PredictionErrorProblem:
     """The problem without its outliers and the samples around them.
 
-    A stop that was hit, a tooth that slipped, a voltage that was not applied: one such moment may
-    weigh more than all the rest. These measurements still keep the simulation on course.
+    A stop that was hit, a chain that slipped, a voltage that was not applied: one such event may
+    weigh more than all other samples. The Kalman filter still uses the dropped samples.
     """
     size = np.array(
         [
@@ -136,7 +138,7 @@ def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> Predictio
     for record, first in zip(problem.records, problem.run_edges, strict=False):
         run = record.measurements
         own = far[first : first + run.time.size].copy()
-        # a start is what shows inertia: there an outlier is more likely the model's
+        # a start determines kA, and a large innovation there is more likely an error of the model
         own[run.time < run.time[int(np.argmax(run.moving))] + START] = False
         wide = np.convolve(own, np.ones(2 * AROUND + 1), mode="same")[: run.time.size] > 0.0
         kept.append(replace(record, measurements=replace(run, informative=run.informative & ~wide)))
@@ -148,4 +150,5 @@ def drop_outliers(problem: PredictionErrorProblem, point: Estimate) -> Predictio
 
 
 def _with_noise(problem: PredictionErrorProblem, point: Estimate, q: float) -> Estimate:
+    """The estimate with another process noise [unit²/s³]."""
     return problem.evaluate(point.structure, point.values, point.nuisance, q)

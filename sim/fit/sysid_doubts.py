@@ -14,9 +14,9 @@ from sim.fit.sysid_rows import NEAR_TOP, PreparedRows
 
 DUBIOUS_R2 = 0.2  # acceleration R² below which WPILib's documentation calls kA dubious
 GOOD_R2 = 0.9  # simulated velocity R² above which WPILib's documentation calls a fit good
-STALE = 0.6  # [share of accelerating samples] that repeat; up to a half costs no bias, see _stale
-SURELY = 2.0  # [standard errors] further below zero than this is no accident of noise
-DETERMINES = (
+STALE = 0.6  # [share of accelerating samples] that repeat; up to one half, kA has no bias
+SURELY = 2.0  # [standard errors] below zero, from which on noise is not the cause
+TEST_FOR = (
     "Repeat the quasistatic tests with a slower ramp.",
     "Repeat the dynamic tests, and log every loop.",
 )  # kS, kV, kG and kA
@@ -29,22 +29,23 @@ def list_sysid_doubts(
     """All doubts about a fit by SysId's recipe.
 
     Args:
-        log: what was fitted.
+        log: the fitted log.
         prepared: the rows that were used.
-        found: the gains.
-        simulated: how well they reproduce the forward and the reverse tests.
+        found: the result of the regression.
+        simulated: R² and RMSE of the forward and of the reverse tests.
     """
     return (
         *_doubt_repeats(log),
         *_doubt_stale_velocities(log),
         *_doubt_signs(found.gains, found.errors, per=find_unit(log.units)),
         *warn_of_uncertain_gains(found.gains, found.errors, per=find_unit(log.units)),
-        *_doubt_uncertain_gains(found.r2, simulated),
+        *_doubt_low_r2(found.r2, simulated),
         *_doubt_slow_steps(prepared.velocity_delay, found.gains),
     )
 
 
 def _doubt_repeats(log: Log) -> list[Doubt]:
+    """Doubts about runs that SysId does not use: repeated and unknown tests."""
     again = [
         f"{test} ({len(log.list_runs_of_test(test))} runs)"
         for test in FOUR_TESTS
@@ -66,10 +67,11 @@ def _doubt_repeats(log: Log) -> list[Doubt]:
 
 
 def _doubt_stale_velocities(log: Log) -> list[Doubt]:
-    """Velocities that were logged more often than they were measured.
+    """A doubt about velocities that were logged more often than they were measured.
 
-    Of a velocity held for n samples SysId keeps the two next to each jump and spreads the jump over
-    two periods instead of n, so kA comes out as 2/n, or 2·(1 - share repeated), of its size.
+    If a velocity repeats for n samples, SysId uses the two samples at each jump and divides the
+    jump by two periods instead of n. kA is then too small by the factor 2/n = 2·(1 - share
+    repeated).
     """
     steps = [
         _rise_changes(log.list_runs_of_test(test)[0])
@@ -103,6 +105,7 @@ def _rise_changes(run: Run) -> Array:
 def _doubt_signs(
     gains: Mapping[str, float], errors: Mapping[str, float], *, per: Unit
 ) -> list[Doubt]:
+    """Doubts about gains with a wrong sign."""
     if gains["kV"] < 0 and gains["kA"] < 0:
         return [
             Doubt(
@@ -136,26 +139,27 @@ def _doubt_signs(
 def warn_of_uncertain_gains(
     gains: Mapping[str, float], errors: Mapping[str, float], *, per: Unit
 ) -> list[Doubt]:
-    """A warning about gains whose error is about as large as their value.
+    """Warnings about gains whose standard error is more than half of their value.
 
     Args:
-        gains: in SI units.
-        errors: one standard error of each, in SI units.
-        per: the unit of position of the log's owner, which the message is in.
+        gains: gain -> value, in SI.
+        errors: gain -> one standard error, in SI.
+        per: the unit of position of the messages.
     """
     shown, sizes = (convert_gains(numbers, factor=per.si) for numbers in (gains, errors))
     return [
         Doubt(
             "unsure-gain",
             f"{gain} = {shown[gain]:.2g} ± {sizes[gain]:.2g} {format_gain_unit(gain, per)}: this "
-            f"log does not show whether {gain} differs from 0. {DETERMINES[gain == 'kA']}",
+            f"log does not show whether {gain} differs from 0. {TEST_FOR[gain == 'kA']}",
         )
         for gain, error in errors.items()
         if gain != "offset_rad" and error > UNSURE * abs(gains[gain])
     ]
 
 
-def _doubt_uncertain_gains(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
+def _doubt_low_r2(r2: float, simulated: tuple[SimulationScore, ...]) -> list[Doubt]:
+    """Doubts about a low R² of the acceleration or of the simulated velocity."""
     doubts = [
         Doubt(
             "low-simulated-r2",
@@ -178,6 +182,7 @@ def _doubt_uncertain_gains(r2: float, simulated: tuple[SimulationScore, ...]) ->
 
 
 def _doubt_slow_steps(delay: float, gains: Mapping[str, float]) -> list[Doubt]:
+    """A doubt about a delay [s] of the velocity that is longer than kA/kV."""
     timescale = gains["kA"] / gains["kV"] if gains["kV"] else 0.0
     if not 0.0 < timescale < delay:
         return []

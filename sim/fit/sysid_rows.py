@@ -1,8 +1,8 @@
 """Prepare the rows of SysId's regression, step for step as WPILib SysId does.
 
-Source: WPILib SysId 2026.2.2, ``analysis/FilteringUtils`` and ``analysis/AnalysisManager``. Where
-SysId goes on with samples that cannot give an answer, this refuses and says why; where SysId gives
-an answer, these rows are the rows it used.
+Source: WPILib SysId 2026.2.2, ``analysis/FilteringUtils`` and ``analysis/AnalysisManager``. If
+SysId continues with samples that do not determine the gains, this module raises an error with the
+reason. Otherwise the rows are those that SysId uses.
 """
 
 from collections.abc import Mapping
@@ -16,8 +16,8 @@ from sim.core.log import FOUR_TESTS, Array, Log, Run
 NOISE_WINDOW = 9  # [samples] SysId's noise floor looks at a moving mean this long
 LONGEST_GAP = 0.5  # [s] a longer step between samples does not count toward the mean period
 MOVED = 0.8  # [share of the peak acceleration] where the velocity is taken to have begun to move
-NEAR_TOP = 0.9  # [share of the top speed] where a dynamic test has nothing more to say
-MEDIAN_WINDOWS = range(1, 16)  # [samples] what SysId's own slider offers
+NEAR_TOP = 0.9  # [share of the top speed] up to which a dynamic test determines kA
+MEDIAN_WINDOWS = range(1, 16)  # [samples] that SysId's slider offers
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,9 +63,9 @@ class PreparedRows:
         rows: test name -> filtered and trimmed rows, for the regression.
         raw: test name -> rows as recorded (a quasistatic test without its standstill).
         threshold: [m/s or rad/s] below which a quasistatic sample counts as standstill.
-        step_duration: [s] how much of a dynamic test after its peak acceleration is used.
-        position_delay: [s] from voltage to motion, seen in the position; a mean over both tests.
-        velocity_delay: [s] the same, seen in the velocity.
+        step_duration: [s] used part of a dynamic test, from its peak acceleration on.
+        position_delay: [s] delay from voltage to position, the mean of both dynamic tests.
+        velocity_delay: [s] delay from voltage to velocity, the mean of both dynamic tests.
     """
 
     rows: Mapping[str, Rows]
@@ -140,14 +140,15 @@ def estimate_noise_floor(velocity: Array, *, window: int = NOISE_WINDOW) -> floa
 
 
 def median_filter(values: Array, *, window: int) -> Array:
-    """A centered running median that starts and ends as SysId's does.
+    """(n,) centered running median with SysId's treatment of the ends.
 
-    Its buffer is full of the first value when sample ``(window - 1) // 2`` comes in, so the samples
-    between the two never count; behind the end the last value is repeated.
+    At the start its buffer is filled with the first value, and the next sample that enters it is
+    number ``(window - 1) // 2``, so the samples between are not used. After the end the last value
+    is repeated.
 
     Args:
         values: (n,), n >= window.
-        window: [samples].
+        window: [samples] length of the window.
     """
     ahead = (window - 1) // 2
     fed = np.concatenate(
@@ -161,9 +162,9 @@ class TrimmedStep:
     """A dynamic test cut to the part that determines kA.
 
     Args:
-        rows: from the peak acceleration on, ``duration`` long.
-        duration: [s].
-        position_delay: [s] from voltage to a change of position; negative where noise came first.
+        rows: the rows from the peak acceleration on, ``duration`` long.
+        duration: [s] length of the used part.
+        position_delay: [s] from voltage to a change of position; negative if noise is earlier.
         velocity_delay: [s] from voltage to the rise of velocity.
     """
 
@@ -176,14 +177,14 @@ class TrimmedStep:
 def trim_step(
     rows: Rows, *, threshold: float, duration: float, longest: float, test: str = "dynamic"
 ) -> TrimmedStep:
-    """Cut a dynamic test to the stretch from its peak acceleration to 90 % of its top speed.
+    """Cut a dynamic test to the part from its peak acceleration to 90 % of its top speed.
 
     Args:
-        rows: the test, differentiated.
-        threshold: [m/s or rad/s] below which a change of position is no motion.
-        duration: [s] how much to keep; 0 finds it in the data.
-        longest: [s] never keep more than this.
-        test: its name, for messages.
+        rows: the differentiated test.
+        threshold: [m/s or rad/s] noise floor: a slower change of position is no motion.
+        duration: [s] length of the part; 0 computes it from the data.
+        longest: [s] upper limit of the length.
+        test: name of the test, for messages.
 
     Raises:
         NotIdentifiable: no voltage was ever applied.
@@ -226,7 +227,7 @@ def _first_runs(log: Log) -> dict[str, Run]:
 
 
 def _rows_of_run(run: Run) -> Rows:
-    """A run as SysId takes it in: every sample with the time to the next, so the last one goes."""
+    """The rows of a run: samples with the time to the next one, so without the last."""
     if len(run) <= NOISE_WINDOW:
         raise NotIdentifiable(
             f"{run.test} has {len(run)} samples, too few to separate motion from noise",
@@ -249,11 +250,12 @@ def _rows_of_run(run: Run) -> Rows:
 
 
 def _duration(rows: Rows) -> float:
+    """[s] from the first to the last row."""
     return float(rows.time[-1] - rows.time[0])
 
 
 def _drop_standstill(rows: Rows, *, threshold: float, test: str) -> Rows:
-    """A quasistatic test without the samples that stand still or have no voltage."""
+    """A quasistatic test without the samples at rest or without voltage."""
     left = rows.select((np.abs(rows.voltage) > 0) & (np.abs(rows.velocity) >= threshold))
     if not len(left):
         raise NotIdentifiable(
@@ -268,8 +270,8 @@ def _drop_standstill(rows: Rows, *, threshold: float, test: str) -> Rows:
 def _differentiate(rows: Rows, *, median: int, test: str) -> Rows:
     """Rows with a median-filtered velocity and its central difference over the mean period.
 
-    SysId divides by the mean period of the test, not by each sample's own, and its first value is
-    half of the true slope, its last one zero.
+    SysId divides by the mean period of the test, not by that of each sample. Its first value is
+    half of the true slope, and its last one zero.
     """
     if len(rows) < max(3, median):
         raise NotIdentifiable(
@@ -292,7 +294,7 @@ def _differentiate(rows: Rows, *, median: int, test: str) -> Rows:
 
 
 def _drop_zero_acceleration(rows: Rows, *, test: str) -> Rows:
-    """Rows without those whose acceleration is exactly zero, which SysId takes for no data."""
+    """Rows without those whose acceleration is exactly zero, which SysId treats as missing."""
     left = rows.select(rows.acceleration != 0.0)
     if not len(left):
         raise NotIdentifiable(

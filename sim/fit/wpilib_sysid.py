@@ -14,13 +14,13 @@ def fit_wpilib_sysid(log: Log, *, type: str, median: int = 1) -> Fit:  # noqa: A
     """Fit a log as SysId does.
 
     Args:
-        log: with the four tests; of a test that was repeated only the first run counts.
+        log: a log with the four tests; of a repeated test only the first run is used.
         type: ``simple``, ``elevator`` or ``arm``.
-        median: [samples] window of the median filter on velocity.
+        median: [samples] window of the median filter on velocity; 1 is none.
 
     Raises:
-        BadRequest: an arm whose position is no angle.
-        NotIdentifiable: the log cannot tell these gains.
+        BadRequest: an arm whose position is not an angle, or a window that SysId does not offer.
+        NotIdentifiable: the log does not determine these gains.
     """
     per = find_unit(log.units)
     if type == "arm" and not per.angular:

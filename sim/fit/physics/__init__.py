@@ -1,8 +1,8 @@
 """Plausibility checks: gains against motor, gearing, load and gravity.
 
-kV = 12 V / free speed · G/r        a motor's own; drag adds, nothing takes away
-kA = R·r/(n·Kt·G) · load            rotors and wheels add, nothing takes away
-kG/kA = g                           of an elevator; less with rotors, never more
+kV = 12 V / free speed · G/r        that of the motor; drag makes it larger
+kA = R·r/(n·Kt·G) · load            that of the load; rotors and wheels make it larger
+kG/kA = g                           of an elevator; rotors make it smaller, a cascade larger
 """
 
 import math
@@ -33,12 +33,12 @@ def check_plausibility(
 
     Args:
         found: the fit, in any unit.
-        parts: what it was built from; None leaves kV and kA unchecked.
-        period: [s] between two samples of the log.
+        parts: motor, gearing and load; with None, kV and kA are not checked.
+        period: [s] time between two samples of the log.
 
     Raises:
-        BadRequest: a radius for a position that is an angle, none for one that is a length, or a
-            period that is no time.
+        BadRequest: a radius although the position is an angle, no radius although it is a length,
+            or a period that is not positive.
     """
     if not (math.isfinite(period) and period > 0.0):
         raise BadRequest(
@@ -56,17 +56,17 @@ def check_plausibility(
 
 
 def compare_with_theory(found: Fit, parts: Parts | None) -> tuple[str, ...]:
-    """A sentence with the kV and kA of theory; none without parts or with a kV below zero.
+    """A sentence with the theoretical kV and kA; empty without parts or if kV is not positive.
 
     Args:
         found: the fit, in any unit.
-        parts: what the mechanism was built from.
+        parts: motor, gearing and load.
     """
     si = fit_in_si(found)
     return (describe_theory(si, parts),) if parts is not None and si.gains["kV"] > 0.0 else ()
 
 
 def _advise_model_first(doubt: Doubt) -> Doubt:
-    """The same doubt about a model that does not hold: the cause may be no part at all."""
+    """The doubt about a fit with a misfit: a missing effect may be the cause."""
     said = f"{doubt.message.removesuffix('.')}; but the simulation does not match this log. The"
     return replace(doubt, message=f"{said} missing effect may be the cause: find it first.")

@@ -12,8 +12,8 @@ from sim.fit.output_error import fit_output_error
 from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.result import Fit, format_gain_unit
 
-APART = 0.05  # [share of a gain] two sides or directions may differ by
-NOTICED = 0.03  # [V] a difference of kS or kG smaller than this is no matter
+APART = 0.05  # [share of a gain] by which two sides or directions may differ
+NOTICED = 0.03  # [V] a smaller difference of kS or kG does not matter
 
 SUSPECTS = {
     "kS": "a bearing, a chain, a brake, a ratchet or anything that rubs in one direction",
@@ -24,7 +24,11 @@ SUSPECTS = {
 
 
 def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
-    """Doubts if two sides of a drivetrain, or two of the same mechanism, differ.
+    """Doubts if two sides of a drivetrain, or two equal mechanisms, differ.
+
+    Args:
+        left: the fit of one side, in any unit.
+        right: the fit of the other side.
 
     Raises:
         BadRequest: one measures a length, the other an angle.
@@ -34,11 +38,11 @@ def compare_sides(left: Fit, right: Fit) -> tuple[Doubt, ...]:
 
 
 def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
-    """Doubts if alike parts of a robot differ: for each gain the lowest and the highest.
+    """Doubts if equal parts of a robot differ, about the lowest and the highest value of each gain.
 
     Args:
-        fits: the name of each part -> its fit.
-        what: what the parts are, for a code: ``side``, ``motor``, ``file``.
+        fits: name of each part -> its fit.
+        what: kind of the parts, for the code of the doubt: ``side``, ``motor`` or ``file``.
 
     Raises:
         BadRequest: one measures a length, the other an angle.
@@ -57,16 +61,16 @@ def compare_parts(fits: Mapping[str, Fit], what: str) -> tuple[Doubt, ...]:
 
 
 def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 - SysId's word
-    """Doubts if forward and reverse runs, each fitted alone, differ.
+    """Doubts if the gains of forward and reverse runs, each fitted alone, differ.
 
-    An elevator's cannot: in one direction friction and weight are the same.
+    There are none for an elevator: one direction does not separate friction from weight.
 
     Args:
         log: any runs of one mechanism.
         type: ``simple``, ``elevator`` or ``arm``.
 
     Raises:
-        BadRequest: an arm whose position is no angle.
+        BadRequest: an arm whose position is not an angle.
     """
     fits = []
     for way in DIRECTIONS:
@@ -83,7 +87,7 @@ def compare_directions(log: Log, type: str) -> tuple[Doubt, ...]:  # noqa: A002 
 def _differing_gains(
     one: Fit, other: Fit, names: tuple[str, ...], what: str, *, only: str = ""
 ) -> tuple[Doubt, ...]:
-    """Gains of two fits that differ by more than chance and more than a robot notices."""
+    """Doubts about gains that differ significantly, and by more than ``APART`` and ``NOTICED``."""
     per = find_unit(one.log_units)
     mirror = -1.0 if one.gains["kV"] * other.gains["kV"] < 0.0 else 1.0
     doubts = []

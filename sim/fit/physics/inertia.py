@@ -1,19 +1,19 @@
-"""The moment of inertia of a robot, from a test going straight and one turning on the spot.
+"""The moment of inertia of a robot, from a test straight ahead and one turning on the spot.
 
     straight:  kA = c·m          turning:  kA' = c·J/R          J = m·R·kA'/kA
 
-with c [V/N] the volts that a newton at the wheels takes, and R the lever: how far the push of a
-wheel passes from the middle. For a tank drive that is half the trackwidth; the modules of a square
+with c [V/N] the voltage per force at the wheels, and R the lever arm: the distance of a wheel's
+line of force from the center. For a tank drive it is half the trackwidth; the modules of a square
 swerve are at the corners and push at a right angle to the diagonal, so it is trackwidth/√2. The
-speeds give it, too: a wheel runs at R·ω, so that R = kV'/kV. (PathPlanner, "Robot Config", and
-Choreo, "Estimating MoI", give the formula, both with half the trackwidth.)
+speeds give it, too: a wheel moves at R·ω, so R = kV'/kV. (PathPlanner, "Robot Config", and Choreo,
+"Estimating MoI", give the formula, both with half the trackwidth.)
 
-Where the test straight ahead was logged in rotations of a motor, as Phoenix 6 does, the lever gives
-the meters: kV'/R volts for each meter per second, whatever the wheel and the gears. What remains is
-J = m·R²·τ'/τ, with τ = kA/kV.
+If the test straight ahead was logged in rotations of a motor, as Phoenix 6 does, the lever arm
+gives the unit: kV'/R is the kV per meter, for any wheel and gearing. Then J = m·R²·τ'/τ, with τ =
+kA/kV.
 
-Wheels and rotors are in both kA. Where they are worth a share s of the mass, the robot's own
-inertia is J - s·(m·R² - J).
+Both kA contain wheels and rotors. If these are equivalent to a share s of the mass, the inertia of
+the robot without them is J - s·(m·R² - J).
 """
 
 import math
@@ -26,8 +26,8 @@ from sim.fit.physics.parts import SURELY, fit_in_si
 from sim.fit.physics.theory import FACTORS
 from sim.fit.result import Fit
 
-ROTORS = 0.03, 0.10  # [share of the mass] that rotors and wheels are worth, as in parts.py
-NEAR = 0.06  # [share] by which the lever that the speeds tell may differ from the one given
+ROTORS = 0.03, 0.10  # [share of the mass] equivalent mass of rotors and wheels, as in parts.py
+NEAR = 0.06  # [share] by which the lever arm from the speeds may differ from the given one
 MISTAKEN = (
     (
         math.sqrt(2.0),
@@ -37,7 +37,7 @@ MISTAKEN = (
     (0.5, "you gave the trackwidth. Give half of it for a tank drive"),
     *FACTORS,
 )
-"""The lever that the speeds tell over the one given, and the mistake that makes it."""
+"""Ratio of the lever arm from the speeds to the given one, and the mistake that causes it."""
 
 
 @dataclass(frozen=True)
@@ -47,10 +47,10 @@ class MomentOfInertia:
     Args:
         value: [kg·m²] J = m·R·kA'/kA, rotors and wheels included.
         error: [kg·m²] one standard error, from those of the two kA.
-        without_rotors: [kg·m²] the least and the most of the robot's own.
-        lever: [m] that was used.
-        lever_seen: [m] that the speeds tell, kV'/kV; None where only the lever tells the meters.
-        doubts: what speaks against it.
+        without_rotors: [kg·m²] lower and upper limit for the robot without rotors and wheels.
+        lever: [m] lever arm that was used.
+        lever_seen: [m] lever arm from the speeds, kV'/kV; None if ``straight`` is not in meters.
+        doubts: warnings.
     """
 
     value: float
@@ -61,7 +61,7 @@ class MomentOfInertia:
     doubts: tuple[Doubt, ...] = ()
 
     def to_json(self) -> dict[str, object]:
-        """Plain data; the keys are fixed, other programs read them."""
+        """Data for JSON; the keys are fixed, because other programs read them."""
         return {
             "value": self.value,
             "error": self.error,
@@ -79,18 +79,18 @@ def compute_moment_of_inertia(
     lever: float | None = None,
     by_wheels: bool = False,
 ) -> MomentOfInertia:
-    """The moment of inertia from two fits whose voltages are those of the same motors.
+    """The moment of inertia from two fits of the same motors.
 
     Args:
-        turning: of a test on the spot, its position an angle of the robot.
-        straight: of a test straight ahead, its position a length, or rotations of a motor.
-        mass: [kg] of the robot.
-        lever: [m] of a wheel; None takes the one that the speeds tell.
-        by_wheels: the position of ``turning`` is the wheels' way, a length, and no gyro's angle.
+        turning: fit of a test on the spot, whose position is the angle of the robot.
+        straight: fit of a test straight ahead, whose position is a length, or rotations of a motor.
+        mass: [kg] mass of the robot.
+        lever: [m] lever arm of a wheel; None computes it from the speeds.
+        by_wheels: whether the position of ``turning`` is the distance of the wheels instead.
 
     Raises:
-        BadRequest: a mass or a lever that no robot has, no lever where one is needed, a position
-            of the wrong kind, or gains of which one is not above zero.
+        BadRequest: a mass or a lever arm that is not positive, no lever arm although one is needed,
+            a position of the wrong kind, or a kV or kA that is not positive.
     """
     if by_wheels:
         turning = _per_radian(turning, lever)
@@ -98,7 +98,7 @@ def compute_moment_of_inertia(
     turn, go = fit_in_si(turning), fit_in_si(straight)
     in_turns = find_unit(straight.units).angular
     seen = turn.gains["kV"] / go.gains["kV"]
-    if in_turns and lever is not None:  # the lever tells how many meters a rotation is
+    if in_turns and lever is not None:  # the lever arm gives the meters per rotation
         go, seen = _scaled(go, seen / lever), lever
     arm = seen if lever is None else lever
     value = mass * arm * turn.gains["kA"] / go.gains["kA"]
@@ -118,7 +118,7 @@ def compute_moment_of_inertia(
 
 
 def _per_radian(turning: Fit, lever: float | None) -> Fit:
-    """The fit of turning per radian of the robot, from the one per meter of its wheels."""
+    """The fit of turning per radian of the robot, from that per meter of its wheels."""
     if lever is None:
         raise BadRequest(
             "the log of turning contains the distance of the wheels, not the angle of the robot",
@@ -138,6 +138,7 @@ def _scaled(found: Fit, factor: float) -> Fit:
 
 
 def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> None:
+    """Refuse what ``compute_moment_of_inertia`` cannot use."""
     for name, number, unit in (("mass", mass, "kg"), ("lever", lever, "m")):
         if number is not None and not (math.isfinite(number) and number > 0.0):
             raise BadRequest(f"a {name} of {number:g} {unit}", advice="Give a number above zero.")
@@ -168,7 +169,7 @@ def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> 
 
 
 def _lever_doubts(turn: Fit, go: Fit, seen: float, lever: float) -> list[Doubt]:
-    """A doubt where the speeds tell another lever than the one given."""
+    """A doubt if the lever arm from the speeds differs from the given one."""
     unsure = SURELY * math.hypot(*(one.errors["kV"] / one.gains["kV"] for one in (turn, go)))
     share = seen / lever
     if abs(share - 1.0) <= NEAR + unsure:

@@ -8,24 +8,25 @@ from sim.core.units import find_unit
 from sim.fit.result import Fit
 from sim.physics.motors import Motor, compute_theoretical_kv
 
-SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
+SURELY = 3.0  # [standard errors] a larger difference is significant
 BELOW = 0.97  # [of theory] 12 V over the free speed is at most 2.1 % above the exact back-EMF
 HEAVY = 1.15  # [of theory] kA: rotors and wheels add 3 to 10 %
 
 
 @dataclass(frozen=True)
 class Parts:
-    """Motor, gearing and load of a mechanism, as its team knows them.
+    """Motor, gearing and load of a mechanism.
 
     Args:
-        motor: which one drives it.
-        count: how many of them.
+        motor: the motor.
+        count: number of motors.
         ratio: motor turns per turn of the output; below 1 for an overdrive.
-        radius: [m] of wheel or drum; 1 for what turns.
-        load: [kg] moved mass, or [kg·m²] inertia at the output for what turns; None if unknown.
+        radius: [m] of wheel or drum; 1 if the position is an angle.
+        load: [kg] moved mass, or [kg·m²] inertia at the output if the position is an angle; None if
+            unknown.
 
     Raises:
-        BadRequest: a number that no part has.
+        BadRequest: a number that is not positive.
     """
 
     motor: Motor
@@ -49,7 +50,7 @@ class Parts:
 
     @property
     def ka(self) -> float | None:
-        """[V·s²/m or V·s²/rad] of the load alone, without rotors; None without a load."""
+        """[V·s²/m or V·s²/rad] the theoretical kA, without rotors; None without a load."""
         if self.load is None:
             return None
         torque_per_volt = self.count * self.motor.torque_constant * self.ratio
@@ -62,7 +63,11 @@ def fit_in_si(found: Fit) -> Fit:
 
 
 def check_radius_unit(parts: Parts, found: Fit) -> None:
-    """Refuse parts whose radius does not go with the unit of position."""
+    """Refuse parts whose radius does not match the unit of position.
+
+    Raises:
+        BadRequest: a radius although the position is an angle, or none although it is a length.
+    """
     angular = find_unit(found.units).angular
     if angular and parts.radius != 1.0:
         raise BadRequest(

@@ -1,4 +1,4 @@
-"""Check a fit against itself: friction, weight against inertia, and time constant."""
+"""Check a fit without knowledge of its parts: kS, kG/kA, and the time constant kA/kV."""
 
 import math
 
@@ -9,12 +9,12 @@ from sim.fit.result import Fit
 from sim.physics.motors import NOMINAL
 
 GRAVITY = 9.81  # [m/s²]
-CASCADE = 2.0  # [g] weight over inertia of a cascade elevator at most
-WATCH = {"simple": 0.5, "elevator": 0.8, "arm": 0.8}  # [V] kS; arms of real robots read up to 0.74
+CASCADE = 2.0  # [g] largest kG/kA of a cascade elevator
+WATCH = {"simple": 0.5, "elevator": 0.8, "arm": 0.8}  # [V] kS; arms of real robots have up to 0.74
 CRUISE = 0.4  # [of free speed] a typical velocity: 2 m/s of a drivetrain's 4.7
-LOOPS = 2.0  # [sample periods] a shorter timescale leaves too few samples while it speeds up
-FEW_LOOPS = 1.0  # [sample periods] the same, for a fit that simulates between samples and is sure
-SURE = 0.03  # [share of kA] an error below it is sure
+LOOPS = 2.0  # [sample periods] with a shorter kA/kV too few samples show the acceleration
+FEW_LOOPS = 1.0  # [sample periods] the same for an output-error fit with a small error of kA
+SURE = 0.03  # [share of kA] a standard error below it is small
 
 
 def check_friction(found: Fit) -> list[Doubt]:
@@ -47,13 +47,13 @@ def check_friction(found: Fit) -> list[Doubt]:
 
 
 def _format_speed(found: Fit, speed: float) -> str:
-    """A speed in the unit of the log's owner."""
+    """A speed [m/s or rad/s] in the log's unit."""
     per = find_unit(found.log_units)
     return f"{speed / per.si:.3g} {per.symbol}/s"
 
 
 def check_gravity(found: Fit) -> list[Doubt]:
-    """Doubts if an elevator's kG and kA do not belong to the same mass.
+    """Doubts if kG and kA of an elevator are not those of one mass.
 
     A stage of mass m that moves at half the carriage's speed adds m/2 to the weight that the motor
     feels and m/4 to the inertia, so the quotient is between g and 2 g.
@@ -95,7 +95,7 @@ def check_gravity(found: Fit) -> list[Doubt]:
 
 
 def check_timescale(found: Fit, period: float) -> list[Doubt]:
-    """Doubts about a mechanism that is up to speed before the next sample."""
+    """Doubts about a kA/kV that is short against the sample period [s]."""
     kv, ka = found.gains["kV"], found.gains["kA"]
     if kv <= 0.0 or ka <= 0.0:
         return []

@@ -1,7 +1,7 @@
 """Compare kV and kA with theory, and name the mistake that would explain a difference.
 
-An error in the log's unit changes kV and kA alike; one in the ratio or the radius changes them
-opposite ways: that tells the two apart.
+An error in the log's unit changes kV and kA by the same factor, one in the ratio or the radius by
+inverse factors.
 """
 
 import math
@@ -12,10 +12,10 @@ from sim.fit.physics.parts import BELOW, HEAVY, SURELY, Parts, check_radius_unit
 from sim.fit.result import Fit, format_gain_unit
 from sim.physics.motors import MOTORS
 
-DRAG = 1.08  # [of theory] kV with more than the ordinary drag
-TIGHT = 1.20  # [of theory] kV that drag alone hardly explains
-LIGHT = 0.95  # [of theory] kA below it: a mass is known to a few percent
-NEAR = 0.96, 1.10  # [of a factor] a quotient within is explained by it; ordinary drag included
+DRAG = 1.08  # [share of theory] kV above it has more than ordinary drag
+TIGHT = 1.20  # [share of theory] kV above it is hardly explained by drag alone
+LIGHT = 0.95  # [share of theory] kA below it is too small: a mass is known to a few percent
+NEAR = 0.96, 1.10  # [share of a factor] range that the factor explains, with ordinary drag
 
 FACTORS = (
     (2.0 * math.pi, "rotations read as radians, or a circumference given as the radius"),
@@ -37,21 +37,25 @@ FACTORS = (
     (1.0 / 0.0254, "meters read as inches"),
     (0.0254, "inches read as meters"),
 )
-"""kV found over kV of theory, and the mistake that makes it."""
+"""Ratio of the fitted to the theoretical kV, and the mistake that causes it."""
 
 
 def check_theory(found: Fit, parts: Parts) -> list[Doubt]:
-    """Doubts where kV and kA contradict motor, gearing and load.
+    """Doubts if kV and kA contradict motor, gearing and load.
+
+    Args:
+        found: the fit in SI units.
+        parts: motor, gearing and load.
 
     Raises:
-        BadRequest: a radius for an angle, or none for a length.
+        BadRequest: a radius although the position is an angle, or none although it is a length.
     """
     check_radius_unit(parts, found)
     return [*_kv(found, parts), *_ka(found, parts)]
 
 
 def describe_theory(found: Fit, parts: Parts) -> str:
-    """The kV and kA of theory, and which share of them a fit has.
+    """A sentence with the theoretical kV and kA, and the fit's shares of them.
 
     Args:
         found: the fit in SI units, with kV above zero.
@@ -75,6 +79,7 @@ def describe_theory(found: Fit, parts: Parts) -> str:
 
 
 def _kv(found: Fit, parts: Parts) -> list[Doubt]:
+    """Doubts about kV."""
     kv, error = found.gains["kV"], found.errors["kV"]
     if kv <= 0.0:
         return []
@@ -115,7 +120,7 @@ def _kv(found: Fit, parts: Parts) -> list[Doubt]:
 
 
 def _describe_difference(found: Fit, gain: str, theory: float) -> str:
-    """A gain beside its theory, in the unit of the log's owner."""
+    """Half a sentence that compares a gain with its theoretical value, in the log's unit."""
     per = find_unit(found.log_units)
     value, share = found.gains[gain], found.gains[gain] / theory
     far = f"{abs(share - 1.0):.0%} {'above' if share > 1.0 else 'below'}"
@@ -126,7 +131,7 @@ def _describe_difference(found: Fit, gain: str, theory: float) -> str:
 
 
 def _explain_ratio(share: float, parts: Parts) -> list[str]:
-    """The mistakes that would make such a quotient, the likeliest first."""
+    """The mistakes that would explain this share of the theoretical kV, the likeliest first."""
     geared = (
         (
             1.0 / parts.ratio,
@@ -145,7 +150,7 @@ def _explain_ratio(share: float, parts: Parts) -> list[str]:
 
 
 def _parts_instead(kv: float, parts: Parts) -> str:
-    """The ratio, the radius and the motors whose own kV would be the one found."""
+    """The ratio, the radius and the motors that would explain the fitted kV."""
     share = kv / (parts.motor.back_emf * parts.ratio / parts.radius)
     would = [f"a gear ratio of {parts.ratio * share:.3g}"]
     if parts.radius != 1.0:
@@ -163,6 +168,7 @@ def _parts_instead(kv: float, parts: Parts) -> str:
 
 
 def _ka(found: Fit, parts: Parts) -> list[Doubt]:
+    """Doubts about kA."""
     ka, theory = found.gains["kA"], parts.ka
     if theory is None or ka <= 0.0:
         return []
@@ -194,11 +200,12 @@ def _ka(found: Fit, parts: Parts) -> list[Doubt]:
 
 
 def _kv_fits(share: float) -> bool:
+    """Whether this share of the theoretical kV is normal."""
     return BELOW < share < DRAG
 
 
 def _place_to_look(kv: float, ka: float) -> str:
-    """What to look at, from how far kV and kA are off: alike, opposite, or kA alone."""
+    """What to check, from the shares of the theoretical kV and kA."""
     if _kv_fits(kv):
         return "kV fits, so look at the load, the number of motors and the voltage logged"
     if LIGHT / DRAG < ka / kv < HEAVY / BELOW:

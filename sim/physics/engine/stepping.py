@@ -144,30 +144,16 @@ def step_run(
     p: Numbers, memory: Array, tables: Array, start_time: float, extra_lag: float, steps: Array,
     base_only: bool, measured: Array, kalman_gains: Array, errors: Array, out: Array,
 ) -> None:  # fmt: skip
-    """Simulate one run into ``out``; ``state`` and ``memory`` are changed to those at its end.
+    """Simulate one run into ``out`` (n, 8); ``state`` and ``memory`` become those at its end.
 
-    Args:
-        time: (n,) [s].
-        commanded: (n,) [V] voltage from each sample to the next.
-        slides: (n,) [V] linear change of the voltage from each sample to the next.
-        state: (5,) as in ``one_body.py``.
-        c: (8,) constants of the base model, as in ``one_body.py``.
-        w: (9,) battery and limits, as in ``power_path.py``.
-        on: flags of the effects and hooks in use, as in ``make_effect_arrays``.
-        p: parameters of all effects.
-        memory: (effects,) memory of the effects.
-        tables: (TABLES_SIZE,) cache of ``two_body_modes.py`` for one model; zeros at first.
-        start_time: [s] start of the run on the clock.
-        extra_lag: [s] delay of the commands beyond that of the effects. Until the first one
-            arrives, a mechanism at rest is held there, by a stop or a brake.
-        steps: (4,) limits of a step: longest [s], longest way [unit], shortest [s] and largest
-            change of speed [unit/s].
-        base_only: whether no effects act except delays, so that the base model is exact.
-        measured: (n, 2) positions and velocities for the Kalman filter, nan where there is none;
-            (0, 2) simulates open loop.
-        kalman_gains: (n, 4) the gain at each sample, row by row, or (1, 4) one for all.
-        errors: (n, 2) array for the innovations, or (0, 2).
-        out: (n, 8) array for the result.
+    The voltage ``commanded`` (n,) [V] is held from each sample to the next, or changes linearly by
+    ``slides`` (n,) [V]. It arrives ``extra_lag`` [s] later than the effects delay it; until the
+    first command arrives, a mechanism at rest is held there, by a stop or a brake. ``measured``
+    (n, 2) are positions and velocities for the Kalman filter, nan where there is none, with the
+    gains ``kalman_gains`` (n, 4), or (1, 4) for all; the innovations go into ``errors`` (n, 2).
+    With (0, 2) the simulation is open loop. ``steps`` (4,) limits a step: longest [s], longest way
+    [unit], shortest [s], and largest change of speed [unit/s]. ``tables`` is the cache of
+    ``two_body_modes.py`` for one model, zeros at first.
     """
     lag = command_delay(on, p) + extra_lag
     n = time.size
