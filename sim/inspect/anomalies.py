@@ -1,9 +1,9 @@
-"""Intervals in which a run does not follow its voltage, and how much of that a hypothesis explains.
+"""Anomalies: intervals in which the velocity of a run does not follow its voltage.
 
-The baseline model of the whole log predicts a run's velocity from its voltage. Where the measured
-velocity differs from that by more than noise and an ordinary mechanism's deviations, and only for a
-while, there is an anomaly. Each fault that could be its cause gives the shape that it would leave,
-and the share of the anomaly that the shape explains is the confidence in that fault.
+The baseline model of the whole log predicts a run's velocity from its voltage. An anomaly is an
+interval of limited length in which the residual is larger than noise and the usual errors of a
+linear model. Each fault that could be the cause predicts a shape of the residual, and the share of
+the anomaly's sum of squares that the shape explains is the confidence in that fault.
 """
 
 from collections.abc import Sequence
@@ -14,18 +14,18 @@ import numpy as np
 from sim.core.log import Array, Run
 from sim.inspect.baseline_model import BaselineModel
 
-WITHIN = 0.1  # [V] a linear model of a real mechanism strays this far anyway,
-SHARE = 0.1  # [share of the back-EMF] and this much more with speed,
-ONSET, SETTLED = 0.35, 0.6  # [V, s] and this much just after it begins to move: friction is no line
-LATE = 0.03  # [s] a reading may be this old, and the mechanism no worse for it
-STARTING = 1.5, 0.06  # [timescales, s] after its first motion a run says little about accidents
+WITHIN = 0.1  # [V] usual error of a linear model,
+SHARE = 0.1  # [share of the back-EMF] additional with speed,
+ONSET, SETTLED = 0.35, 0.6  # [V, s] additional for a time after the start, because of friction
+LATE = 0.03  # [s] age that a reading may have
+STARTING = 1.5, 0.06  # [timescales, s] after its first motion, in which a run is still starting
 SIGMAS = 3.0  # [standard deviations of the averaged noise]
 AVERAGE = 0.04  # [s] over which noise is averaged, at least two samples
 SHORTEST = 0.03  # [s] a shorter anomaly is noise, at least two samples
-LONGEST = 0.6  # [share of the motion] a longer one is no anomaly but how this run is
-AROUND = 0.15  # [s] before and after that an explanation has to explain as well
-ALIKE = 0.5  # [share of the shorter] two stretches of time or way that share more are one habit
-JOIN = 0.06  # [s] two closer ones are one
+LONGEST = 0.6  # [share of the motion] a longer deviation is not an anomaly
+AROUND = 0.15  # [s] before and after an anomaly that a hypothesis has to explain as well
+ALIKE = 0.5  # [share of the shorter] overlap from which on two anomalies are the same
+JOIN = 0.06  # [s] two closer anomalies are one
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,18 +33,18 @@ class Anomaly:
     """An interval of a run in which its velocity does not follow its voltage.
 
     Args:
-        run: which run of the log.
-        first: its first sample.
-        last: its last sample.
-        begin: the first sample of the stretch with what is around it.
-        end: behind the last sample of that.
-        residual: (end - begin,) [m/s or rad/s] measured minus expected, less the run's usual
-            residual.
-        expected: (end - begin,) [m/s or rad/s] the velocity as replayed, brought to what was seen
-            before and after.
-        at_start: it begins with the motion, where delays and limits of current look like accidents.
-        recurs: another run has one at the same place, or as long after its start: that is how the
-            mechanism is, and no accident.
+        run: index of the run in the log.
+        first: index of its first sample.
+        last: index of its last sample.
+        begin: index of the first sample of the interval with its surroundings.
+        end: index after the last sample of that interval.
+        residual: (end - begin,) [m/s or rad/s] measured minus predicted velocity, minus the run's
+            usual residual.
+        expected: (end - begin,) [m/s or rad/s] predicted velocity.
+        at_start: whether it is at the start of the motion, where delays and current limits cause
+            similar residuals.
+        recurs: whether another run has one at the same position, or as long after its start: then
+            the mechanism is the cause, not a fault.
     """
 
     run: int
@@ -61,7 +61,7 @@ class Anomaly:
         """Candidate (begin, end) samples of the disturbance within the anomaly.
 
         Args:
-            margin: [samples] how far from its own first and last sample to look.
+            margin: [samples] largest distance from its first and last sample.
         """
         stride = max(1, margin // 3)
         return self._span_grid(self.first, self.last + 1, reach=margin, stride=stride)
@@ -91,10 +91,15 @@ class Anomaly:
 
 
 def predict_velocity(run: Run, baseline: BaselineModel, *, still: float) -> Array:
-    """The velocity (n,) [m/s or rad/s] that the baseline model predicts from a run's voltage.
+    """(n,) [m/s or rad/s] velocity that the baseline model predicts from a run's voltage.
 
-    Before its first motion it is taken to stand: whether a stop or friction holds it there, a log
-    cannot tell.
+    Before its first motion the mechanism is at rest, because a log does not show whether a stop or
+    friction holds it.
+
+    Args:
+        run: the run.
+        baseline: the baseline model.
+        still: [m/s or rad/s] a slower mechanism is at rest.
     """
     begin = find_first_motion(run, still=still)
     rest = np.zeros(begin)
@@ -124,10 +129,10 @@ def find_anomalies(
     """Find the intervals in which runs do not follow the prediction.
 
     Args:
-        runs: of the log.
-        expected: per run, (n,) [m/s or rad/s].
-        baseline: of the log.
-        still: [m/s or rad/s] what counts as standing.
+        runs: the runs of a log.
+        expected: per run, (n,) [m/s or rad/s] predicted velocity.
+        baseline: the baseline model of the log.
+        still: [m/s or rad/s] a slower mechanism is at rest.
         noise: [m/s or rad/s] standard deviation of the velocity in motion.
         period: [s] usual time between samples.
     """
@@ -142,12 +147,12 @@ def find_anomalies(
         early = ONSET * (since < SETTLED)
         late = LATE * np.abs(np.gradient(expected[index], run.time))
         within = (WITHIN + early) / baseline.kv + SHARE * np.abs(expected[index]) + late + sigma
-        stray = run.velocity - expected[index]
-        stray -= _ordinary_residual(stray, within)
-        far = np.abs(_running_mean(stray, wide)) > within
-        far[:begin] = False
+        residual = run.velocity - expected[index]
+        residual -= _ordinary_residual(residual, within)
+        anomalous = np.abs(_running_mean(residual, wide)) > within
+        anomalous[:begin] = False
         longest = LONGEST * (len(run) - begin)
-        for first, last in _find_intervals(far, join=round(JOIN / period)):
+        for first, last in _find_intervals(anomalous, join=round(JOIN / period)):
             if last - first + 1 < max(2, round(SHORTEST / period)) or last - first > longest:
                 continue
             around = max(3, round(AROUND / period))
@@ -159,7 +164,7 @@ def find_anomalies(
                     last,
                     part.start,
                     part.stop,
-                    stray[part],
+                    residual[part],
                     expected[index][part],
                     at_start=bool(since[first] < STARTING[0] * baseline.timescale + STARTING[1]),
                 )
@@ -171,7 +176,7 @@ def find_anomalies(
 
 
 def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -> bool:
-    """Whether two are one habit: in two runs, as long after the start, or at the same place."""
+    """Whether two anomalies of two runs are at the same time after the start, or the same place."""
     if one.run == other.run:
         return False
     mine, others = runs[one.run], runs[other.run]
@@ -188,22 +193,22 @@ def _recur(one: Anomaly, other: Anomaly, runs: Sequence[Run], *, still: float) -
     return (mine.kind == others.kind and shared(*since)) or shared(*place)
 
 
-def _ordinary_residual(stray: Array, within: Array) -> Array:
+def _ordinary_residual(residual: Array, within: Array) -> Array:
     """(n,) the usual residual of a run: the median of samples without an anomaly."""
-    usual = np.abs(stray) <= 2.0 * within
-    return np.full(stray.size, np.median(stray[usual]) if usual.any() else 0.0)
+    usual = np.abs(residual) <= 2.0 * within
+    return np.full(residual.size, np.median(residual[usual]) if usual.any() else 0.0)
 
 
 def _running_mean(values: Array, wide: int) -> Array:
-    """A centered running mean that keeps the length; the ends repeat themselves."""
-    fed = np.pad(values, (wide // 2, wide - 1 - wide // 2), mode="edge")
-    return np.asarray(np.convolve(fed, np.full(wide, 1.0 / wide), mode="valid"))
+    """(n,) centered running mean; beyond the ends the values are repeated."""
+    padded = np.pad(values, (wide // 2, wide - 1 - wide // 2), mode="edge")
+    return np.asarray(np.convolve(padded, np.full(wide, 1.0 / wide), mode="valid"))
 
 
 def _find_intervals(
     flags: "np.ndarray[tuple[int], np.dtype[np.bool_]]", *, join: int
 ) -> list[tuple[int, int]]:
-    """First and last sample of each stretch of flags, those less than ``join`` apart as one."""
+    """First and last index of each interval of flags; gaps up to ``join`` samples are closed."""
     at = np.flatnonzero(flags)
     if not at.size:
         return []

@@ -1,10 +1,10 @@
-"""Robust regression of kS, kV, kA and gravity, so that one bad stretch of a log does not spoil it.
+"""Robust regression of kS, kV, kA and gravity, which one damaged part of a log does not spoil.
 
     ∫V dt = kV·∫v dt + kA·Δv + kS·∫sgn v dt + ∫(k0 + kc·cos x + ks·sin x) dt
 
-over windows of a tenth of a second. No acceleration is needed, so noise does little; the last term
-takes up gravity of any kind, without asking which. Rows that disagree with the rest lose their
-vote. This is no fit to publish: it only has to be near enough for what is odd to stand out.
+over windows of a tenth of a second. No acceleration is needed, which keeps the noise small. The
+last term is gravity of any type of mechanism. Outlying rows get less weight. These gains are only
+accurate enough to make anomalies visible.
 """
 
 from collections.abc import Sequence
@@ -16,27 +16,27 @@ from numpy.typing import NDArray
 from sim.core.log import Array, Run
 
 WINDOW = 0.1  # [s] a row of the regression; at least three samples
-ROWS = 150  # per run: more tell no more
-START, FADES = 0.6, 0.15  # [s] after a step of voltage its acceleration tells kA, first of all
-AGREES = 0.5  # [V] a row that is further off than this is not any further off
+ROWS = 150  # per run, at most
+START, FADES = 0.6, 0.15  # [s] after a voltage step that determine kA, and decay of their weight
+LARGEST_LOSS = 0.5  # [V] larger residuals count as this one
 STEP = 0.5  # [share of the largest voltage] a change this large within two samples is a step
-ROUNDS, GENTLE = 8, 3  # reweightings in all, and those that only lessen a far row's vote
+ROUNDS, HUBER_ROUNDS = 8, 3  # reweightings in all, and the first ones, with Huber's weights
 TUNING = 4.685  # [robust deviations] where Tukey's weight reaches zero
-FEWEST = 12  # [rows] fewer cannot carry the six numbers
-RIDGE = 1e-4  # [share of the largest] keeps apart what a short travel cannot tell apart
-QUICK, SLOW = 0.004, 5.0  # [s] timescales a mechanism can have
+FEWEST = 12  # [rows] fewer do not determine the six coefficients
+RIDGE = 1e-4  # [share of the mean square] regularizes terms that a short travel cannot separate
+FASTEST, SLOWEST = 0.004, 5.0  # [s] limits of kA/kV
 
 
 @dataclass(frozen=True, eq=False)
 class BaselineModel:
-    """Gains that describe most of a log, outliers set aside.
+    """Gains that describe most of a log, without its outliers.
 
     Args:
         kv: [V·s/m or V·s/rad] positive.
         ka: [V·s²/m or V·s²/rad] positive.
         ks: [V] not negative.
-        gravity_terms: (3,) [V] of 1, cos x and sin x.
-        spread: [V] robust standard deviation of the rows about it.
+        gravity_terms: (3,) [V] coefficients of 1, cos x and sin x.
+        spread: [V] robust standard deviation of the residuals.
     """
 
     kv: float
@@ -51,17 +51,17 @@ class BaselineModel:
         return np.asarray(np.sign(pull) * np.maximum(np.abs(pull) - self.ks, 0.0) / self.kv)
 
     def replay(self, run: Run, *, voltage: Array, first: int, last: int, velocity: float) -> Array:
-        """Simulate the velocity under a voltage, with friction and load.
+        """Simulate the velocity under a voltage, with friction and gravity.
 
         Args:
-            run: whose times and positions count.
-            voltage: (n,) [V] in place of the run's own.
-            first: the sample to begin at.
-            last: the sample to end before.
+            run: the run whose times and positions are used.
+            voltage: (n,) [V] in place of the run's voltage.
+            first: index of the first sample.
+            last: index after the last sample.
             velocity: [m/s or rad/s] at the first sample.
 
         Returns:
-            (last - first,) [m/s or rad/s].
+            (last - first,) [m/s or rad/s] the velocities.
         """
         part = slice(first, last)
         pull = (voltage[part] - self.compute_gravity(run.position[part])) / self.kv
@@ -76,7 +76,7 @@ class BaselineModel:
             toward = want - way * hold
             speed = toward + (speed - toward) * share
             if speed * way < 0.0:
-                speed = 0.0  # friction holds it for the rest of this sample at least
+                speed = 0.0  # friction holds it until the next sample
             speeds.append(speed)
         return np.array(speeds[: max(last - first, 0)])
 
@@ -95,12 +95,13 @@ def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> Baselin
     """Fit kS, kV, kA and gravity robustly, by iteratively reweighted least squares.
 
     Args:
-        runs: of the log.
-        still: [m/s or rad/s] at most this fast counts as standing.
+        runs: the runs of a log.
+        still: [m/s or rad/s] a slower mechanism is at rest.
         period: [s] usual time between samples.
 
     Returns:
-        None if there is too little motion, or what there is makes no sense, as with opposed signs.
+        The model; None if there is too little motion, or if kV or kA is not positive, as with
+        opposed signs.
     """
     parts = [_rows(run, still=still, period=period) for run in runs]
     rows = np.concatenate([part for part in parts if part.size] or [np.zeros((0, 8))])
@@ -110,7 +111,7 @@ def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> Baselin
     volts, terms, start = rows[:, 0], rows[:, 1:7], rows[:, 7]
     scale = np.maximum(np.sqrt(np.mean(terms**2, axis=0)), 1e-300)
     gains = _robust(terms / scale, volts) / scale
-    for _ in range(2):  # kA by the starts of steps alone, where it shows; the rest without it
+    for _ in range(2):  # kA from the starts of steps alone, then the other gains
         gains[1] = _acceleration(
             volts - np.delete(terms, 1, 1) @ np.delete(gains, 1), terms, start, part
         )
@@ -123,13 +124,13 @@ def fit_baseline(runs: Sequence[Run], *, still: float, period: float) -> Baselin
     if not (kv > 0.0 and ka > 0.0):
         return None
     left = volts - terms @ gains
-    ka = float(np.clip(ka, QUICK * kv, SLOW * kv))
+    ka = float(np.clip(ka, FASTEST * kv, SLOWEST * kv))
     spread = float(np.median(np.abs(left)) / 0.6745)
     return BaselineModel(kv, ka, max(float(gains[2]), 0.0), gains[3:], spread)
 
 
 def _rows(run: Run, *, still: float, period: float) -> Array:
-    """(m, 8): volts, their six causes, and how much a row tells of kA."""
+    """(m, 8): mean voltage, the six regressors, and the weight of a row for kA."""
     wide = max(3, round(WINDOW / period)) if period > 0.0 else 3
     last = len(run) - wide
     if last < 1:
@@ -147,7 +148,7 @@ def _rows(run: Run, *, still: float, period: float) -> Array:
     speed = np.abs(run.velocity)
     way = np.sign(run.velocity) * (speed > still)
     total = np.concatenate(([0.0], np.cumsum(way)))
-    constant = np.abs(total[first + wide + 1] - total[first]) > wide  # moves one way throughout
+    constant = np.abs(total[first + wide + 1] - total[first]) > wide  # direction does not change
     rows = np.stack(
         (
             mean(run.voltage[:-1]),
@@ -167,7 +168,7 @@ def _rows(run: Run, *, still: float, period: float) -> Array:
 
 
 def _after_step(run: Run) -> Array:
-    """(n,) what a sample tells of kA: 1 just after a step of the voltage, less later, then 0."""
+    """(n,) weight of a sample for kA: 1 just after a voltage step, decaying to 0."""
     size = float(np.max(np.abs(run.voltage), initial=0.0))
     jump = np.abs(run.voltage - np.concatenate(([0.0, 0.0], run.voltage[:-2])))[: len(run)]
     at = np.flatnonzero(jump > STEP * size) if size > 0.0 else np.zeros(0, dtype=np.intp)
@@ -181,46 +182,50 @@ def _after_step(run: Run) -> Array:
 
 
 def _acceleration(left: Array, terms: Array, start: Array, part: NDArray[np.int_]) -> float:
-    """KA as the rows after a step want it: of what each run wants, that which suits most of all."""
+    """Robust kA [V·s²/unit] from rows after a voltage step.
+
+    Each run gives a weighted median; the result is that with the smallest loss over all rows.
+    """
     change = terms[:, 1]
-    with_it = (np.sign(change) == np.sign(terms[:, 0])) & (change != 0.0)
-    if np.any(with_it & (start > 0.0)):
-        with_it &= start > 0.0
+    driven = (np.sign(change) == np.sign(terms[:, 0])) & (change != 0.0)
+    if np.any(driven & (start > 0.0)):
+        driven &= start > 0.0
     else:
         start = np.ones(start.size)
-    left, change, start, part = left[with_it], change[with_it], start[with_it], part[with_it]
-    wanted = [
+    left, change, start, part = left[driven], change[driven], start[driven], part[driven]
+    candidates = [
         _weighted_median(left[mine] / change[mine], np.abs(change[mine]) * start[mine])
         for mine in (part == one for one in np.unique(part))
     ]
     return min(
-        wanted,
-        key=lambda ka: float(start @ np.minimum(np.abs(left - ka * change), AGREES)),
+        candidates,
+        key=lambda ka: float(start @ np.minimum(np.abs(left - ka * change), LARGEST_LOSS)),
         default=float("nan"),
     )
 
 
 def _weighted_median(values: Array, weights: Array) -> float:
+    """The median of values (n,) with weights (n,)."""
     order = np.argsort(values)
     share = np.cumsum(weights[order])
     return float(values[order][np.searchsorted(share, 0.5 * share[-1])])
 
 
 def _robust(terms: Array, volts: Array) -> Array:
-    """Least squares in which rows far from the rest lose their weight (Tukey's biweight)."""
+    """(k,) least-squares coefficients, iteratively reweighted (Huber, then Tukey's biweight)."""
     weight: Array = np.ones(volts.size)
     ridge = RIDGE * np.eye(terms.shape[1])
     gains: Array = np.zeros(terms.shape[1])
     for turn in range(ROUNDS):
         weighted = terms * weight[:, None]
-        tied = weighted.T @ terms + ridge * max(float(weight.sum()), 1e-300)
-        gains = np.asarray(np.linalg.solve(tied, weighted.T @ volts))
+        normal = weighted.T @ terms + ridge * max(float(weight.sum()), 1e-300)
+        gains = np.asarray(np.linalg.solve(normal, weighted.T @ volts))
         left = np.abs(volts - terms @ gains)
         spread = float(np.median(left)) / 0.6745
         if spread <= 0.0:
             break
         near = left / (TUNING * spread)
-        if turn < GENTLE:
+        if turn < HUBER_ROUNDS:
             weight = np.asarray(1.0 / np.maximum(left / spread, 1.0))
         else:
             weight = np.asarray(np.square(np.maximum(1.0 - near**2, 0.0)))

@@ -14,10 +14,10 @@ from sim.core.errors import BadRequest
 from sim.core.log import Log, Run
 from sim.core.vocabulary import TESTS
 from sim.inspect.fault import MOST, DamagedLog, Fault, FaultStrike, LogInterval
-from sim.inspect.faults import find_fault as find
+from sim.inspect.faults import find_fault
 
-FEWEST = 10  # [samples] a shorter run has no room for damage
-MOVING = 0.1  # [share of a run's top speed] from here on it counts as being in motion
+FEWEST = 10  # [samples] of a run that can be damaged
+MOVING = 0.1  # [share of a run's top speed] above it a sample is in motion
 SPEC = re.compile(
     r"(?P<name>[^:@]+)(?::(?P<severity>[^@]*))?(?:@(?P<test>[^+]*)(?:\+(?P<at>.*))?)?"
 )
@@ -28,10 +28,10 @@ class FaultRequest:
     """A requested fault: its name, severity, test and time.
 
     Args:
-        name: of the fault.
-        severity: 0 to ``MOST``; 1 is what one meets on an ordinary bad day.
-        test: the name of the test to strike; None leaves it to chance.
-        at: [s] since that test's first sample; None leaves it to chance.
+        name: name of the fault.
+        severity: 0 to ``MOST``; 1 is ordinary.
+        test: name of the test to damage; None chooses at random.
+        at: [s] since that test's first sample; None chooses at random.
     """
 
     name: str
@@ -44,11 +44,11 @@ def parse_fault_request(text: str) -> FaultRequest:
     """Read ``NAME[:SEVERITY][@TEST[+SECONDS]]``: ``encoder-slip:0.5@dynamic-forward+0.4``.
 
     Args:
-        text: as typed.
+        text: the request.
 
     Raises:
-        BadRequest: a part is missing or is no number; whether there is such a fault and such a
-            test is for ``contaminate`` to say.
+        BadRequest: a part is missing or is not a number; ``contaminate`` checks whether fault and
+            test exist.
     """
     parts = SPEC.fullmatch(text.strip())
     if parts is None:
@@ -73,22 +73,22 @@ def contaminate(
     at: float | None = None,
     rng: np.random.Generator,
 ) -> DamagedLog:
-    """Let a fault strike a log.
+    """Damage a log with a fault.
 
     Args:
-        log: the record to damage; it is left as it is.
-        name: of the fault, one of ``sim.inspect.faults.FAULTS``.
-        severity: 0 changes nothing, 1 is an ordinary bad day, at most ``MOST``.
-        test: which test; its first run is struck. None leaves it to chance.
-        at: [s] since that run's first sample; None leaves it to chance.
-        rng: the source of chance; the same state gives the same log.
+        log: the log, which is not changed.
+        name: name of the fault, one of ``sim.inspect.faults.FAULTS``.
+        severity: 0 changes nothing, 1 is ordinary, at most ``MOST``.
+        test: name of the test, whose first run is damaged; None chooses at random.
+        at: [s] since that run's first sample; None chooses at random.
+        rng: random generator; the same state gives the same log.
 
     Returns:
         The damaged log, and where the damage is.
 
     Raises:
-        BadRequest: no such fault, test or time; a severity out of range; a test or a mechanism
-            this fault cannot strike; a run too short for it, or too still for it to show.
+        BadRequest: no such fault, test or time; a severity out of range; a test or a mechanism in
+            which this fault cannot happen; a run that is too short, or does not show the fault.
 
     Examples:
         >>> from sim.bench.mechanisms import MECHANISMS
@@ -99,7 +99,7 @@ def contaminate(
         >>> contaminate(log, "encoder-slip", test="dynamic-forward", rng=rng).where[0].test
         'dynamic-forward'
     """
-    fault = find(name)
+    fault = find_fault(name)
     if not 0.0 <= severity <= MOST:
         raise BadRequest(
             f"{name} of severity {severity:g}",
@@ -119,28 +119,40 @@ def contaminate(
     if not spoilt.where:
         raise BadRequest(
             f"{name} of severity {severity:g} would not show at {start:.2f} s",
-            where=_parse_place(log, log.runs[run].test),
+            where=_describe_place(log, log.runs[run].test),
             advice="Choose a moment when it moves, a longer test, or a higher severity.",
         )
     return spoilt
 
 
 def contaminate_all(
-    log: Log, asked: Iterable[FaultRequest], *, rng: np.random.Generator
+    log: Log, requests: Iterable[FaultRequest], *, rng: np.random.Generator
 ) -> tuple[Log, list[tuple[str, float, LogInterval]]]:
-    """The log with several faults, and of each fault its name, severity and interval."""
+    """Damage a log with several faults, one after another.
+
+    Args:
+        log: the log, which is not changed.
+        requests: the faults.
+        rng: random generator; the same state gives the same log.
+
+    Returns:
+        The damaged log, and name, severity and interval of each fault.
+
+    Raises:
+        BadRequest: as ``contaminate``.
+    """
     where = []
-    for one in asked:
+    for one in requests:
         spoilt = contaminate(
             log, one.name, severity=one.severity, test=one.test, at=one.at, rng=rng
         )
         log = spoilt.log
-        where += [(one.name, one.severity, stretch) for stretch in spoilt.where]
+        where += [(one.name, one.severity, interval) for interval in spoilt.where]
     return log, where
 
 
 def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Generator) -> int:
-    """Which run is struck."""
+    """Index of the run to damage."""
     kinds = " or ".join(fault.kinds)
     if test is not None:
         if test not in TESTS:
@@ -173,14 +185,14 @@ def _choose_run(log: Log, fault: Fault, *, test: str | None, rng: np.random.Gene
     if len(log.runs[index]) < FEWEST:
         raise BadRequest(
             f"the run has {len(log.runs[index])} samples, too few to damage",
-            where=_parse_place(log, log.runs[index].test),
+            where=_describe_place(log, log.runs[index].test),
             advice=f"Choose a run of at least {FEWEST}.",
         )
     return index
 
 
 def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Generator) -> float:
-    """[s] since the run's first sample; by chance a moment when it is in motion."""
+    """[s] start of the fault since the run's first sample; a random time in motion if not given."""
     span = float(run.time[-1] - run.time[0])
     if at is not None:
         if not 0.0 <= at < span:
@@ -196,7 +208,8 @@ def _choose_start(run: Run, fault: Fault, *, at: float | None, rng: np.random.Ge
     return begin + float(rng.uniform(*fault.when)) * (end - begin)
 
 
-def _parse_place(log: Log, test: str) -> str:
+def _describe_place(log: Log, test: str) -> str:
+    """The source of a log and a test, for messages."""
     return f"{log.source}, {test}" if log.source else test
 
 

@@ -2,8 +2,8 @@
 
     inspect(log).damages
 
-Each fault of ``faults/`` looks at the same features. Where two of them explain the same moment, the
-one that explains more of it is kept: damage at one moment has one cause.
+All detectors of ``faults/`` use the same features. If two faults explain the same interval, the one
+that explains more of it is kept.
 """
 
 import math
@@ -20,8 +20,8 @@ from sim.inspect.fault import Damage, Fault
 from sim.inspect.faults import FAULTS
 from sim.inspect.log_features import LogFeatures
 
-FASTEST, SLOWEST = 1e-4, 1.0  # [s] between samples; other clocks do not tell seconds
-CERTAIN = 1e-3  # [1] nothing is surer than this, for all that two explanations are compared
+FASTEST, SLOWEST = 1e-4, 1.0  # [s] sample periods; outside of them the times are not in seconds
+CERTAIN = 1e-3  # [1] least doubt of a detection when two are compared
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class Inspection:
     """The result of an inspection: damage and doubts.
 
     Args:
-        damages: in the order of time; those that concern the whole log first. Those that are
-            ordinary are no faults, and come here because a fit has to know of them.
-        doubts: what is odd and no known fault: about the file, and about what it holds.
+        damages: in the order of time, those of the whole log first. Ordinary damage is no fault,
+            and is included because a fit has to know it.
+        doubts: warnings that are not about a known fault.
     """
 
     damages: tuple[Damage, ...]
@@ -44,14 +44,14 @@ class Inspection:
 
     @property
     def is_clean(self) -> bool:
-        """Whether no fault was found, and nothing that would hide one."""
+        """Whether there is no fault, and no grave warning."""
         return not self.faults and not any(doubt.grave for doubt in self.doubts)
 
     def group_by_kind(self) -> tuple[tuple[Damage, ...], ...]:
-        """The faults of each kind together, the worst kind first, and the worst of a kind first.
+        """The faults grouped by kind, the worst kind first, and in each the worst fault first.
 
-        Worse is what spoils more seconds, weighted by its confidence; what concerns the whole log
-        is worst.
+        A fault is worse if it damages more seconds, weighted by its confidence; faults of the whole
+        log are worst.
         """
         kinds: dict[str, list[Damage]] = {}
         for damage in self.faults:
@@ -60,7 +60,7 @@ class Inspection:
         return tuple(sorted(sorted_within, key=lambda kind: -sum(map(_harm, kind))))
 
     def to_json(self) -> dict[str, Any]:
-        """The inspection as plain data, as ``sysid inspect --json`` prints it."""
+        """The inspection as data for JSON, as ``sysid inspect --json`` prints it."""
         return {
             "faults": [
                 {
@@ -84,12 +84,11 @@ def inspect(log: Log) -> Inspection:
     """Look for every known fault in a log, of a robot or of the bench.
 
     Args:
-        log: with any number of runs.
+        log: a log with any number of runs.
 
     Returns:
-        What was found. A confidence is 0 to 1: the share of what is odd in that stretch which this
-        fault alone would explain, less where the same could be an accident. Above 0.5 it is
-        likelier than not.
+        The faults and warnings. A confidence is 0 to 1: the share of the anomaly that the fault
+        explains, less if another cause is possible. Above 0.5 the fault is likelier than not.
 
     Examples:
         >>> import numpy as np
@@ -103,22 +102,24 @@ def inspect(log: Log) -> Inspection:
     features = LogFeatures(log)
     if features.period < FASTEST or features.period > SLOWEST:
         return Inspection((), (*log.doubts, _doubt_clock(features.period)))
-    # numbers at the edge of what a double holds overflow somewhere, and then say nothing
+    # huge numbers may overflow; the detectors then find nothing
     with np.errstate(all="ignore"):
         found = [damage for fault in FAULTS.values() for damage in _run_detector(fault, features)]
         damages = tuple(sorted(_drop_explained(found), key=_start_of))
-        return Inspection(damages, (*log.doubts, *_ordinary(damages), *diagnose_log(features)))
+        return Inspection(
+            damages, (*log.doubts, *_doubt_ordinary(damages), *diagnose_log(features))
+        )
 
 
 def inspect_together(logs: Sequence[Log]) -> Inspection:
     """Look for every known fault in several logs of one mechanism.
 
-    A log with tests of both kinds is inspected alone, since its gains and its faults are its own.
-    Logs that hold a part of the tests are inspected together with all others. Which tests are
-    missing is asked of all logs together.
+    A log with quasistatic and dynamic tests is inspected alone, because its gains may differ from
+    those of the others. Logs with a part of the tests are inspected together with all others, and
+    missing tests are looked for in all logs together.
 
     Args:
-        logs: at least one; runs are counted through all of them.
+        logs: at least one log; run indices count through all of them.
 
     Raises:
         BadRequest: one measures a length, the other an angle.
@@ -131,7 +132,7 @@ def inspect_together(logs: Sequence[Log]) -> Inspection:
         joined = joined.join(log)
     together = inspect(joined)
     damages = [one for one in together.damages if _is_absence(one)]
-    doubts: dict[Doubt, list[str]] = {}  # without the name of a file -> of which files
+    doubts: dict[Doubt, list[str]] = {}  # doubt without a file name -> its files
     offset = 0
     for log in logs:
         runs = range(offset, offset + len(log.runs))
@@ -155,33 +156,33 @@ def inspect_together(logs: Sequence[Log]) -> Inspection:
 
 
 def _name_files(doubt: Doubt, sources: Iterable[str]) -> Doubt:
-    """A doubt that begins with the files it is about."""
+    """A doubt whose message begins with the names of its files."""
     files = ", ".join(filter(None, sources))
     return replace(doubt, message=f"{files}: {doubt.message}") if files else doubt
 
 
 def _is_absence(damage: Damage) -> bool:
-    """Whether a damage is that a test is not in the log."""
+    """Whether a damage is a missing test."""
     return damage.where.run is None and bool(damage.where.test)
 
 
 def _of_file(damage: Damage, log: Log, offset: int) -> Damage:
-    """A damage of one log, as one of several: with its run's number among all runs."""
+    """A damage of one log of several, with the run index among the runs of all logs."""
     if damage.where.run is None:
         evidence = f"{log.source}: {damage.evidence}" if log.source else damage.evidence
         return replace(damage, evidence=evidence)
     return replace(damage, where=replace(damage.where, run=damage.where.run + offset))
 
 
-def _ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
-    """What is ordinary, each kind said once."""
+def _doubt_ordinary(damages: Iterable[Damage]) -> tuple[Doubt, ...]:
+    """A warning for each kind of ordinary damage, about the most certain one."""
     ordinary = sorted((one for one in damages if one.ordinary), key=lambda one: one.confidence)
-    once = {damage.fault: damage for damage in ordinary}
-    return tuple(Doubt(name, f"{one.evidence} {one.advice}") for name, one in once.items())
+    by_fault = {damage.fault: damage for damage in ordinary}
+    return tuple(Doubt(name, f"{one.evidence} {one.advice}") for name, one in by_fault.items())
 
 
 def _run_detector(fault: Fault, features: LogFeatures) -> list[Damage]:
-    """What one detector finds; nothing where the log leaves its equations without a solution."""
+    """The damages that one detector finds; none if its equations have no solution."""
     try:
         return list(fault.detect(features))
     except np.linalg.LinAlgError:
@@ -189,6 +190,7 @@ def _run_detector(fault: Fault, features: LogFeatures) -> list[Damage]:
 
 
 def _doubt_clock(period: float) -> Doubt:
+    """A grave warning about times that are not in seconds."""
     return Doubt(
         "odd-clock",
         f"The samples are {period:.3g} s apart, where a robot logs every 0.001 to 0.1 s: nothing "
@@ -198,9 +200,9 @@ def _doubt_clock(period: float) -> Doubt:
 
 
 def _drop_explained(found: Iterable[Damage]) -> list[Damage]:
-    """The damages without those whose moment another fault explains better.
+    """The damages without those whose interval another fault explains better.
 
-    What spoils whole runs, or the time, stands beside what happens to the motion in a moment.
+    Faults of whole runs, and those of time, do not compete with faults of the motion.
     """
     kept: list[Damage] = []
     for damage in sorted(found, key=_evidence_weight, reverse=True):
@@ -210,7 +212,7 @@ def _drop_explained(found: Iterable[Damage]) -> list[Damage]:
 
 
 def _evidence_weight(damage: Damage) -> float:
-    """How much a damage explains, as a likelihood counts: its length, and what it leaves over."""
+    """Weight of a damage, like a log likelihood: its length [s] times -log(1 - confidence)."""
     left = max(1.0 - damage.confidence, CERTAIN)
     return (damage.where.end - damage.where.start) * -math.log(left)
 
@@ -225,12 +227,13 @@ def _are_rivals(one: Damage, other: Damage) -> bool:
 
 
 def _harm(damage: Damage) -> float:
-    """[s] of the log that a damage spoils, weighted by its confidence."""
+    """[s] length of a damage times its confidence; infinite for the whole log."""
     if damage.where.run is None:
         return math.inf
     return (damage.where.end - damage.where.start) * damage.confidence
 
 
 def _start_of(damage: Damage) -> tuple[int, float, str]:
+    """Sort key: run, start and name; damage of the whole log comes first."""
     run = damage.where.run
     return (-1 if run is None else run, damage.where.start, damage.fault)

@@ -1,7 +1,7 @@
 """The contract of a fault: damage to a recording, made on purpose and detected again.
 
-A fault is not physics: an effect is something a model ought to include, a fault is something a
-log ought not to contain. A module of ``faults/`` defines one as ``FAULT``: ``spoil`` makes the
+An effect is physics that a model should include; a fault is an error of the recording that a log
+should not contain. A module of ``faults/`` defines one fault as ``FAULT``: ``spoil`` makes the
 damage, and ``detect`` finds it.
 """
 
@@ -18,8 +18,8 @@ from sim.core.log import Array, Log, Run
 from sim.core.vocabulary import KINDS, TYPES
 from sim.inspect.log_features import LogFeatures
 
-ABOUT = ("motion", "time")  # what a fault can make odd
-MOST = 3.0  # [1] largest severity that makes sense; 1 is what one meets on an ordinary bad day
+ABOUT = ("motion", "time")  # what a fault can damage
+MOST = 3.0  # [1] largest severity; 1 is ordinary
 
 
 @dataclass(frozen=True)
@@ -27,10 +27,10 @@ class LogInterval:
     """A part of a log: some seconds of one run, one whole run, or the log as a whole.
 
     Args:
-        run: which run of the log, from 0; None if it is not in the log, or the whole log is meant.
-        test: the name of its test; empty for the log as a whole.
-        start: [s] in the log's own time.
-        end: [s] the same.
+        run: index of the run; None for the whole log, or for a test that is missing.
+        test: name of the test; empty for the whole log.
+        start: [s] on the log's clock.
+        end: [s] on the log's clock.
     """
 
     run: int | None
@@ -57,8 +57,8 @@ class DamagedLog:
     """A damaged log, and where the damage is.
 
     Args:
-        log: as a robot with this fault would have recorded it.
-        where: the damaged parts.
+        log: the log as a robot with this fault would have recorded it.
+        where: the damaged intervals.
     """
 
     log: Log
@@ -70,12 +70,12 @@ class Damage:
     """A fault that was found in a log.
 
     Args:
-        fault: its name.
-        where: the damaged part.
-        confidence: 0 to 1; near 1 nothing else would look like this.
-        evidence: one sentence with a number, for people.
-        advice: what to do about it, one sentence: re-run, trim, filter, or fix the code.
-        ordinary: it is how many robots record. Worth knowing, and no reason to record again.
+        fault: name of the fault.
+        where: the damaged interval.
+        confidence: 0 to 1; near 1 no other cause is plausible.
+        evidence: one sentence with a number, for the user.
+        advice: one sentence: run again, trim, filter, or fix the code.
+        ordinary: whether many robots record like this, so that there is no need to record again.
     """
 
     fault: str
@@ -91,7 +91,7 @@ class FaultStrike:
     """The place and severity of a fault.
 
     Args:
-        run: which run, from 0; every fault has one, even if it spoils the whole log.
+        run: index of the run, also for a fault of the whole log.
         start: [s] since the run's first sample.
         severity: above 0, at most ``MOST``; 1 is ordinary.
     """
@@ -103,22 +103,21 @@ class FaultStrike:
 
 @dataclass(frozen=True)
 class Fault:
-    """One kind of damage.
+    """One kind of fault.
 
     Args:
-        name: as on the command line: ``encoder-slip``.
-        summary: one line for a list.
+        name: name on the command line: ``encoder-slip``.
+        summary: one line for a list of faults.
         ordinary: what severity 1 means, in plain words with a number.
-        spoil: damages a log. Takes the log, a ``FaultStrike`` and a generator; the same state of
-            the generator gives the same log. Never called with severity 0.
-        detect: finds this fault and only this fault, from what any log shows.
-        kinds: the kinds of test it can strike.
-        types: the types of mechanism it can strike; a log that does not say its type is let pass.
-        about: what it makes odd: ``motion``, as voltage and motion do not agree, or ``time``. Of
-            those about the same, only one is believed to be behind one moment.
-        whole: it spoils whole runs, so the start in a ``FaultStrike`` means nothing.
-        when: the share (earliest, latest) of the time a run is in motion, where it starts if nobody
-            says.
+        spoil: damages a log, from the log, a ``FaultStrike`` and a random generator; the same state
+            of the generator gives the same log. It is never called with severity 0.
+        detect: finds this fault in the features of a log.
+        kinds: kinds of test in which it can happen.
+        types: types of mechanism to which it can happen; a log without a type is accepted.
+        about: what it damages: ``motion``, so that motion and voltage do not agree, or ``time``. Of
+            two faults about the same, only one is reported for an interval.
+        whole: whether it damages whole runs, so that the start of a ``FaultStrike`` is not used.
+        when: (earliest, latest) share of the time in motion, between which a random start lies.
     """
 
     name: str
@@ -136,18 +135,18 @@ class Fault:
 def rescale_motion(run: Run, pace: Array) -> Run:
     """A run with its velocity and position steps multiplied by factors ``pace``.
 
-    Velocities are multiplied, and positions put together again from their multiplied steps, so that
-    a sensor's noise, its steps and its held readings stay what they are.
+    Positions are the sum of their multiplied steps, so the resolution of the sensor and its
+    repeated readings are kept.
 
     Args:
-        run: as it was.
-        pace: (n,) 1 where nothing changes, 0 where it stands.
+        run: the original run.
+        pace: (n,) [1] factor of each sample: 1 changes nothing, 0 is standstill.
     """
     renewed = np.concatenate(([True], np.diff(run.velocity) != 0.0))
     latest = np.maximum.accumulate(np.where(renewed, np.arange(len(run)), 0))
     steps = np.diff(run.position) * pace[1:]
     position = run.position[0] + np.concatenate(([0.0], np.cumsum(steps)))
-    same = np.cumprod(pace == 1.0) > 0.0  # not a digit changes before it begins
+    same = np.cumprod(pace == 1.0) > 0.0  # positions before the change keep every digit
     return replace(
         run,
         velocity=run.velocity * pace[latest],
@@ -159,7 +158,7 @@ def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
     """The samples of a run that a mask or a slice keeps.
 
     Args:
-        run: as it was.
+        run: the original run.
         keep: (n,) a mask, or a slice.
     """
     return replace(
@@ -174,7 +173,7 @@ def select_samples(run: Run, keep: NDArray[np.bool_] | slice) -> Run:
 
 
 def replace_run(log: Log, index: int, run: Run) -> Log:
-    """The log with another run in the place of one of its own."""
+    """The log with another run in the place of that at ``index``."""
     return replace(log, runs=(*log.runs[:index], run, *log.runs[index + 1 :]))
 
 
@@ -182,8 +181,8 @@ def load_fault(module: ModuleType, *, name: str) -> Fault:
     """The fault that a module of ``sim/inspect/faults`` defines, checked against the contract.
 
     Args:
-        module: the file, imported.
-        name: of its file, with which the fault's own name begins: ``encoder-slip``.
+        module: the imported module.
+        name: name of its file, with which the fault's name begins: ``encoder-slip``.
 
     Raises:
         BadRequest: the file breaks the contract; the sentence says where.
@@ -203,7 +202,7 @@ def load_fault(module: ModuleType, *, name: str) -> Fault:
 
 
 def _contract_breaches(fault: Fault, *, name: str, caption: str) -> list[str]:
-    """What a fault's file does not keep of the contract."""
+    """Sentences that say how a fault's file breaks the contract."""
     earliest, latest = fault.when
     rules = {
         f"is named {fault.name!r} and not {name!r}, as its file says": (

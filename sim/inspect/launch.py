@@ -1,9 +1,9 @@
-"""How a mechanism launches under a step of voltage: whether its speed falls or waits on the way up.
+"""The start of a step response: whether the speed falls, or stops rising, on the way up.
 
-Under a constant voltage one mass speeds up less and less. Its speed never falls, and never waits
-to climb on. The speed is read off the position here, because a recorded velocity is often averaged
-over a tenth of a second, which hides both. What the run does later, when nothing happens any more,
-is the scale: an event at the launch counts if it is clearly larger than that.
+Under a constant voltage the speed of a single mass rises all the time. It never falls, and never
+stops rising and then rises again. The speed is the slope of the position here, because a recorded
+velocity is often averaged over a tenth of a second, which hides both. An event counts if it is
+clearly larger than the same in the rest of the run, where nothing happens.
 """
 
 from dataclasses import dataclass
@@ -13,18 +13,18 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array, Run
 
-HALF = 0.02  # [s] half of the time over which a speed is read: shorter is the encoder's own noise
-LULLS = 0.04  # [s] the same for a wait, which lasts longer
-LAUNCH = 0.8  # [s] after the voltage, in which a robot gets on its way
-REST = 0.4  # [s] of a run behind that, at least, as a scale for what is ordinary in it
-ON, STAYS = 0.3, 2  # [share of the largest voltage, samples] from where a step has come
-UP = 0.3  # [share of the top speed] below it a slack chain or gear is taken up
-CLIMBING = 0.5  # [share of the top speed] from here on a wait is a wait
+HALF = 0.02  # [s] half of the time over which a slope is taken; less shows the encoder's noise
+WAIT_HALF = 0.04  # [s] the same for a wait, which lasts longer
+LAUNCH = 0.8  # [s] after the step, in which a robot starts
+REST = 0.4  # [s] of the run after that, at least, for comparison
+ON, STAYS = 0.3, 2  # [share of the largest voltage, samples] from which on a step is applied
+UP = 0.3  # [share of the top speed] below it the motor crosses a backlash
+CLIMBING = 0.5  # [share of the top speed] above it a wait counts
 FALLS, WAITS, CLIMBS = 0.12, 0.03, 0.12  # [share of the speed] a fall; [of the top] wait, climb
-LASTS = 0.15  # [s] of a wait
-LARGER = 1.5  # [times] what happens later in the run
-SAGS = 0.15  # [share of the voltage] a speed that falls with the voltage is no event
-HELD = 2  # [samples] for which a position repeats, from where single frames show as spikes
+LASTS = 0.15  # [s] length of a wait
+LARGER = 1.5  # [times] the size of the same event later in the run
+SAGS = 0.15  # [share of the voltage] if it falls by more, the speed falls with the voltage
+HELD = 2  # [samples] that repeat a position, from which on single frames show as spikes
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,11 @@ class LaunchEvent:
 
     Args:
         kind: ``fall`` or ``wait``.
-        start: [s] when the step came, in the log's own time.
-        end: [s] when the speed was above where it had been.
-        speed: [m/s or rad/s] that it had reached.
-        size: [share] of that speed by which it fell, or of the top speed by which it climbed on.
-        later: [share] the same, at most, in the rest of the run.
+        start: [s] time of the voltage step, on the log's clock.
+        end: [s] time of the lowest speed of a fall, or of the end of a wait.
+        speed: [m/s or rad/s] speed before the fall, or at the end of the wait.
+        size: [1] share of that speed by which it fell, or of the top speed by which it then rose.
+        later: [1] the largest such share in the rest of the run.
     """
 
     kind: str
@@ -55,24 +55,26 @@ def find_launch_event(run: Run) -> LaunchEvent | None:
     if len(run) <= first + 2 * STAYS or since[-1] < LAUNCH + REST:
         return None
     period = float(np.median(np.diff(run.time)))
-    speed = _speed(run, half=max(HALF, period), period=period)
+    speed = _position_slope(run, half=max(HALF, period), period=period)
     top = float(np.percentile(speed[since > 0.0], 90))
     if not top > 0.0:
         return None
     falls = _largest_fall(since, speed, (0.0, LAUNCH), top=top)
-    later = _largest_fall(since, speed, (LAUNCH, float(since[-1]) - 2.0 * LULLS), top=top)
-    if falls.size >= max(FALLS, LARGER * later.size) and not _sags(run, first, falls):
+    later = _largest_fall(since, speed, (LAUNCH, float(since[-1]) - 2.0 * WAIT_HALF), top=top)
+    if falls.size >= max(FALLS, LARGER * later.size) and not _voltage_sags(run, first, falls):
         return _event("fall", run, first, falls, later.size)
-    smooth = _speed(run, half=max(LULLS, period), period=period)
+    smooth = _position_slope(run, half=max(WAIT_HALF, period), period=period)
     climbs = _largest_climb(since, smooth, (0.0, LAUNCH), top=top)
-    later = _largest_climb(since, smooth, (LAUNCH + LASTS, float(since[-1]) - 2.0 * LULLS), top=top)
-    if climbs.size >= max(CLIMBS, LARGER * later.size) and not _sags(run, first, climbs):
+    later = _largest_climb(
+        since, smooth, (LAUNCH + LASTS, float(since[-1]) - 2.0 * WAIT_HALF), top=top
+    )
+    if climbs.size >= max(CLIMBS, LARGER * later.size) and not _voltage_sags(run, first, climbs):
         return _event("wait", run, first, climbs, later.size)
     return None
 
 
 def find_step_start(run: Run) -> int:
-    """Index of the sample at which the voltage comes on and stays."""
+    """Index of the sample from which on the voltage is applied and stays."""
     size = np.abs(run.voltage)
     on = size > ON * float(size.max(initial=0.0))
     if on.size <= STAYS:
@@ -83,7 +85,7 @@ def find_step_start(run: Run) -> int:
 
 @dataclass(frozen=True)
 class _Found:
-    """The size of an event, and its samples: how fast it was, and when it was as fast again."""
+    """Size [1] of an event, index of its begin and of its end, and its speed [m/s or rad/s]."""
 
     size: float
     begin: int
@@ -91,11 +93,11 @@ class _Found:
     speed: float
 
 
-NOTHING = _Found(0.0, 0, 0, 0.0)
+NO_EVENT = _Found(0.0, 0, 0, 0.0)
 
 
-def _speed(run: Run, *, half: float, period: float) -> Array:
-    """(n,) [m/s or rad/s] the slope of the position over twice ``half``, in its own direction."""
+def _position_slope(run: Run, *, half: float, period: float) -> Array:
+    """(n,) [m/s or rad/s] slope of the position over twice ``half`` [s], positive on the way."""
     early = np.clip(run.time - half, run.time[0], run.time[-1])
     late = np.clip(run.time + half, run.time[0], run.time[-1])
     way = np.interp(late, run.time, run.position) - np.interp(early, run.time, run.position)
@@ -104,8 +106,8 @@ def _speed(run: Run, *, half: float, period: float) -> Array:
     changes = int(np.count_nonzero(np.diff(run.position[run.velocity != 0.0])))
     if half > HALF or moving >= HELD * max(changes, 1):
         wide = 2 * round(half / period) + 1
-        fed = np.pad(speed, wide // 2, mode="edge")
-        speed = np.median(np.lib.stride_tricks.sliding_window_view(fed, wide), axis=1)
+        padded = np.pad(speed, wide // 2, mode="edge")
+        speed = np.median(np.lib.stride_tricks.sliding_window_view(padded, wide), axis=1)
     return np.asarray(speed)
 
 
@@ -113,7 +115,7 @@ def _largest_fall(since: Array, speed: Array, within: tuple[float, float], *, to
     """The largest fall below an earlier speed that the run reaches again."""
     at = _between(since, within)
     if not at.size:
-        return NOTHING
+        return NO_EVENT
     inside = speed[at]
     peak = np.maximum.accumulate(inside)
     recovers = np.maximum.accumulate(inside[::-1])[::-1] >= peak
@@ -127,9 +129,9 @@ def _largest_fall(since: Array, speed: Array, within: tuple[float, float], *, to
 def _largest_climb(
     since: Array, speed: Array, within: tuple[float, float], *, top: float
 ) -> _Found:
-    """The largest climb after a stretch of ``LASTS`` in which the speed hardly rose."""
-    best = NOTHING
-    at_end = since > since[-1] - REST  # what climbs on to there is a load that changes on the way
+    """The largest rise after an interval of ``LASTS`` in which the speed hardly rose."""
+    best = NO_EVENT
+    at_end = since > since[-1] - REST  # a rise until the end is a load that changes
     for k in _between(since, (within[0], within[1] - LASTS)).tolist():
         ends = int(np.searchsorted(since, since[k] + LASTS))
         behind = int(np.searchsorted(since, min(since[k] + LAUNCH, within[1] + LASTS)))
@@ -144,11 +146,12 @@ def _largest_climb(
 
 
 def _between(since: Array, within: tuple[float, float]) -> NDArray[np.intp]:
+    """Indices of the samples within an interval [s]."""
     return np.flatnonzero((since >= within[0]) & (since <= within[1]))
 
 
-def _sags(run: Run, first: int, found: _Found) -> bool:
-    """Whether the voltage gave way as well, a little before or while the speed did."""
+def _voltage_sags(run: Run, first: int, found: _Found) -> bool:
+    """Whether the voltage drops, too, a little before the speed or with it."""
     begin = int(np.searchsorted(run.time, run.time[found.begin] - 2.0 * HALF))
     size = np.abs(run.voltage)
     usual = float(np.median(size[first:]))

@@ -1,6 +1,6 @@
 """Features of a log that detectors use, each computed once, on demand.
 
-Everything here is robust: one bad stretch must not bend what the rest of the log says.
+All of them are robust: one damaged part of a log hardly changes them.
 """
 
 from dataclasses import dataclass
@@ -15,22 +15,22 @@ from sim.inspect.anomalies import Anomaly, find_anomalies, predict_velocity
 from sim.inspect.baseline_model import BaselineModel, fit_baseline
 from sim.physics.velocity_lag import VelocityLag, estimate_velocity_lag
 
-STANDING = 0.03  # [share of the log's top speed] slower samples stand, as far as gains go
-WHITE, NORMAL = 20.0**0.5, 0.6745  # third differences of white noise; a normal median of |x|
-FEWEST = 6  # [samples] of voltage; fewer do not tell a ramp from a step
+STANDING = 0.03  # [share of the log's top speed] slower samples are at rest
+WHITE, NORMAL = 20.0**0.5, 0.6745  # deviation of white noise's third differences; median of |x|
+FEWEST = 6  # [samples] of voltage that tell a ramp from a step
 RAMP, STEP = 0.55, 0.7  # median voltage of the first half over that of the second: 1/3 in a ramp
-STRAIGHT = 0.05  # [share of the largest voltage] a ramp's median stray from its line
-DRIVEN = 0.05  # [share of a run's largest voltage] less is the time before and after the test
-AGREED = 0.6  # [mean of the signs] where 4 of 5 samples agree, a run has that sign
-RISEN = 0.632  # [share of the top speed] that one timescale brings
-MOVING = 0.1  # [share of a run's top speed] slower samples say little about how it moves
-STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] within: it stands
-PARTS = 10  # of a run's motion, judged one by one: a slip or a stop bends one or two of them
-COPIED = 0.01  # [share of the variance] a velocity may differ from the position it is a copy of,
-CLOSER = 0.1  # [times what it differs from a velocity] and it has to be that much closer to it
-TINY = 1e-12  # [times] no scale, for the logarithm of one
+STRAIGHT = 0.05  # [share of the largest voltage] median deviation of a ramp from its line
+DRIVEN = 0.05  # [share of a run's largest voltage] less is before or after the test
+AGREED = 0.6  # [1] mean of the signs if 4 of 5 samples agree
+RISEN = 0.632  # [share of the top speed] after one time constant
+MOVING = 0.1  # [share of a run's top speed] slower samples are not in motion
+STEPS, CREEP = 1.5, 2e-5  # [smallest steps of the position, share of its way] a position at rest
+PARTS = 10  # of a run's motion, evaluated one by one: a slip or a stop changes one or two of them
+COPIED = 0.01  # [share of the variance] largest residual of a velocity that copies the position
+CLOSER = 0.1  # [1] largest ratio of that residual to the residual of a real velocity
+TINY = 1e-12  # [1] smallest scale, for its logarithm
 LEAST = 3  # samples in a part, and parts of a motion
-FAR = 0.1  # [share of the longest part's distance] what a part must go to be judged
+FAR = 0.1  # [share of the longest part's distance] shorter parts are left out
 Flags: TypeAlias = NDArray[np.bool_]
 Counts: TypeAlias = NDArray[np.intp]
 
@@ -40,7 +40,7 @@ class LogFeatures:
     """Features of a log.
 
     Args:
-        log: the record.
+        log: the log.
     """
 
     log: Log
@@ -61,7 +61,7 @@ class LogFeatures:
 
     @cached_property
     def moving(self) -> tuple[Flags, ...]:
-        """Per run, (n,): whether it moves, by its velocity; nowhere if it never does."""
+        """Per run, (n,): whether the mechanism moves, by its velocity."""
         return tuple(np.abs(run.velocity) > MOVING * run.top_speed for run in self.log.runs)
 
     @cached_property
@@ -76,10 +76,10 @@ class LogFeatures:
 
     @cached_property
     def recognized_tests(self) -> tuple[str, ...]:
-        """Per run, the test recognized from its voltage and motion, as ``quasistatic-forward``.
+        """Per run, the test recognized from its voltage and motion, like ``quasistatic-forward``.
 
-        What they do not tell is taken from the name it is filed under: the direction where voltage
-        and motion disagree, and everything about a test that is neither a ramp nor a step.
+        The direction is that of the test's name if voltage and motion disagree, and a test that is
+        neither a ramp nor a step keeps its name.
         """
         return tuple(_recognize_test(run) for run in self.log.runs)
 
@@ -90,16 +90,16 @@ class LogFeatures:
 
     @cached_property
     def distance_ratios(self) -> tuple[float, ...]:
-        """Per run, the integral of its velocity over the change of its position.
+        """Per run, [1] the integral of its velocity divided by the change of its position.
 
-        1 where a run moves too little to tell.
+        1 if a run moves too little.
         """
         both = zip(self.log.runs, self.moving, strict=True)
         return tuple(_distance_ratio(run, moving) for run, moving in both)
 
     @cached_property
     def usual_distance_ratio(self) -> float:
-        """The median distance ratio of all runs; a conversion factor is the same in all."""
+        """[1] median of the distance ratios: a wrong conversion factor is the same in all runs."""
         return float(np.median(self.distance_ratios)) if self.distance_ratios else 1.0
 
     @cached_property
@@ -109,14 +109,14 @@ class LogFeatures:
 
     @cached_property
     def position_copy_factors(self) -> tuple[float, ...]:
-        """Per run, the factor by which its velocity copies its position; 0 if it is no copy."""
-        return tuple(_copied(run) for run in self.log.runs)
+        """Per run, [1/s] factor by which its velocity copies its position; 0 if it does not."""
+        return tuple(_copy_factor(run) for run in self.log.runs)
 
     @cached_property
     def noise(self) -> float:
         """[m/s or rad/s] velocity noise in motion, estimated without a model.
 
-        From third differences of readings that are new: smooth motion leaves next to nothing.
+        From third differences of new readings, which are almost zero for a smooth motion.
         """
         thirds = []
         for run in self.log.runs:
@@ -140,7 +140,7 @@ class LogFeatures:
 
     @cached_property
     def predicted_velocities(self) -> tuple[Array, ...]:
-        """Per run, (n,) [m/s or rad/s]: velocity by the baseline model; () without one."""
+        """Per run, (n,) [m/s or rad/s] velocity predicted by the baseline model; () without one."""
         if self.baseline is None:
             return ()
         return tuple(
@@ -166,9 +166,9 @@ class LogFeatures:
 
     @cached_property
     def timescale(self) -> float:
-        """[s] until a step reaches 63 % of its top speed, in a dynamic test; 0 if unknown.
+        """[s] time from rest to 63 % of the top speed, the median of the dynamic tests.
 
-        The median over the dynamic tests, from the last sample at rest; delays are part of it.
+        It includes delays, and is 0 if no dynamic test starts at rest.
         """
         rises = [_rise_time(run) for run in self.log.runs if run.kind == "dynamic" and len(run)]
         rises = [rise for rise in rises if rise > 0.0]
@@ -179,10 +179,10 @@ def find_held_samples(values: Array) -> tuple[Counts, Counts]:
     """Intervals in which a signal repeats one value.
 
     Args:
-        values: (n,).
+        values: (n,) the signal.
 
     Returns:
-        Where each stretch starts, (m,), and how many samples it is long, (m,).
+        (m,) index of the first sample of each interval, and (m,) their lengths in samples.
     """
     starts = np.flatnonzero(np.concatenate(([True], np.diff(values) != 0.0))[: values.size])
     return starts, np.diff(np.append(starts, values.size))
@@ -195,13 +195,14 @@ def find_majority_sign(values: Array) -> int:
 
 
 def _recognize_test(run: Run) -> str:
+    """The test recognized from voltage and motion; see ``LogFeatures.recognized_tests``."""
     if run.kind not in ("quasistatic", "dynamic"):
         return run.test
     size = np.abs(run.voltage)
     driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
     if driven.size < FEWEST:
         return run.test
-    first, last = np.array_split(driven, 2)  # what stands before, between and after does not count
+    first, last = np.array_split(driven, 2)  # without the samples at rest before and after
     rise = float(np.median(size[first]) / (np.median(size[last]) or 1.0))
     kind = run.kind
     if rise < RAMP and _is_line(run.time[driven], size[driven]):
@@ -216,21 +217,22 @@ def _recognize_test(run: Run) -> str:
 
 
 def _is_line(time: Array, volts: Array) -> bool:
-    """Whether a voltage grows in a straight line: a median of its strays is small."""
+    """Whether a voltage grows linearly: its median deviation from a line is small."""
     middle = np.array_split(np.arange(time.size), 2)
     (t0, v0), (t1, v1) = ((np.median(time[half]), np.median(volts[half])) for half in middle)
-    strays = np.abs(volts - v0 - (v1 - v0) * (time - t0) / (t1 - t0))
-    return bool(np.median(strays) < STRAIGHT * volts.max())
+    deviations = np.abs(volts - v0 - (v1 - v0) * (time - t0) / (t1 - t0))
+    return bool(np.median(deviations) < STRAIGHT * volts.max())
 
 
 def _rest_length(run: Run, *, step: float) -> int:
+    """Number of samples before the position leaves its first value."""
     band = max(STEPS * step, CREEP * float(np.ptp(run.position))) if len(run) else 0.0
     away = np.abs(run.position - run.position[:1]) > band
     return int(np.argmax(away)) if away.any() else 0
 
 
 def _distance_ratio(run: Run, moving: Flags) -> float:
-    """By the usual part of the motion: single slopes of a stale or coarse position mislead."""
+    """[1] integral of velocity over change of position, the median of parts of the motion."""
     motion = np.flatnonzero(moving)
     parts = min(PARTS, motion.size // LEAST)
     if parts < LEAST:
@@ -243,11 +245,14 @@ def _distance_ratio(run: Run, moving: Flags) -> float:
     if far.sum() < parts // 2:
         return 1.0
     usual = float(np.median(np.abs(summed[far] / changed[far])))
-    whole = float(np.abs(summed[far]).sum() / np.abs(changed[far]).sum())  # frames may be long
+    whole = float(
+        np.abs(summed[far]).sum() / np.abs(changed[far]).sum()
+    )  # long frames change single parts
     return min(usual, whole, key=lambda scale: abs(np.log(max(scale, TINY))))
 
 
-def _copied(run: Run) -> float:
+def _copy_factor(run: Run) -> float:
+    """[1/s] factor by which the velocity is a copy of the position; 0 if it is not."""
     found = estimate_velocity_lag([run])
     if found is None:
         return 0.0
@@ -267,6 +272,7 @@ def _rise_time(run: Run) -> float:
 
 
 def _smallest_step(signals: list[Array]) -> float:
+    """The smallest change between two samples of any signal; inf if none changes."""
     steps = np.concatenate([np.abs(np.diff(values)) for values in signals] or [np.zeros(0)])
     steps = steps[steps > 0.0]
     return float(steps.min()) if steps.size else float("inf")

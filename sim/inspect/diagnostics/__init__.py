@@ -1,7 +1,6 @@
-"""Warnings about a log that SysId does not give and that are no fault of the catalogue.
+"""Warnings about a log that SysId does not give and that are not faults of the catalogue.
 
-Each check is a function of the features and gives doubts: a cause, a number and what to look at.
-They are quiet about a log that is as it should be.
+Each check is a function of the features and returns doubts with a cause, a number and advice.
 """
 
 from contextlib import suppress
@@ -24,7 +23,7 @@ from sim.inspect.diagnostics.sensor import (
 )
 from sim.inspect.log_features import LogFeatures
 
-LOOKS = (
+CHECKS = (
     check_velocity_lag,
     check_velocity_scale,
     check_plausible_speed,
@@ -38,13 +37,13 @@ LOOKS = (
 
 
 def diagnose_log(features: LogFeatures) -> tuple[Doubt, ...]:
-    """Everything odd about a log that no fault of the catalogue explains.
+    """All warnings about a log that are not about faults of the catalogue.
 
     Args:
-        features: of the log.
+        features: features of the log.
     """
     doubts: list[Doubt] = []
-    for each in LOOKS:
-        with suppress(np.linalg.LinAlgError):  # a log without a solution says nothing here
-            doubts += each(features)
+    for check in CHECKS:
+        with suppress(np.linalg.LinAlgError):  # equations without a solution give no warning
+            doubts += check(features)
     return tuple(doubts)

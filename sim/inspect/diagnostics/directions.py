@@ -9,16 +9,16 @@ from sim.core.log import DIRECTIONS, Array, Run
 from sim.core.units import find_unit
 from sim.inspect.log_features import MOVING, LogFeatures
 
-FEWEST = 10  # [samples in motion] less says little
-APART_KS = 0.12, 0.35  # [V, share of their mean] two directions' kS further apart are two
-APART_KV = 0.05  # [share] two directions' kV further apart are two
-SETTLED, SMOOTH = 3.0, 0.1  # [timescales, s] a ramp's first motion; half of a slope's width
-SIGMAS = 5.0  # [standard errors] of either
+FEWEST = 10  # [samples in motion] of a run that is evaluated
+APART_KS = 0.12, 0.35  # [V, share of their mean] largest normal difference of kS
+APART_KV = 0.05  # [share] largest normal difference of kV
+SETTLED, SMOOTH = 3.0, 0.1  # [time constants] of a ramp left out; [s] half width of a slope
+SIGMAS = 5.0  # [standard errors] of a significant difference
 
 
 @dataclass(frozen=True)
 class _Line:
-    """What a direction's ramps need: kS [V], kV [V per m/s or rad/s], and their standard errors."""
+    """KS [V] and kV [V·s/m or V·s/rad] of one direction, with their standard errors."""
 
     ks: float
     kv: float
@@ -62,7 +62,7 @@ def check_directions(features: LogFeatures) -> list[Doubt]:
 
 
 def _line(features: LogFeatures, way: str) -> _Line | None:
-    """The line through a direction's first ramp, gravity and acceleration taken off."""
+    """The line of voltage over velocity of a direction's first ramp; None if there is none."""
     runs = [i for i, run in enumerate(features.log.runs) if run.test == f"quasistatic-{way}"]
     if not runs or features.baseline is None:
         return None
@@ -78,14 +78,12 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
     load = np.zeros(len(run))
     if features.log.type in ("elevator", "arm"):
         load = baseline.compute_gravity(run.position)
-    elif find_unit(
-        features.log.units
-    ).angular:  # it may be an arm; what differs is sought, not its mean
+    elif find_unit(features.log.units).angular:  # it may be an arm: without the mean of its gravity
         load = baseline.compute_gravity(run.position)
         load = load - load.mean()
     volts = (sign * (run.voltage - load - baseline.ka * _acceleration(run, features.period)))[fast]
     speed = np.abs(run.velocity[fast])
-    if not np.ptp(speed):  # readings so coarse that they know one speed only: no line
+    if not np.ptp(speed):  # the sensor is so coarse that there is only one speed
         return None
     (kv, ks), covariance = np.polyfit(speed, volts, 1, cov=True)
     errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
@@ -93,7 +91,7 @@ def _line(features: LogFeatures, way: str) -> _Line | None:
 
 
 def _acceleration(run: Run, period: float) -> Array:
-    """(n,) [m/s² or rad/s²] the slope of the velocity over a while."""
+    """(n,) [m/s² or rad/s²] slope of the velocity over ``SMOOTH`` to both sides."""
     reach = max(1, round(SMOOTH / period))
     late = np.minimum(np.arange(len(run)) + reach, len(run) - 1)
     early = np.maximum(np.arange(len(run)) - reach, 0)

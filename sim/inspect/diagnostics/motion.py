@@ -10,12 +10,12 @@ from sim.inspect.baseline_model import BaselineModel
 from sim.inspect.log_features import MOVING, LogFeatures
 
 GOOD_R2 = 0.9  # simulated velocity R² that WPILib's documentation calls good
-ASTRAY = 0.12  # [share of the top speed] a simulation should not stray for longer than a moment
-MOMENT = 0.1  # [s]
-SAME = 0.06  # [share of the top speed] two runs of one test should not differ more
-FEWEST = 10  # [samples in motion] less says little
-RISE = 2  # [samples] between 10 % and 90 % of the top speed
-INTERCEPT = 0.35  # [V] by which a fast ramp may shift the line one would draw by hand
+MISFIT = 0.12  # [share of the top speed] error of a simulation over ``MISFIT_TIME``
+MISFIT_TIME = 0.1  # [s]
+REPEATABLE = 0.06  # [share of the top speed] largest normal difference of two runs of a test
+FEWEST = 10  # [samples in motion] of a run with enough motion
+RISE = 2  # [samples] between 10 % and 90 % of the top speed, at least
+INTERCEPT = 0.35  # [V] by which a fast ramp may shift a line that is drawn by hand
 
 
 def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
@@ -27,7 +27,7 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
     model = _model(found)
     if model is None or found.simulated_velocity_r2 < GOOD_R2:
         return []
-    worst, said = ASTRAY, ""
+    worst, said = MISFIT, ""
     for run in features.log.runs:
         strays = _replay_errors(run, model, features.period)
         if strays.size and strays.max() > worst:
@@ -46,7 +46,7 @@ def check_r2_hides_misfit(features: LogFeatures) -> list[Doubt]:
 
 
 def _model(found: Fit) -> BaselineModel | None:
-    """The fitted gains as something that can replay a run."""
+    """The fitted gains as a baseline model; None if kV or kA is not positive."""
     gains = found.gains
     if not (gains["kV"] > 0.0 and gains["kA"] > 0.0):
         return None
@@ -56,9 +56,9 @@ def _model(found: Fit) -> BaselineModel | None:
 
 
 def _replay_errors(run: Run, model: BaselineModel, period: float) -> Array:
-    """(n,) [share of the top speed] how far a replay is off, for longer than a moment."""
+    """(n,) [share of the top speed] error of a replay, the least within ``MISFIT_TIME``."""
     top = run.top_speed
-    wide = 2 * round(0.5 * MOMENT / period) + 1
+    wide = 2 * round(0.5 * MISFIT_TIME / period) + 1
     if not top or len(run) <= wide or not run.kind.startswith(("quasi", "dynamic")):
         return np.zeros(0)
     moving = np.flatnonzero(np.abs(run.velocity) > MOVING * top)
@@ -76,11 +76,11 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
     doubts = []
     for test in dict.fromkeys(run.test for run in features.log.runs):
         runs = [i for i, run in enumerate(features.log.runs) if run.test == test]
-        if len(runs) < 2 or not features.predicted_velocities:  # noqa: PLR2004 - of one run there is no second
+        if len(runs) < 2 or not features.predicted_velocities:  # noqa: PLR2004 - two runs to compare
             continue
         ahead = [_speed_excess(features, i) for i in runs]
         apart = max(ahead) - min(ahead)
-        if apart > SAME:
+        if apart > REPEATABLE:
             doubts.append(
                 Doubt(
                     "repeats-differ",
@@ -93,7 +93,7 @@ def check_repeated_tests(features: LogFeatures) -> list[Doubt]:
 
 
 def _speed_excess(features: LogFeatures, index: int) -> float:
-    """[share of its top speed] by which a run usually goes faster than its voltage says."""
+    """[share of its top speed] median of a run's velocity minus the predicted one."""
     run, moving = features.log.runs[index], features.moving[index]
     if not moving.any():
         return 0.0
@@ -132,7 +132,7 @@ def check_too_little_motion(features: LogFeatures) -> list[Doubt]:
 
 
 def _more_motion(run: Run) -> str:
-    """What would make a run move more: a longer one, or more voltage than it had."""
+    """Advice to make a run move more: a longer one, or a higher voltage."""
     most = float(np.abs(run.voltage).max(initial=0.0))
     if run.kind == "quasistatic":
         return (
@@ -143,6 +143,7 @@ def _more_motion(run: Run) -> str:
 
 
 def _nothing_moves(runs: list[Run]) -> Doubt:
+    """A grave warning about a log without any motion."""
     volts = max(float(np.abs(run.voltage).max()) for run in runs)
     lasts = max(float(np.ptp(run.time)) for run in runs)
     return Doubt(
@@ -156,7 +157,7 @@ def _nothing_moves(runs: list[Run]) -> Doubt:
 
 
 def _rise_samples(run: Run) -> int:
-    """[samples] between 10 % and 90 % of the top speed; many if it starts in motion."""
+    """[samples] between 10 % and 90 % of the top speed; all if it starts in motion."""
     speed, top = np.abs(run.velocity), run.top_speed
     up, done = int(np.argmax(speed > MOVING * top)), int(np.argmax(speed > 0.9 * top))
     return done - up if speed[0] <= MOVING * top else len(run)
@@ -184,7 +185,7 @@ def check_ramp_rate(features: LogFeatures) -> list[Doubt]:
 
 
 def _ramp_rate(run: Run) -> float:
-    """[V/s] of a ramp, before a battery or the end of the test can flatten it."""
+    """[V/s] slope of a ramp's first part, which a weak battery does not flatten."""
     size = np.abs(run.voltage)
     low, high = (int(np.argmax(size > share * size.max())) for share in (0.1, 0.6))
     return float((size[high] - size[low]) / (run.time[high] - run.time[low])) if high > low else 0.0

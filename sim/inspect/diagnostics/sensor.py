@@ -7,26 +7,26 @@ from sim.core.units import find_unit
 from sim.fit.sysid_rows import estimate_noise_floor
 from sim.inspect.log_features import LogFeatures
 
-LAG = 0.02, 1.5  # [s, periods] what is no filter yet
-SIGMAS = 3.0  # [standard errors] a delay that the runs do not agree on is not told
-TELLS = 0.01  # [s] to which a delay is told: runs of one log agree no closer
-FILTERS = {  # [s] WPILib's own figures of how old a velocity is
+LAG = 0.02, 1.5  # [s, periods] largest delay without a filter
+SIGMAS = 3.0  # [standard errors] of a significant delay
+ROUNDED = 0.01  # [s] to which a delay is rounded: the runs of a log do not agree more closely
+FILTERS = {  # [s] WPILib's figures for the delay of a velocity
     "REV's own encoder of a NEO": 0.112,
     "CTRE Phoenix 5, or REV's data port": 0.0815,
 }
-ALIKE = 0.15  # [share] how near a lag has to be to one of them
-FEWEST = 10  # [samples in motion] less says little
-PASSES = 0.1  # [share of a ramp's rows] that may stand and be taken for motion
+ALIKE = 0.15  # [share] largest difference of a delay from one of them
+FEWEST = 10  # [samples] of a ramp that is evaluated
+PASSES = 0.1  # [share of a ramp's rows] that may be at rest and count as motion
 SCALE = 0.03  # [share] by which velocity and position may differ
 FASTEST = 60.0  # [m/s] nothing on a robot is faster
 FULL = 12.0  # [V]
-FAR = 2.5  # [times] what is this far off is a fault, not a look
+FAR = 2.5  # [1] a larger factor is a fault of the catalogue
 
 
 def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     """Doubts about a velocity that is later than its position."""
     found = features.velocity_lag
-    if not 1.0 / FAR < features.usual_distance_ratio < FAR:  # another unit, not another time
+    if not 1.0 / FAR < features.usual_distance_ratio < FAR:  # that is a wrong unit
         return []
     least = max(LAG[0], LAG[1] * features.period)
     if found is None or not found.matched or found.lag <= least:
@@ -34,12 +34,13 @@ def check_velocity_lag(features: LogFeatures) -> list[Doubt]:
     if SIGMAS * found.error > found.lag:
         return []
     lag = found.lag
-    made = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
-    likely = f", as {made[0]} does" if made else ""
+    rounded = round(lag / ROUNDED) * ROUNDED
+    similar = [name for name, age in FILTERS.items() if abs(lag / age - 1.0) < ALIKE]
+    likely = f", as {similar[0]} does" if similar else ""
     return [
         Doubt(
             "velocity-lags",
-            f"The velocity is about {round(lag / TELLS) * TELLS * 1000.0:.0f} ms later than the "
+            f"The velocity is about {rounded * 1000.0:.0f} ms later than the "
             f"position: most likely the motor controller averages it{likely}. `sysid fit` "
             "takes this delay into account. WPILib's SysId does not: its kA is wrong, and the "
             "measurement delay that you enter there changes only the feedback gains. Shorten the "

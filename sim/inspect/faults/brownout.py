@@ -1,13 +1,14 @@
-"""Brownout: the robot controller cuts the motors because the battery's voltage has collapsed.
+"""Brownout: the robot controller turns the motors off because the battery voltage is too low.
 
 On a robot: a weak battery or a large current pulls the bus below 6.3 V (roboRIO 1) or 6.75 V
 (roboRIO 2); the controller disables its outputs until the bus is back above 7.5 V.
 
-To the gains: the mechanism slows down without a motor while the log goes on to tell the commanded
-voltage. SysId sees voltage without acceleration: kA too large (by 43 % for one cut), kS too small.
+Effect on the gains: the mechanism slows down without a motor while the log still contains the
+commanded voltage. SysId gets voltage without acceleration: kA becomes too large (by 43 % for one
+cut), kS too small.
 
-Where the applied voltage is logged, it is cut to zero and comes back again and again; where the
-bus voltage is logged, it dips below the controller's threshold just before each cut.
+If the applied voltage is logged, it drops to zero and returns, again and again. If the bus voltage
+is logged, it drops below the controller's threshold just before each cut.
 
 Fingerprint: the velocity falls as it does with no voltage at all, along its own timescale, and
 climbs back along the same one; the bus voltage, where it is logged, dips.
@@ -33,29 +34,30 @@ from sim.inspect.fault import (
 from sim.inspect.log_features import DRIVEN, LogFeatures
 
 CUT = 0.3  # [s] without motors at severity 1
-DIP = 6.0  # [V] of the bus while it lasts: below every controller's threshold
-RECOVERED = 7.5  # [V] where a controller lets the motors go on
+DIP = 6.0  # [V] of the bus during a cut: below every controller's threshold
+RECOVERED = 7.5  # [V] of the bus at which a controller turns the motors on again
 THRESHOLD = 6.75  # [V] of the bus: a roboRIO 2 cuts the motors below it, a roboRIO 1 below 6.3
-OFF = (0.09, 2.0)  # [s] without voltage: shorter is a lost frame, longer another test or a person
-CHOPPED = 3  # cuts in one run; one or two may be somebody letting go of the button
-AT_ONCE = 2  # [samples] between the dip and its cut
-TOGETHER = 2.0  # [s] cuts no further apart than this are one story
-SEEN, CUT_SEEN = 0.98, 0.9  # confidence where the bus voltage tells it, and where it is not logged
-SLACK = 0.06  # [s] how exactly an anomaly tells where it begins and ends
-LOWEST = 0.6  # [V] a motor that is asked for less pulls no battery down; a dead band looks alike
-MOVED = 5  # [samples] before a cut in which it was on its way
+OFF = (0.09, 2.0)  # [s] without voltage: shorter is a lost frame, longer is another test
+CHOPPED = 3  # cuts in a run, at least: one or two may be a button that was let go
+AT_ONCE = 2  # [samples] between the drop of the bus voltage and the cut, at most
+TOGETHER = 2.0  # [s] cuts closer than this are one brownout
+BUS_CONFIDENCE = 0.98  # if the bus voltage shows it
+CUT_CONFIDENCE = 0.9  # if only the applied voltage shows it
+SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
+LOWEST = 0.6  # [V] a lower command does not load a battery; a deadband looks the same
+MOVED = 5  # [samples] before a cut in which the mechanism moves
 ENDS = 12  # ends of the cut that are tried at first
-SHORTEST = 0.14  # [s] a cut that only the motion tells: a controller keeps its motors off longer
-AGREES = 0.5  # [share] of the way that the velocity lacks, which the position must lack as well
-BELIEVED = 0.7  # [share explained] less is something else
-FREE = 4.0  # a shape without a size to choose counts this much more than one that has it
-NOT_BACK = 0.9  # a cut that lasts to the end of the run may be a stop it has run into
-SURE = 0.9  # [share explained] at the start of a run, where current limits look alike
-FASTEST = 1.2  # [times the usual speed] a cut can make what falls go, before the model is in doubt
+SHORTEST = 0.14  # [s] of a cut that only the motion shows: controllers cut for longer
+AGREES = 0.5  # [share] of the velocity's missing distance that the position must miss as well
+BELIEVED = 0.7  # [share explained] least of a brownout
+FREE = 4.0  # [1] factor on the evidence of a shape without a free size
+NOT_BACK = 0.9  # [1] factor on the confidence of a cut to the end of the run: it may be a stop
+SURE = 0.9  # [share explained] least at the start of a run, where current limits look the same
+FASTEST = 1.2  # [times the usual speed] limit for a load that falls without motor
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Switch the motor off for a moment."""
+    """Damage a log: the motors are off for ``CUT`` seconds times the severity."""
     features = LogFeatures(log)
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
@@ -66,15 +68,15 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
         return DamagedLog(log, ())
     first = int(np.argmax(cut))
     velocity = features.predicted_velocities[strike.run][first]
-    as_it_was, without = (
+    powered, unpowered = (
         features.baseline.replay(run, voltage=volts, first=first, last=len(run), velocity=velocity)
         for volts in (run.voltage, np.where(cut, 0.0, run.voltage))
     )
-    moves = np.abs(as_it_was) > features.still_speed
-    if not np.any(moves & (as_it_was != without)):
+    moves = np.abs(powered) > features.still_speed
+    if not np.any(moves & (powered != unpowered)):
         return DamagedLog(log, ())
     pace = np.ones(len(run))
-    pace[first:][moves] = np.clip(without[moves] / as_it_was[moves], -FASTEST, FASTEST)
+    pace[first:][moves] = np.clip(unpowered[moves] / powered[moves], -FASTEST, FASTEST)
     spoilt = rescale_motion(run, pace)
     if run.bus_voltage is not None:
         bus = np.where(cut, np.minimum(run.bus_voltage, DIP), run.bus_voltage)
@@ -86,20 +88,21 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find brownouts: by the bus voltage, by the applied voltage, else by the motion."""
-    seen = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
-    yield from seen
+    cuts = [found for index in range(len(features.log.runs)) for found in _cuts(features, index)]
+    yield from cuts
     for anomaly in features.anomalies:
         found = None if anomaly.recurs else _unpowered(features, anomaly)
-        if found and not any(_shared(found.where, other.where) for other in seen):
+        if found and not any(_overlap(found.where, other.where) for other in cuts):
             yield found
 
 
-def _shared(one: LogInterval, other: LogInterval) -> bool:
+def _overlap(one: LogInterval, other: LogInterval) -> bool:
+    """Whether two intervals of one run have a common part."""
     return one.run == other.run and min(one.end, other.end) > max(one.start, other.start)
 
 
 def _cuts(features: LogFeatures, index: int) -> list[Damage]:
-    """Stretches in which the recorded voltages themselves tell of a brownout."""
+    """Brownouts that the recorded voltages show."""
     run = features.log.runs[index]
     size = np.abs(run.voltage)
     off = _gaps(size > DRIVEN * size.max(initial=0.0), run.time)
@@ -117,11 +120,11 @@ def _cuts(features: LogFeatures, index: int) -> list[Damage]:
     if not at.size:
         return []
     parts = np.split(at, np.flatnonzero(np.diff(run.time[at]) > TOGETHER) + 1)
-    return [_seen(features, index, int(part[0]), int(part[-1])) for part in parts]
+    return [_describe_cut(features, index, int(part[0]), int(part[-1])) for part in parts]
 
 
 def _gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
-    """First and last sample of each stretch in which a driven motor has no voltage for a while."""
+    """First and last index of each interval of ``OFF`` seconds without voltage."""
     at = np.flatnonzero(on)
     ends = np.flatnonzero(np.diff(at) > 1)
     return [
@@ -131,8 +134,8 @@ def _gaps(on: NDArray[np.bool_], time: Array) -> list[tuple[int, int]]:
     ]
 
 
-def _seen(features: LogFeatures, index: int, first: int, last: int) -> Damage:
-    """What the voltages tell of the samples ``first`` to ``last`` of a run."""
+def _describe_cut(features: LogFeatures, index: int, first: int, last: int) -> Damage:
+    """A brownout that the voltages show, from sample ``first`` to ``last`` of a run."""
     run = features.log.runs[index]
     behind = min(last + 1, len(run) - 1)
     start, end = float(run.time[first]), float(run.time[behind])
@@ -148,14 +151,14 @@ def _seen(features: LogFeatures, index: int, first: int, last: int) -> Damage:
     return Damage(
         fault="brownout",
         where=LogInterval(index, run.test, start, end),
-        confidence=SEEN if bus is not None else CUT_SEEN,
+        confidence=BUS_CONFIDENCE if bus is not None else CUT_CONFIDENCE,
         evidence=f"{happened}.",
         advice=_advice(run),
     )
 
 
 def _advice(run: Run) -> str:
-    """What to do, with the step of this run."""
+    """The advice for a run."""
     what = "step" if run.kind == "dynamic" else "end of the ramp"
     most = float(np.abs(run.voltage).max(initial=0.0))
     return (
@@ -165,8 +168,8 @@ def _advice(run: Run) -> str:
 
 
 def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
-    """An anomaly that a cut of the whole voltage explains, if nothing speaks against a cut."""
-    share, first, last = _best(features, anomaly)
+    """A brownout that explains an anomaly; None if it does not, or something contradicts it."""
+    share, first, last = _fit_cut(features, anomaly)
     run = features.log.runs[anomaly.run]
     before = np.abs(run.velocity[max(first - MOVED, 0) : first])
     moved = before.size > 0 and float(np.median(before)) > features.still_speed
@@ -176,7 +179,7 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
     bus = None if run.bus_voltage is None else float(run.bus_voltage[first:last].min())
     if volts < LOWEST or (bus is not None and bus > RECOVERED):
         return None
-    if not _went_less(features, anomaly.run, first, last):
+    if not _position_agrees(features, anomaly.run, first, last):
         return None
     start = float(run.time[first])
     end = float(run.time[min(last, len(run) - 1)])
@@ -187,34 +190,34 @@ def _unpowered(features: LogFeatures, anomaly: Anomaly) -> Damage | None:
     return Damage(
         fault="brownout",
         where=LogInterval(anomaly.run, run.test, start, end),
-        confidence=_confidence(share, back=back, seen=bus is not None),
+        confidence=_confidence(share, back=back, has_bus=bus is not None),
         evidence=f"For {end - start:.2f} s the mechanism slows down as if its motors were off, "
         f"but the log still shows {volts:.1f} V{said}.",
         advice=f"{_advice(run)} Log the applied voltage instead of the commanded voltage.",
     )
 
 
-def _went_less(features: LogFeatures, index: int, first: int, last: int) -> bool:
-    """Whether the position, too, shows that it went less far than the voltage would take it."""
+def _position_agrees(features: LogFeatures, index: int, first: int, last: int) -> bool:
+    """Whether the position, like the velocity, misses some of the predicted distance."""
     run, part = features.log.runs[index], slice(first, min(last + 1, len(features.log.runs[index])))
     time, expected = run.time[part], features.predicted_velocities[index][part]
-    promised, read = (
+    predicted, integrated = (
         float(np.sum(0.5 * np.diff(time) * (speed[1:] + speed[:-1])))
         for speed in (expected, run.velocity[part])
     )
     went = float(run.position[part][-1] - run.position[part][0])
-    return bool((promised - went) * np.sign(promised) >= AGREES * abs(promised - read))
+    return bool((predicted - went) * np.sign(predicted) >= AGREES * abs(predicted - integrated))
 
 
-def _confidence(share: float, *, back: bool, seen: bool) -> float:
-    """More than the share explained, as nothing was chosen to fit; less if it never came back."""
-    if not back and not seen:
+def _confidence(share: float, *, back: bool, has_bus: bool) -> float:
+    """Confidence from the share explained; lower if the motion never returns."""
+    if not back and not has_bus:
         return NOT_BACK * share
-    return 1.0 - (1.0 - share) / (FREE * (1.0 + seen))
+    return 1.0 - (1.0 - share) / (FREE * (1.0 + has_bus))
 
 
-def _best(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
-    """Share explained by a cut, its first sample of the run, and the one behind its last."""
+def _fit_cut(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
+    """The largest share that a cut explains, its first sample, and the one after its last."""
     best = (0.0, anomaly.first, anomaly.last + 1)
     if float(anomaly.residual @ np.sign(anomaly.expected)) >= 0.0:
         return best
@@ -232,7 +235,7 @@ def _best(features: LogFeatures, anomaly: Anomaly) -> tuple[float, int, int]:
 
 
 def _share(features: LogFeatures, anomaly: Anomaly, first: int, last: int) -> float:
-    """How much a cut of these samples of the run explains."""
+    """Share of an anomaly that a cut from sample ``first`` to before ``last`` explains."""
     run, baseline = features.log.runs[anomaly.run], features.baseline
     if baseline is None:
         return 0.0
