@@ -1,20 +1,19 @@
 """Command logged: the log holds the commanded voltage, not the applied one.
 
-On a robot: the program logs its own request. A current limit clips what the motor gets while the
-mechanism starts, or the battery sags under it, and the log knows nothing of either.
+On a robot: the program logs its own command. A current limit reduces the motor's voltage while the
+mechanism starts, or the battery voltage sags, and the log shows neither.
 
-To the gains: a step that started gently is taken for a heavy mechanism. A 7 V step under a 120 A
-limit and a sagging battery, logged as asked for, gives kA 51 % too large with an acceleration R²
-of 0.96; logged as applied, 1 %.
+Effect on the gains: a step that starts slowly looks like a heavy mechanism. A 7 V step under a 120
+A limit and a sagging battery gives a kA that is 51 % too large if the commanded voltage is logged,
+with an acceleration R² of 0.96, and 1 % if the applied voltage is logged.
 
-Fingerprint: the voltage is a perfect step, and the mechanism starts at a constant acceleration
-where it should start at its largest, until its own speed has brought the current under the limit.
+Fingerprint: the voltage is a perfect step, and the mechanism starts with a constant acceleration
+instead of its largest one, until the back-EMF has brought the current under the limit.
 
     v' = min(V - kV·v, limit)/kA - …    a straight line at first, then the usual exponential
 
-A battery that merely sags leaves no mark of its own in a log of four tests: with a constant duty
-cycle the sag grows with the current just as a heavier load would. Hence the fault strikes, and is
-sought, where the current is clipped.
+A battery that only sags cannot be recognized in a log of four tests: with a constant duty cycle,
+the sag has the same effect as a heavier load. So this fault is a clipped current.
 """
 
 from collections.abc import Iterable
@@ -35,23 +34,25 @@ from sim.inspect.fault import (
 )
 from sim.inspect.log_features import DRIVEN, LogFeatures
 
-KEEPS = 1.0 / 3.0  # [share] of its acceleration that a start keeps at severity 1; by the cube
-# root of the severity, because what costs less than half of the acceleration leaves no mark
-FINE = 10  # steps of the model to a sample
-PERFECT = 0.002  # [share of the step] within which a voltage is a command and no measurement
+KEEPS = (
+    1.0 / 3.0
+)  # [share] of the acceleration at the start at severity 1; its exponent is the cube
+# root of the severity, because a start with more than half of its acceleration shows no fault
+FINE = 10  # simulation steps per sample
+PERFECT = 0.002  # [share of the step] largest deviation of a commanded voltage
 ROUNDING = 0.0051  # [V] the same, for voltages written with two digits
 
-FEWEST = 8  # [samples] of the start; fewer cannot show its shape
-MOST = 60  # [steps] a longer start is looked at more coarsely
-WIDE = 6.0  # [timescales] that are looked at
-LONGEST = 3.0  # [s]
-SMOOTH = 20  # steps of the model to a timescale
-FINER = (1.0, 0.5, 0.2, 0.07)  # [share of the coarse grid's cells] the grids after it
-LATEST = 0.08  # [s] after the voltage a sensor may still be silent
-BENT = 0.0012  # [share of a timescale's way, RMS] by which a start without a limit must miss
-BETTER = 0.3  # [share] of its squared error that may be left with one
-FLAT = 0.2  # [share] of the acceleration that must be lacking at first
-TRUE = 1.25  # [times] the baseline model's own speed is still the one it was found with
+FEWEST = 8  # [samples] of a start that is evaluated
+MOST = 60  # [samples] of a start that are used
+WIDE = 6.0  # [time constants] length of the start
+LONGEST = 3.0  # [s] length of the start, at most
+SMOOTH = 20  # simulation steps per time constant
+FINER = (1.0, 0.5, 0.2, 0.07)  # [share of the coarse grid's cells] the finer grids
+LATEST = 0.08  # [s] largest delay of a sensor
+BENT = 0.0012  # [share of ``length``] RMS error of a start without a limit, at least
+BETTER = 0.3  # [share] of its squared error that a limit leaves, at most
+FLAT = 0.2  # [share] of the acceleration that is missing at first, at least
+TRUE = 1.25  # [1] largest factor between the speed and that of the baseline model
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
@@ -69,8 +70,8 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find exact voltage steps under which the mechanism starts too slowly.
 
-    A limit knows no direction: where only one of several steps starts like that, it had an accident
-    of its own.
+    A limit acts in both directions: if only one of several steps starts slowly, the cause is
+    another.
     """
     found, judged = [], 0
     for index, run in enumerate(features.log.runs):
@@ -86,27 +87,27 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 
 def _limited(index: int, run: Run, start: "_Start") -> Damage | None:
-    """What a limit explains of a start, if it does."""
+    """The damage if a current limit explains a start; else None."""
     free = _search(start, lacks=np.zeros(1))
     if free.error < BENT * start.length:
         return None
     held = _search(start, lacks=np.linspace(0.0, 0.9, 10))
     left = (held.error / free.error) ** 2
-    believed = held.lacks > FLAT and 1.0 / TRUE < held.scale < TRUE
-    return _damage(index, run, held, left=left) if believed and left < BETTER else None
+    plausible = held.lacks > FLAT and 1.0 / TRUE < held.scale < TRUE
+    return _damage(index, run, held, left=left) if plausible and left < BETTER else None
 
 
 @dataclass(frozen=True, eq=False)
 class _Start:
-    """How a step test starts, counted in its own direction.
+    """The start of a step test; its direction is positive.
 
     Args:
-        time: (n,) [s] since the voltage.
-        way: (n,) [m or rad] about their mean: positions, which no filter bends.
-        volts: [V] of the step.
-        steady: (m,) [V] that friction and gravity take, at every ``step`` [s].
-        step: [s]
-        baseline: what the rest of the log says.
+        time: (n,) [s] since the voltage step.
+        way: (n,) [m or rad] positions minus their mean; no filter delays them.
+        volts: [V] voltage of the step.
+        steady: (m,) [V] friction and gravity, at every ``step``.
+        step: [s] simulation step.
+        baseline: the baseline model of the log.
     """
 
     time: Array
@@ -118,7 +119,7 @@ class _Start:
 
     @property
     def length(self) -> float:
-        """[m or rad] how far the step's own speed would take it in one timescale."""
+        """[m or rad] distance at the step's steady-state speed in one time constant."""
         return (
             (self.volts - float(np.median(self.steady)))
             / self.baseline.kv
@@ -128,14 +129,14 @@ class _Start:
 
 @dataclass(frozen=True)
 class _Shape:
-    """A start described.
+    """A fitted start.
 
     Args:
-        error: [m or rad] root of the mean square.
-        scale: [times] the speed that the baseline model predicts.
-        ka: [V·s²/m or V·s²/rad].
-        lacks: [share] of the acceleration at first.
-        delay: [s] before it moves.
+        error: [m or rad] RMS error of the position.
+        scale: [1] speed over that of the baseline model.
+        ka: [V·s²/m or V·s²/rad] kA of the start.
+        lacks: [share] of the acceleration that is missing at first.
+        delay: [s] before the motion.
     """
 
     error: float
@@ -146,22 +147,22 @@ class _Shape:
 
 
 def _clipped(features: LogFeatures, index: int, *, keeps: float) -> Run | None:
-    """The run with a start that keeps a share of its acceleration; None if it has no step."""
+    """The run with ``keeps`` [share] of its acceleration at the start; None if it has no step."""
     run, baseline = features.log.runs[index], features.baseline
     driven = np.flatnonzero(np.abs(run.voltage) > DRIVEN * np.abs(run.voltage).max(initial=0.0))
     if baseline is None or driven.size < FEWEST:
         return None
     first, last = int(driven[0]), int(driven[-1]) + 1
-    asked = float(np.median(run.voltage[first:last]))
+    volts = float(np.median(run.voltage[first:last]))
     since = run.time[first:] - run.time[first]
-    place, asks = float(run.position[first]), np.full(since.size, asked)
-    free = _rise(since, run.voltage[first:], place, baseline, keeps=1.0)  # clipped, too, perhaps
-    held = _rise(since, asks, place, baseline, keeps=keeps)
+    place, command = float(run.position[first]), np.full(since.size, volts)
+    free = _rise(since, run.voltage[first:], place, baseline, keeps=1.0)  # perhaps clipped as well
+    held = _rise(since, command, place, baseline, keeps=keeps)
     moves = free > features.still_speed
     pace = np.ones(len(run))
     pace[first:][moves] = np.clip(held[moves] / free[moves], 0.0, 1.0)
     voltage = run.voltage.copy()
-    voltage[first:last] = asked
+    voltage[first:last] = volts
     spoilt = replace(rescale_motion(run, pace), voltage=voltage)
     if run.current is None:
         return spoilt
@@ -172,7 +173,7 @@ def _clipped(features: LogFeatures, index: int, *, keeps: float) -> Run | None:
 def _rise(
     since: Array, voltage: Array, place: float, baseline: BaselineModel, *, keeps: float
 ) -> Array:
-    """(n,) [m/s or rad/s] from rest at a place, in the direction of the voltage (n,) [V]."""
+    """(n,) [m/s or rad/s] speed from rest at a position, positive along the voltage (n,) [V]."""
     way = float(np.sign(np.median(voltage)))
     fine = np.linspace(0.0, since[-1], FINE * since.size)
     step, speed, speeds, most = fine[1], 0.0, [], np.inf
@@ -190,19 +191,19 @@ def _rise(
 
 
 def _step(run: Run) -> int | None:
-    """Where a perfect step of voltage begins; None if the voltage is no such thing."""
+    """Index of the first sample of an exact voltage step; None if there is none."""
     size = np.abs(run.voltage)
     driven = np.flatnonzero(size > DRIVEN * size.max(initial=0.0))
     if driven.size < FEWEST:
         return None
     inside = run.voltage[driven[0] : driven[-1] + 1]
     asked = float(np.median(inside))
-    stray = float(np.abs(inside - asked).max())
-    return int(driven[0]) if stray <= max(PERFECT * abs(asked), ROUNDING) else None
+    deviation = float(np.abs(inside - asked).max())
+    return int(driven[0]) if deviation <= max(PERFECT * abs(asked), ROUNDING) else None
 
 
 def _start(features: LogFeatures, index: int, first: int) -> _Start | None:
-    """The part of a test that tells how it starts."""
+    """The start of a test; None without a baseline model, or with too few samples."""
     run, baseline = features.log.runs[index], features.baseline
     if baseline is None:
         return None
@@ -227,7 +228,7 @@ def _start(features: LogFeatures, index: int, first: int) -> _Start | None:
 
 
 def _search(start: _Start, *, lacks: Array) -> _Shape:
-    """The shape that fits best: on a coarse grid, then on finer ones around its best point."""
+    """The best fit: on a coarse grid, then on finer ones around its best point."""
     period = float(np.median(np.diff(start.time)))
     kas, delays = start.baseline.ka * np.geomspace(0.15, 1.6, 24), np.linspace(-period, LATEST, 25)
     best = _best(start, kas, lacks, delays)
@@ -242,17 +243,18 @@ def _search(start: _Start, *, lacks: Array) -> _Shape:
 
 
 def _best(start: _Start, kas: Array, lacks: Array, delays: Array) -> _Shape:
+    """The best fit on a grid of kA, missing acceleration and delay."""
     ka, lack = (grid.ravel() for grid in np.meshgrid(kas, lacks, indexing="ij"))
     ways = _ways(start, ka, lack)
     best = _Shape(np.inf, 1.0, float(ka[0]), 0.0, 0.0)
     for delay in delays.tolist():
         at = np.clip((start.time - delay) / start.step, 0.0, len(ways) - 1.001)
         low = at.astype(int)
-        gone = ways[low] + (at - low)[:, None] * (ways[low + 1] - ways[low])
-        gone -= gone.mean(axis=0)
-        along = start.way @ gone
-        scale = along / np.maximum(np.einsum("ij,ij->j", gone, gone), 1e-300)
-        errors = np.maximum(start.way @ start.way - scale * along, 1e-300)
+        moved = ways[low] + (at - low)[:, None] * (ways[low + 1] - ways[low])
+        moved -= moved.mean(axis=0)
+        product = start.way @ moved
+        scale = product / np.maximum(np.einsum("ij,ij->j", moved, moved), 1e-300)
+        errors = np.maximum(start.way @ start.way - scale * product, 1e-300)
         i = int(np.argmin(errors))
         error = float(np.sqrt(errors[i] / start.way.size))
         if error < best.error:
@@ -261,7 +263,7 @@ def _best(start: _Start, kas: Array, lacks: Array, delays: Array) -> _Shape:
 
 
 def _ways(start: _Start, ka: Array, lack: Array) -> Array:
-    """(steps, shapes) [m or rad] how far the model has gone, for many kA and limits at once."""
+    """(steps, shapes) [m or rad] distance of the model, for many kA and limits at once."""
     kv, steady = start.baseline.kv, start.steady
     most = np.where(lack > 0.0, start.volts - lack * (start.volts - steady[0]), np.inf)
     keep = np.exp(-start.step * kv / ka)
@@ -279,6 +281,7 @@ def _ways(start: _Start, ka: Array, lack: Array) -> Array:
 
 
 def _damage(index: int, run: Run, shape: _Shape, *, left: float) -> Damage:
+    """The damage of a run whose fit leaves a share ``left`` of the squared error."""
     return Damage(
         fault="command-logged",
         where=LogInterval.of_samples(index, run),

@@ -1,15 +1,15 @@
-"""Encoder slip: the sensor loses its grip on the shaft for a while.
+"""Encoder slip: the sensor slips on its shaft for a short time.
 
-On a robot: a set screw, a magnet, a belt or a coupling that lets go under load and grips again. The
-motion itself is unharmed; position and velocity both read too little of it, or the coupling skips a
-tooth and both hop.
+On a robot: a set screw, a magnet, a belt or a coupling slips under load and grips again. The motion
+itself is unchanged. Position and velocity both read too little of it, or the coupling skips a tooth
+and both jump.
 
-To the gains: the same voltage seems to bring less speed, and speed to come and go in no time. kA
-and kV are too large, kS far too small (a slip of 30 % from mid-run on: kV +71 %, kA more than
-fivefold), while the simulated velocity still fits at R² 0.9.
+Effect on the gains: the same voltage seems to give less speed, and the speed to change instantly.
+kA and kV become too large, kS far too small (a slip of 30 % from mid-run on: kV +71 %, kA more than
+fivefold), while the simulated velocity R² is still 0.9.
 
-Fingerprint: the velocity falls by a share of itself from one sample to the next and comes back as
-suddenly, which no voltage can do to a mass.
+Fingerprint: the velocity falls by a share of itself from one sample to the next and returns as
+suddenly, which is impossible for a mass.
 """
 
 from collections.abc import Iterable
@@ -29,24 +29,24 @@ from sim.inspect.fault import (
 )
 from sim.inspect.log_features import LogFeatures
 
-SLIP = 0.4  # [s] as long as a slip lasts, or half of what is left of the run
-HOP = 0.08  # [s] as long as a skipped tooth takes, at least four samples
+SLIP = 0.4  # [s] length of a slip, or half of the rest of the run
+HOP = 0.08  # [s] length of a skipped tooth, at least four samples
 SKIPS = 0.25  # [share] of slips that are skipped teeth
-LOSS = 0.7  # reads exp(-LOSS·severity) of the speed: one half at severity 1
-SKIP = 1.3  # [times the speed] that a tooth skipped at severity 1 takes off or adds
-SLACK = 0.06  # [s] how exactly an anomaly shows where it begins and ends
-BRIEF = 0.15  # [s] a longer anomaly that swells and fades is no slip
-LEAST = 0.15  # [share of the speed] a smaller loss is not told from an effect
-SURE = 0.97  # the same at the start of a run, and of a few samples, where less proves nothing
-FEWEST = 3  # [samples]
-MOST = 2.0  # [s] what lasts longer is no slip but a wrong scale
-BACK = 2  # [samples] that read right again before the run ends
-BELIEVED = 0.92  # [share explained] less is something else
-AT_END = 0.005  # [share of the travel] within which it stands, at the end of it
+LOSS = 0.7  # [1] the sensor reads exp(-LOSS·severity) of the speed: one half at severity 1
+SKIP = 1.3  # [times the speed] that a skipped tooth at severity 1 subtracts or adds
+SLACK = 0.06  # [s] uncertainty of an anomaly's begin and end
+BRIEF = 0.15  # [s] longest anomaly that grows and fades and is still a slip
+LEAST = 0.15  # [share of the speed] least loss: a smaller one may be an effect
+BELIEVED = 0.92  # [share explained] least of a slip
+SURE = 0.97  # [share explained] least at the start of a run, and of a few samples
+FEWEST = 3  # [samples] with fewer, ``SURE`` is required
+MOST = 2.0  # [s] longest slip: longer is a wrong scale
+BACK = 2  # [samples] with right readings before the run ends
+AT_END = 0.005  # [share of the travel] from its end within which it is at a stop
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Reduce or shift the sensor's readings for a moment."""
+    """Reduce or shift the sensor's readings for a short time."""
     run = log.runs[strike.run]
     start = float(run.time[0]) + strike.start
     left = float(run.time[-1]) - start
@@ -69,14 +69,14 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for anomaly in features.anomalies:
         if anomaly.recurs:
             continue
-        share, loss, first, last = _best(anomaly, features.period)
+        share, loss, first, last = _fit_slip(anomaly, features.period)
         run = features.log.runs[anomaly.run]
         back = anomaly.begin + last <= len(run) - BACK
         proof = SURE if anomaly.at_start or last - first < FEWEST else BELIEVED
         start, end = (float(run.time[anomaly.begin + i]) for i in (first, last - 1))
         if share < proof or abs(loss) < LEAST or not back or end - start > MOST:
             continue
-        if _stands_at_its_end(features, run.position[anomaly.begin + first : anomaly.begin + last]):
+        if _is_at_stop(features, run.position[anomaly.begin + first : anomaly.begin + last]):
             continue
         evidence, advice = _explain(
             abs(loss), low=loss > 0, samples=last - first, lasts=end - start
@@ -91,7 +91,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 
 def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str, str]:
-    """Evidence and advice: of a slip, or of single wild readings, which move no shaft."""
+    """Evidence and advice about a slip, or about single wrong readings."""
     off = f"{loss:.0%} too {'low' if low else 'high'}"
     if samples < FEWEST:
         some, window = ("a single sample", 3) if samples == 1 else (f"{samples} samples", 5)
@@ -115,8 +115,8 @@ def _explain(loss: float, *, low: bool, samples: int, lasts: float) -> tuple[str
     )
 
 
-def _stands_at_its_end(features: LogFeatures, position: Array) -> bool:
-    """Whether it stands where it can go no further: steps up and down end on a stop."""
+def _is_at_stop(features: LogFeatures, position: Array) -> bool:
+    """Whether it is at the end of the travel in the log: a stop changes the velocity, too."""
     every = np.concatenate([run.position for run in features.log.runs])
     lowest, highest = float(every.min()), float(every.max())
     near = AT_END * (highest - lowest)
@@ -124,39 +124,39 @@ def _stands_at_its_end(features: LogFeatures, position: Array) -> bool:
     return usual - lowest < near or highest - usual < near
 
 
-def _best(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
-    """Share explained, share of the speed lost, first sample and the one behind the last.
+def _fit_slip(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
+    """Share explained, share of the speed lost, first sample, and the one after the last.
 
-    What swells and fades over a longer time is no slip, whatever share of it a slip explains.
+    A longer anomaly that grows and fades is not a slip: its share is 0.
     """
-    sudden, swelling = (
-        _over_spans(anomaly, swells=swells, margin=max(3, round(SLACK / period)))
-        for swells in (False, True)
+    sudden, gradual = (
+        _search_spans(anomaly, fading=fading, margin=max(3, round(SLACK / period)))
+        for fading in (False, True)
     )
-    if swelling[0] <= sudden[0]:
+    if gradual[0] <= sudden[0]:
         return sudden
-    brief = (swelling[3] - swelling[2]) * period <= BRIEF
-    return swelling if brief else (0.0, *sudden[1:])
+    brief = (gradual[3] - gradual[2]) * period <= BRIEF
+    return gradual if brief else (0.0, *sudden[1:])
 
 
-def _over_spans(anomaly: Anomaly, *, swells: bool, margin: int) -> tuple[float, float, int, int]:
-    """The same over all spans, for one of the two shapes."""
+def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float, float, int, int]:
+    """The same over all spans, for a sudden or a gradual shape."""
     best = (0.0, 0.0, 0, 1)
     for span in anomaly.list_candidate_spans(margin=margin):
-        best = max(best, _loss(anomaly, span, swells=swells))
+        best = max(best, _loss(anomaly, span, fading=fading))
     for span in anomaly.refine_spans(best[2:], margin=margin):
-        best = max(best, _loss(anomaly, span, swells=swells))
+        best = max(best, _loss(anomaly, span, fading=fading))
     return best
 
 
 def _loss(
-    anomaly: Anomaly, span: tuple[int, int], *, swells: bool
+    anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
-    """The same for one span: all at once, or swelling and fading."""
+    """The same for one span."""
     first, last = span
     shape = np.zeros(anomaly.residual.size)
     shape[first:last] = anomaly.expected[first:last]
-    if swells:
+    if fading:
         shape[first:last] *= np.hanning(last - first + 2)[1:-1]
     size = float(shape @ shape)
     loss = -float(shape @ anomaly.residual) / size if size > 0.0 else 0.0

@@ -1,14 +1,14 @@
-"""Hard stop: the mechanism runs into its end, and the test goes on.
+"""Hard stop: the mechanism hits its stop, and the test continues.
 
-On a robot: nobody lets go of the button in time, or a soft limit is missing. The arm, elevator or
-turret stands against metal while the voltage pushes on; the first impact lets it bounce a little.
+On a robot: the button is held for too long, or a soft limit is missing. The arm, elevator or turret
+is pressed against its stop while the voltage stays on; at the impact it bounces a little.
 
-To the gains: voltage without speed and without acceleration, and an acceleration no voltage made.
-Past 90 % of a step's top speed SysId cuts it away by itself; in a ramp nothing does, except that
-samples slower than its threshold go, if the standing sensor is quiet.
+Effect on the gains: voltage without speed and acceleration, and an acceleration without voltage.
+SysId removes a step after 90 % of its top speed. In a ramp it only removes samples slower than its
+threshold, if the sensor is quiet at rest.
 
-Fingerprint: from full speed to none within a few samples, the position stays, the voltage does not,
-until the end of the run.
+Fingerprint: the speed drops to zero within a few samples, and the position stays while the voltage
+is on, until the end of the run.
 """
 
 from collections.abc import Iterable
@@ -30,29 +30,30 @@ from sim.inspect.fault import (
 )
 from sim.inspect.log_features import LogFeatures
 
-PRESSED = 0.6  # [s] against the stop at severity 1, until somebody lets go
-BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] how it comes back from the stop, and how long
-SHORTEST = 0.06  # [s] against the stop, at least three samples, that leave no doubt
-FAST = 4.0  # [speeds of standstill] it came with
-BRISK, WHOLE = 2.0, 0.7  # [the same, share of it one sample before] where it rests at once
-ON, LATELY = 0.5, 0.2  # [share of the most voltage, s before the impact] that is there afterwards
-PUSHED = 0.1  # [share of the largest voltage] less is none, and it came to rest by itself
+PRESSED = 0.6  # [s] against the stop at severity 1
+BOUNCE, FADES = 0.15, 0.02  # [share of the speed, s] speed of the bounce, and its time constant
+SHORTEST = 0.06  # [s] against the stop, at least three samples
+FAST = 4.0  # [times the threshold of standstill] speed before an impact
+BRISK = 2.0  # [times the threshold of standstill] the same, if it stops from one sample to the next
+WHOLE = 0.7  # [share of that speed] one sample before such an impact
+ON, LATELY = 0.5, 0.2  # [share of the voltage in the last s before the impact] after it, at least
+PUSHED = 0.1  # [share of the largest voltage] with less it came to rest without a stop
 SETTLES = 0.1  # [s] after the impact, for the bounce and the sensor's filter
-BEFORE = 0.1  # [s] before the impact, where the speed it came with is read
-AT_END = 0.02  # [share of the travel] that close to the end of it a stop may be
-GIVEN = (0.005, 0.05)  # [share of the travel] by which a stop of rubber, or a slack chain, gives
-CREPT, CREEPS = 0.2, 1.0  # [share, s] from this share of the give on it takes so long
-PRESSES = 1.5  # [times kS] that gravity exceeds friction by, where it presses onto a stop
-LATE = 0.25  # [V] above what would move it, where it comes off
-LEANS = 0.7  # confidence: a chain that is pulled taut looks the same
-GIVES = 0.25  # [share of the way it would have gone] a stop that gives more is none
+BEFORE = 0.1  # [s] before the impact, of which the speed is the median
+AT_END = 0.02  # [share of the travel] distance from its end at which a run starts on a stop
+GIVEN = (0.005, 0.05)  # [share of the travel] by which a rubber stop or a slack chain gives
+CREPT, CREEPS = 0.2, 1.0  # [share of the creep, s] after which the rest lasts so long, at least
+PRESSES = 1.5  # [times kS] least gravity that presses a mechanism onto a stop
+LATE = 0.25  # [V] least voltage above that which would move it, when it leaves the stop
+LEANS = 0.7  # [1] confidence: a chain that is pulled tight looks the same
+GIVES = 0.25  # [share of the way without a stop] largest motion after the impact
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
-    """Add a stop to the travel, with the voltage still on for a while after it."""
+    """Add a stop to the travel; the voltage stays on for ``PRESSED`` seconds times the severity."""
     pressed = PRESSED * strike.severity * rng.uniform(0.9, 1.1)
     run = log.runs[strike.run]
-    longer = _pushed_on(run, until=float(run.time[0]) + strike.start + pressed)
+    longer = _extend(run, until=float(run.time[0]) + strike.start + pressed)
     impact = int(np.searchsorted(longer.time, run.time[0] + strike.start, side="right"))
     end = int(np.searchsorted(longer.time, run.time[0] + strike.start + pressed, side="right"))
     if impact >= end - 1 or not np.any(longer.velocity[impact:end]):
@@ -63,20 +64,20 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     spoilt = rescale_motion(cut, pace)
     late = float(spoilt.time[-1] - run.time[-1])
     damaged = replace_run(log, strike.run, spoilt)
-    if late > 0.0:  # what comes after this run comes that much later
+    if late > 0.0:  # the runs after it start later
         for index in range(strike.run + 1, len(log.runs)):
-            follows = log.runs[index]
-            damaged = replace_run(damaged, index, replace(follows, time=follows.time + late))
+            other = log.runs[index]
+            damaged = replace_run(damaged, index, replace(other, time=other.time + late))
     where = LogInterval.of_samples(strike.run, spoilt, impact)
     return DamagedLog(damaged, (where,))
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find runs that end at a stop with the voltage still on, or begin leaning on one."""
-    yield from _leaning(features)
+    """Find runs that end at a stop with the voltage on, or start pressed against one."""
+    yield from _find_pressed_starts(features)
     for index, run in enumerate(features.log.runs):
         for fast in (FAST, BRISK):
-            found = _stopped(
+            found = _find_stop(
                 index, run, fast=fast, still=features.still_speed, period=features.period
             )
             if found:
@@ -84,9 +85,9 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 break
 
 
-def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) -> Damage | None:
-    """What came with so many speeds of standstill, and rests until the end of the run."""
-    impact = _impact(run, speed=fast * still, still=still)
+def _find_stop(index: int, run: Run, *, fast: float, still: float, period: float) -> Damage | None:
+    """A stop after a motion ``fast`` times the threshold of standstill; None if there is none."""
+    impact = _find_impact(run, speed=fast * still, still=still)
     if impact is None:
         return None
     before = (run.time >= run.time[impact] - BEFORE) & (run.time < run.time[impact])
@@ -97,7 +98,7 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
     pushed = float(volts[lately].max(initial=0.0))
     if (
         speed < fast * still
-        or (fast < FAST and not _at_once(run, impact, speed=speed, still=still))
+        or (fast < FAST and not _stops_at_once(run, impact, speed=speed, still=still))
         or lasts < max(SHORTEST, 2.5 * period)
         or volts[impact:].min() < max(ON * pushed, PUSHED * volts.max())
     ):
@@ -113,24 +114,25 @@ def _stopped(index: int, run: Run, *, fast: float, still: float, period: float) 
         evidence=f"The mechanism stops from {_percent(speed, run)} of its top speed within "
         f"{SETTLES:g} s and stays there for {lasts:.2f} s, although the voltage stays "
         f"at up to {volts[impact:].max():.1f} V: it hit its end, "
-        f"{_way(run, impact):.3g} from where the run started.",
+        f"{_distance(run, impact):.3g} from where the run started.",
         advice="Keep only the part of the run before the impact. Or set soft limits, run the test "
         "again, and let go of the button earlier.",
     )
 
 
-def _way(run: Run, impact: int) -> float:
+def _distance(run: Run, impact: int) -> float:
+    """[m or rad] distance from the start of the run to the impact."""
     return abs(float(run.position[impact] - run.position[0]))
 
 
-def _at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
-    """Whether it came at its whole speed and rests from the next sample on, as by no friction."""
+def _stops_at_once(run: Run, impact: int, *, speed: float, still: float) -> bool:
+    """Whether it stops from full speed within a sample, faster than by friction."""
     size = np.abs(run.velocity)
     return bool(size[impact - 1] > WHOLE * speed and np.all(size[impact + 1 :] < still))
 
 
-def _leaning(features: LogFeatures) -> Iterable[Damage]:
-    """Find runs that begin pressed onto a stop which gives, and come off it too late."""
+def _find_pressed_starts(features: LogFeatures) -> Iterable[Damage]:
+    """Find runs that start pressed against a soft stop, and leave it at too high a voltage."""
     baseline = features.baseline
     if baseline is None or features.log.type == "simple":
         return
@@ -144,8 +146,8 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
         pressed = float(way * baseline.compute_gravity(run.position[:1])[0])
         given = float(way * (run.position[off] - run.position[0])) / max(highest - lowest, 1e-300)
         end = lowest if way > 0.0 else highest
-        gone = np.abs(run.position[: off + 1] - run.position[0])
-        creeps = float(run.time[off] - run.time[int(np.argmax(gone > CREPT * gone[-1]))])
+        moved = np.abs(run.position[: off + 1] - run.position[0])
+        creeps = float(run.time[off] - run.time[int(np.argmax(moved > CREPT * moved[-1]))])
         if (
             pressed > PRESSES * baseline.ks
             and abs(float(run.position[0]) - end) < AT_END * (highest - lowest)
@@ -165,16 +167,16 @@ def _leaning(features: LogFeatures) -> Iterable[Damage]:
             )
 
 
-def _impact(run: Run, *, speed: float, still: float) -> int | None:
-    """The first sample at the stop; None if the run does not end at rest, or never moves."""
+def _find_impact(run: Run, *, speed: float, still: float) -> int | None:
+    """Index of the first sample at the stop; None if it does not end at rest, or never moves."""
     fast = np.flatnonzero(np.abs(run.velocity) > speed)
     if not fast.size or fast[-1] + 2 >= len(run):
         return None
     way = np.sign(run.velocity[fast[-1]])
-    with_it = np.flatnonzero(run.velocity * way > speed)
-    if not with_it.size:
+    forward = np.flatnonzero(run.velocity * way > speed)
+    if not forward.size:
         return None
-    impact = int(with_it[-1]) + 1
+    impact = int(forward[-1]) + 1
     settled = run.time > run.time[min(impact, len(run) - 1)] + SETTLES
     tail = np.abs(run.velocity[settled])
     if impact >= len(run) or (tail.size and float(np.median(tail)) > still):
@@ -182,8 +184,8 @@ def _impact(run: Run, *, speed: float, still: float) -> int | None:
     return impact
 
 
-def _pushed_on(run: Run, *, until: float) -> Run:
-    """The run, with samples added as it would have gone on, if it ends before a time."""
+def _extend(run: Run, *, until: float) -> Run:
+    """The run, extrapolated until ``until`` [s] if it ends before."""
     period = float(np.median(np.diff(run.time)))
     count = int(np.ceil((until - float(run.time[-1])) / period))
     if count <= 0:
@@ -194,7 +196,7 @@ def _pushed_on(run: Run, *, until: float) -> Run:
         grows = float((run.voltage[-1] - run.voltage[0]) / (run.time[-1] - run.time[0]))
     last = run.velocity[-5:].mean()
 
-    def on(values: Array | None) -> Array | None:
+    def repeat_last(values: Array | None) -> Array | None:
         return None if values is None else np.append(values, np.full(count, values[-1]))
 
     return replace(
@@ -203,12 +205,13 @@ def _pushed_on(run: Run, *, until: float) -> Run:
         voltage=np.append(run.voltage, run.voltage[-1] + grows * more),
         position=np.append(run.position, run.position[-1] + last * more),
         velocity=np.append(run.velocity, np.full(count, last)),
-        current=on(run.current),
-        bus_voltage=on(run.bus_voltage),
+        current=repeat_last(run.current),
+        bus_voltage=repeat_last(run.bus_voltage),
     )
 
 
 def _percent(speed: float, run: Run) -> str:
+    """A speed in percent of the run's largest one."""
     return f"{min(1.0, speed / float(np.abs(run.velocity).max())):.0%}"
 
 

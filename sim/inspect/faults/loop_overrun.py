@@ -1,14 +1,14 @@
-"""Loop overrun: the robot program misses its beat, and samples are lost.
+"""Loop overrun: the loop of the robot program takes too long, and samples are lost.
 
-On a robot: a loop that should take 20 ms waits for a camera, a file or the garbage collector. While
-it hangs nothing is logged; then time has jumped by 40 to 300 ms.
+On a robot: a loop that should take 20 ms waits for a camera, a file or the garbage collector. In
+the meantime nothing is logged, and the next sample is 40 to 300 ms later.
 
-To the gains: SysId divides every difference of velocity by the mean period of the test, so a jump
-reads as an acceleration that never was. kA comes out too large (5 % of gaps of 100 ms: by 9 %),
-kS too small; kV hardly moves.
+Effect on the gains: SysId divides every difference of velocity by the mean period of the test, so a
+gap looks like a large acceleration. kA becomes too large (by 9 % with 5 % of gaps of 100 ms), kS
+too small; kV hardly changes.
 
-Fingerprint: a step between two times of at least 1.75 usual ones, and of a run's
-time more than a hundredth lost in them. A robot's own jitter is a few percent of a loop.
+Fingerprint: gaps of at least 1.75 usual sample periods, in which more than 1 % of the run's time is
+lost. The jitter of a robot program is a few percent of a period.
 """
 
 from collections.abc import Iterable
@@ -28,13 +28,13 @@ from sim.inspect.fault import (
 from sim.inspect.log_features import LogFeatures
 
 SHORTEST, LONGEST = 0.04, 0.3  # [s] a stall; shorter ones are jitter, longer ones trip a watchdog
-SPREAD = 1.5  # [s] over which stalls come at severity 1, one about every quarter of a second
-BETWEEN = 0.25  # [s]
-LATE = 1.75  # [usual steps] what is no jitter any more
-GAP = 0.035  # [s] a shorter step in time does no harm, however fast the log
-TOGETHER = 1.0  # [s] stalls no further apart than this are one stretch of trouble
-PROOF = 2.0  # [usual steps] lost in all: one might be a hiccup, ten are none
-HARMLESS = 0.01  # [share of the run's time] 5 % of such gaps make kA 9 % too large; this, 2 %
+SPREAD = 1.5  # [s] in which the stalls of severity 1 happen
+BETWEEN = 0.25  # [s] mean time between two stalls
+LATE = 1.75  # [usual periods] least length of a gap
+GAP = 0.035  # [s] least length of a gap: shorter ones do no harm
+TOGETHER = 1.0  # [s] gaps closer than this are reported together
+PROOF = 2.0  # [usual periods] lost time that halves the doubt
+HARMLESS = 0.01  # [share of the run's time] less lost time makes kA at most 2 % too large
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -50,7 +50,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
             2.0 * SHORTEST, LONGEST * min(1.0, 0.5 + 0.25 * strike.severity)
         )
         lost = (run.time > moment) & (run.time < until)
-        lost[-1] = False  # the test ends when it ends, and its last sample says so
+        lost[-1] = False  # the last sample of the test stays
         if lost.any():
             keep &= ~lost
             stalls.append(np.flatnonzero(lost))
@@ -66,7 +66,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find gaps between samples that jitter does not explain."""
     for index, run in enumerate(features.log.runs):
         step = np.diff(run.time)
-        if step.size < 2:  # noqa: PLR2004 - of one step nobody can say that it is unusual
+        if step.size < 2:  # noqa: PLR2004 - one step has no usual length
             continue
         usual = float(np.median(step))
         late = np.flatnonzero((step > LATE * usual) & (step > GAP))
@@ -78,7 +78,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 fault="loop-overrun",
                 where=LogInterval.of_samples(index, run, gaps[0], gaps[-1] + 1),
                 confidence=1.0 - 0.5 ** (1.0 + lost / PROOF),
-                evidence=f"{_times(gaps.size)} in the samples, the longest "
+                evidence=f"{_count_gaps(gaps.size)} in the samples, the longest "
                 f"{step[gaps].max() * 1000.0:.0f} ms (normal: {usual * 1000.0:.3g} ms):"
                 f" about {lost:.0f} samples are lost.",
                 advice="Find the part of the program that takes too long (the Driver Station's "
@@ -87,7 +87,8 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             )
 
 
-def _times(count: int) -> str:
+def _count_gaps(count: int) -> str:
+    """A number of gaps, in words."""
     return "1 gap" if count == 1 else f"{count} gaps"
 
 

@@ -1,13 +1,13 @@
-"""Mislabelled test: a run is filed under the name of another test.
+"""Mislabelled test: a run has the name of another test.
 
-On a robot: two buttons are bound to each other's command, or somebody renamed the wrong part.
+On a robot: two buttons start each other's test, or a run was renamed wrongly.
 
-To the gains: a ramp taken for a step has no peak of acceleration to start from, and a step taken
-for a ramp keeps every sample; kA suffers most. Two directions that change their names change
-nothing in the regression, which sees signs, but everything in "forward and reverse".
+Effect on the gains: a ramp that is called a step has no peak of acceleration at which SysId could
+start, and a step that is called a ramp keeps every sample; kA is affected most. Exchanged
+directions change nothing in the regression, but everything that is reported per direction.
 
-Fingerprint: what the voltage does says which test it is. It rises with time or it stands, and it
-pushes the way the mechanism goes; a voltage against the motion is another fault, ``sign-flip``.
+Fingerprint: the voltage shows which test it is. It rises with time or is constant, and its sign is
+the direction of the motion; a voltage against the motion is another fault, ``sign-flip``.
 """
 
 from collections.abc import Iterable
@@ -19,8 +19,8 @@ from sim.core.log import FOUR_TESTS, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import DRIVEN, RAMP, LogFeatures
 
-ALL = 2.0  # [severity] from which no test keeps its name
-CONFIDENCE = 0.95  # a ramp cannot look like a step; a team's own forward may be another's reverse
+ALL = 2.0  # [severity] from which on no test keeps its name
+CONFIDENCE = 0.95  # [1] a ramp cannot look like a step, but forward is a convention
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -41,7 +41,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Find runs whose name does not match their voltage."""
-    if _turned_round(features):
+    if _are_directions_exchanged(features):
         return
     for index, (run, seems) in enumerate(
         zip(features.log.runs, features.recognized_tests, strict=True)
@@ -52,13 +52,13 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 where=LogInterval.of_samples(index, run),
                 confidence=CONFIDENCE,
                 evidence=f"The run has the name {run.test}, but it looks like {seems}: "
-                f"{_voltage(run)}.",
+                f"{_describe_run(run)}.",
                 advice=f"Rename the run to {seems}, and check which button starts which test.",
             )
 
 
-def _turned_round(features: LogFeatures) -> bool:
-    """Whether every test goes the other way: that is how this team counts, and no mistake."""
+def _are_directions_exchanged(features: LogFeatures) -> bool:
+    """Whether all tests have the other direction: then it is a convention, not a fault."""
     pairs = [
         (run.test, seems)
         for run, seems in zip(features.log.runs, features.recognized_tests, strict=True)
@@ -71,8 +71,8 @@ def _turned_round(features: LogFeatures) -> bool:
     )
 
 
-def _voltage(run: Run) -> str:
-    """What the voltage does, and how far the mechanism went."""
+def _describe_run(run: Run) -> str:
+    """Half a sentence about the voltage and the distance of a run."""
     size = np.abs(run.voltage)
     driven = run.voltage[size > DRIVEN * size.max(initial=0.0)]
     first, last = (float(np.median(part)) for part in np.array_split(driven, 2))

@@ -1,13 +1,13 @@
 """Missing test: one of the four tests was never recorded, or its part of the log was lost.
 
-On a robot: somebody forgot a button, the log was split, or the mechanism could not be brought back.
+On a robot: a test was forgotten, the log was split, or the mechanism could not be moved back.
 
-To the gains: without a dynamic test nothing tells kA, without a quasistatic one nothing tells kS
-from kV; without one direction friction that differs between the two goes unnoticed, and an
-elevator's kG cannot be told from its kS. SysId refuses such a log since 2025.
+Effect on the gains: without a dynamic test kA is not determined, without a quasistatic one kS and
+kV cannot be separated. Without one direction, a difference of friction is not noticed, and an
+elevator's kG cannot be separated from its kS. SysId refuses such a log since 2025.
 
-Fingerprint: none of the four tests can stay away. One that was filed under the name of another is
-not missing, and a log with none of the four was never meant for SysId.
+Fingerprint: one of the four tests is not in the log. A test with the name of another is not
+missing, and a log with none of the four is not a SysId log.
 """
 
 from collections.abc import Iterable
@@ -19,9 +19,9 @@ from sim.core.log import FOUR_TESTS, Log
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import LogFeatures
 
-CONFIDENCE = 0.98  # what is not in a log may still be in another one
+CONFIDENCE = 0.98  # [1] the test may be in another log
 
-_COST = {
+_PURPOSE = {
     "quasistatic": "a ramp separates kS from kV",
     "dynamic": "only a step shows kA",
 }
@@ -34,7 +34,9 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     further = rng.permutation(len(others))[: max(0, min(round(strike.severity), len(others)) - 1)]
     lost = {struck, *(others[index] for index in further)} if others else set()
     kept = tuple(run for run in log.runs if run.test not in lost)
-    return DamagedLog(replace(log, runs=kept), tuple(_nowhere(test) for test in sorted(lost)))
+    return DamagedLog(
+        replace(log, runs=kept), tuple(_missing_interval(test) for test in sorted(lost))
+    )
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
@@ -47,27 +49,27 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             kind = test.partition("-")[0]
             yield Damage(
                 fault="missing-test",
-                where=_nowhere(test),
+                where=_missing_interval(test),
                 confidence=CONFIDENCE,
                 evidence=f"Only {len(there & set(FOUR_TESTS))} of the four tests are in the log,"
-                f" and {test} is missing. You need it: {_COST[kind]}, and each direction has "
+                f" and {test} is missing. You need it: {_PURPOSE[kind]}, and each direction has "
                 "its own friction.",
-                advice=f"Run {test}{_like(features.log, kind)}, and pass its file together with "
-                "this one. If the mechanism cannot do it, write that down next to the "
-                "gains.",
+                advice=f"Run {test}{_describe_other(features.log, kind)}, and pass its file "
+                "together with this one. If the mechanism cannot do it, write that down next to "
+                "the gains.",
             )
 
 
-def _like(log: Log, kind: str) -> str:
-    """With how many volts the other direction of a test was run, if it was."""
+def _describe_other(log: Log, kind: str) -> str:
+    """Half a sentence with the voltage of the other direction; empty if there is none."""
     volts = [float(np.abs(run.voltage).max(initial=0.0)) for run in log.runs if run.kind == kind]
     if not volts or not max(volts):
         return ""
     return f" with up to {max(volts):.1f} V, like the other direction"
 
 
-def _nowhere(test: str) -> LogInterval:
-    """A stretch for what is not there: it has a name and no time."""
+def _missing_interval(test: str) -> LogInterval:
+    """The interval of a test that is not in the log: it has a name and no time."""
     return LogInterval(None, test, 0.0, 0.0)
 
 

@@ -1,14 +1,14 @@
-"""Noisy standstill: the velocity trembles although nothing moves.
+"""Noisy standstill: the velocity is noisy although nothing moves.
 
-On a robot: velocity is the slope of an analog or absolute encoder, a gyro stands for a wheel, or
-the frame shakes. A counting encoder at rest says zero, and nothing else.
+On a robot: the velocity is the slope of an analog or absolute encoder, a gyro is used in place of a
+wheel, or the frame shakes. A counting encoder at rest reads exactly zero.
 
-To the gains: SysId tells motion from rest by a threshold it draws from the noise, and about every
-third noisy sample passes it. These rows have a voltage and no motion; they pull kS down and make
-kA too large, most of all for an elevator, which stands longest before it lifts (kA several times
-its size). A threshold set by hand repairs it.
+Effect on the gains: SysId separates motion from rest by a threshold that it computes from the
+noise, and about a third of the noisy samples exceeds it. These rows have a voltage and no motion.
+kS becomes too small and kA too large, most for an elevator, which is at rest longest (kA becomes
+several times too large). A threshold that is set by hand corrects it.
 
-Fingerprint: the position stands at the beginning of a ramp, and the velocity does not.
+Fingerprint: at the beginning of a ramp the position does not change, and the velocity is not zero.
 """
 
 from collections.abc import Iterable
@@ -22,11 +22,11 @@ from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterva
 from sim.inspect.log_features import LogFeatures
 
 ORDINARY = 0.06  # [share of the log's top speed] standard deviation at severity 1
-LOUD = 0.014  # [share of the log's top speed] less is a doubt rather than a fault
-FEWEST = 8  # [samples] standing; fewer do no harm
-ADDED = 0.8  # [s] of standstill put before a test that starts in motion; the log pauses for longer
-HERE = 0.3  # [share of the log's noise at rest] that a run must have to be named
-SURE = 3.0  # [times LOUD] at which the confidence is 0.95
+LOUD = 0.014  # [share of the log's top speed] less noise is a doubt, not a fault
+FEWEST = 8  # [samples] at rest; fewer do no harm
+ADDED = 0.8  # [s] of standstill added before a test that starts in motion, within the log's pause
+HERE = 0.3  # [share of the log's noise at rest] of a run that is reported
+SURE = 3.0  # [times LOUD] noise at which the confidence is 0.95
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -68,33 +68,34 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 
 def _noise(rests: list[Array]) -> float:
-    """[m/s or rad/s] standard deviation of what trembles, whatever drifts; 0 if nothing stands."""
+    """[m/s or rad/s] standard deviation of the noise at rest, without drift; 0 if nothing rests."""
     steps = np.concatenate([np.diff(rest) for rest in rests] or [np.zeros(1)])
     return float(np.sqrt(np.mean(steps**2) / 2.0))
 
 
 def _with_rest(run: Run) -> Run:
-    """The run with a standstill before it, at the log's own pace and without a voltage."""
+    """The run with a standstill added before it, without voltage."""
     period = float(np.median(np.diff(run.time)))
     count = int(min(ADDED, 0.5 * float(run.time[0])) / period) if run.time[0] > 0.0 else 0
     before = run.time[0] - period * np.arange(count, 0, -1)
 
-    def led(values: Array, rest: float) -> Array:
+    def prepend(values: Array, rest: float) -> Array:
         return np.concatenate((np.full(count, rest), values))
 
     current, bus = run.current, run.bus_voltage
     return replace(
         run,
         time=np.concatenate((before, run.time)),
-        voltage=led(run.voltage, 0.0),
-        position=led(run.position, float(run.position[0])),
-        velocity=led(run.velocity, 0.0),
-        current=None if current is None else led(current, 0.0),
-        bus_voltage=None if bus is None else led(bus, float(bus[0])),
+        voltage=prepend(run.voltage, 0.0),
+        position=prepend(run.position, float(run.position[0])),
+        velocity=prepend(run.velocity, 0.0),
+        current=None if current is None else prepend(current, 0.0),
+        bus_voltage=None if bus is None else prepend(bus, float(bus[0])),
     )
 
 
 def _damage(index: int, run: Run, rest: Array, noise: float, confidence: float) -> Damage:
+    """The damage of a run with the velocities ``rest`` (n,) at rest."""
     threshold = estimate_noise_floor(run.velocity)
     passed = int(np.sum(np.abs(rest) >= threshold))
     return Damage(

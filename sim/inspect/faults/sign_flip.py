@@ -1,16 +1,14 @@
-"""Sign flip: voltage, position and velocity do not agree on which way is plus.
+"""Sign flip: voltage, position and velocity do not have the same positive direction.
 
 On a robot: a motor is inverted and its encoder is not, the voltage is logged without its sign, or
-velocity comes from another sensor than position.
+velocity and position are from different sensors.
 
-To the gains: with every run flipped kS, kV and kA come out negative and just as large, and R² is
-as good as ever; with some runs flipped the regression averages opposites and all gains are
-nonsense.
+Effect on the gains: if every run is flipped, kS, kV and kA are negative with the right size, and R²
+is as good as before. If only some runs are flipped, all gains are nonsense.
 
-Fingerprint: while a run is driven hard the voltage pushes one way and the mechanism goes the
-other, and goes faster the harder it is pushed; or the velocity points against the slope of the
-position. Gravity alone can also win against a voltage, but then the mechanism slows as the voltage
-grows.
+Fingerprint: at a high voltage the mechanism moves against the voltage, and faster at a higher one;
+or the velocity has the sign opposite to the slope of the position. Gravity can also move a
+mechanism against a voltage, but then it is slower at a higher one.
 """
 
 from collections.abc import Iterable
@@ -22,10 +20,10 @@ from sim.core.log import Array, Log, Run
 from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterval
 from sim.inspect.log_features import Flags, LogFeatures, find_majority_sign
 
-ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which all tests of a direction, or all, are struck
-HARD = 0.5  # [share of the largest voltage] less may lose against gravity and friction
-FEWEST = 5  # [samples] driven and moving; fewer prove nothing
-FALLS = 3.0  # [times] faster the other way with as much voltage: gravity decides, not a sign
+ONE_WAY, BOTH_WAYS = 0.7, 2.0  # [severity] from which on all tests of a direction, or all, flip
+HARD = 0.5  # [share of the largest voltage] less may be below gravity and friction
+FEWEST = 5  # [samples] at a high voltage and in motion, at least
+FALLS = 3.0  # [1] ratio of the speeds of both directions from which on gravity is the cause
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -45,17 +43,15 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 def detect(features: LogFeatures) -> Iterable[Damage]:
     """Compare the signs of voltage, velocity and the slope of position in every run."""
     for index, run in enumerate(features.log.runs):
-        if features.position_copy_factors[
-            index
-        ]:  # a velocity that is a position has no sign of its own
+        if features.position_copy_factors[index]:  # such a velocity has no sign
             continue
         slope, moving = features.position_slopes[index], features.moving[index]
-        against_slope = _against(run.velocity, slope, moving & _hard(slope))
-        against_push = _opposed(run, run.velocity, moving)
-        if against_push and not against_slope and _falls(run, features.log):
+        against_slope = _have_opposite_signs(run.velocity, slope, moving & _find_large(slope))
+        against_voltage = _moves_against_voltage(run, run.velocity, moving)
+        if against_voltage and not against_slope and _falls_by_gravity(run, features.log):
             continue
         said = []
-        if against_push:
+        if against_voltage:
             said.append("the voltage and the velocity have opposite signs")
         if against_slope:
             said.append("the velocity has the sign opposite to the slope of the position")
@@ -63,19 +59,21 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             yield _damage(index, run, said, velocity_only=against_slope)
 
 
-def _hard(values: Array) -> Flags:
+def _find_large(values: Array) -> Flags:
+    """(n,) whether a value is more than ``HARD`` of the largest ones."""
     size = np.abs(values)
     return np.asarray(size > HARD * np.percentile(size, 98)) if size.size else size > 0.0
 
 
-def _against(one: Array, other: Array, judged: Flags) -> bool:
+def _have_opposite_signs(one: Array, other: Array, judged: Flags) -> bool:
+    """Whether most of the judged samples (n,) of two signals have opposite signs."""
     return bool(judged.sum() >= FEWEST) and find_majority_sign(one[judged] * other[judged]) < 0
 
 
-def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
-    """Whether it goes against the voltage, and not just slower than gravity would have it."""
-    judged = moving & _hard(run.voltage)
-    if not _against(run.voltage, velocity, judged):
+def _moves_against_voltage(run: Run, velocity: Array, moving: Flags) -> bool:
+    """Whether it moves against the voltage, and in a ramp faster at a higher voltage."""
+    judged = moving & _find_large(run.voltage)
+    if not _have_opposite_signs(run.voltage, velocity, judged):
         return False
     if run.kind != "quasistatic":
         return True
@@ -83,8 +81,8 @@ def _opposed(run: Run, velocity: Array, moving: Flags) -> bool:
     return float((volts - volts.mean()) @ (speed - speed.mean())) <= 0.0
 
 
-def _falls(run: Run, log: Log) -> bool:
-    """Whether the other direction of the same test goes the same way, several times as fast."""
+def _falls_by_gravity(run: Run, log: Log) -> bool:
+    """Whether the other direction of the test moves the same way, several times as fast."""
     mate = f"{run.kind}-{'reverse' if run.direction == 'forward' else 'forward'}"
     for other in log.list_runs_of_test(mate):
         goes = find_majority_sign(other.velocity) * find_majority_sign(run.velocity) > 0
@@ -94,6 +92,7 @@ def _falls(run: Run, log: Log) -> bool:
 
 
 def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Damage:
+    """The damage of a run; ``said`` are the observations."""
     volts, speed = _typical(run.voltage), _typical(run.velocity)
     cure = (
         "Give velocity the sign of the position's slope"
@@ -116,7 +115,7 @@ def _damage(index: int, run: Run, said: list[str], *, velocity_only: bool) -> Da
 
 def _typical(values: Array) -> float:
     """The median of the larger half of the values; 0 if there are none."""
-    hard = values[_hard(values)]
+    hard = values[_find_large(values)]
     return float(np.median(hard)) if hard.size else 0.0
 
 

@@ -3,15 +3,15 @@
 On a robot: a motor controller sends its position and velocity every 20 ms, 50 ms or 100 ms, and
 a faster loop logs the last ones it has, again and again.
 
-To the gains: of a reading held for n samples SysId's three-point slope keeps the two samples next
-to each jump and spreads the jump over two periods instead of n; the others have no acceleration
-and are dropped. kA comes out at about 2/n of its size, kS strays, kV hardly moves.
+Effect on the gains: if a reading repeats for n samples, SysId's three-point slope uses the two
+samples at each jump and divides the jump by two periods instead of n; the others have no
+acceleration and are removed. kA becomes about 2/n of its size, kS is wrong, kV hardly changes.
 
-Fingerprint: readings stay the same for several samples while the mechanism moves, and then jump
-by many times the sensor's smallest step. A coarse sensor repeats itself as well, but its jumps
-*are* the smallest step. Frames of 20 ms are what controllers send unless told otherwise, so a log
-that repeats them is ordinary; slower ones are a fault. A controller may measure its velocity more
-slowly than it sends: that is ordinary as well.
+Fingerprint: readings repeat for several samples while the mechanism moves, and then jump by many
+times the sensor's smallest step. A coarse sensor repeats readings as well, but its jumps *are* the
+smallest step. Frames of 20 ms are the default of controllers, so a log that repeats them is
+ordinary; slower ones are a fault. A controller may measure its velocity more slowly than it sends:
+that is ordinary as well.
 """
 
 from collections.abc import Iterable
@@ -24,11 +24,11 @@ from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterva
 from sim.inspect.log_features import Counts, Flags, LogFeatures, find_held_samples
 
 ORDINARY = 3.0  # [samples] that repeat each reading at severity 1: 20 ms frames logged at 5 ms
-JUMP = 4.0  # [smallest steps of the sensor] a smaller jump may be its resolution, not its frames
-FEWEST = 5  # [readings] with clear jumps; fewer prove nothing
-FRAME = 0.025  # [s] motor controllers send every 20 ms unless told otherwise, and logs round up
-OWN_PACE = 0.064  # [s] of a velocity alone: REV measures one every 32 ms, and a frame may miss one
-STALE = 2  # [samples] that the usual reading is held; a clean log repeats one only now and then
+JUMP = 4.0  # [smallest steps of the sensor] a smaller jump may be due to the resolution
+FEWEST = 5  # [readings] with clear jumps, at least
+FRAME = 0.025  # [s] ordinary frames: motor controllers send every 20 ms by default
+VELOCITY_FRAME = 0.064  # [s] of a velocity: REV measures one every 32 ms, and a frame may miss one
+STALE = 2  # [samples] median length of a repeated reading, at least
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -59,7 +59,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 
 def _held(values: Array, moving: Flags, *, step: float) -> Counts:
-    """[samples] how long those readings stand of which one can tell, by clear jumps around them."""
+    """[samples] (m,) lengths of the repeated readings in motion between two clear jumps."""
     starts, lengths = find_held_samples(values)
     clear = np.abs(np.diff(values[starts])) > JUMP * step
     between = clear[:-1] & clear[1:] & moving[starts[1:-1]]
@@ -67,7 +67,7 @@ def _held(values: Array, moving: Flags, *, step: float) -> Counts:
 
 
 def _stale(runs: list[Counts], index: int) -> bool:
-    """Whether a run's readings usually stand; a short run may lean on the rest of the log."""
+    """Whether a run's readings usually repeat; with few readings, those of the log decide."""
     own = runs[index]
     proof = own if own.size >= FEWEST else np.concatenate(runs)
     return (
@@ -78,6 +78,7 @@ def _stale(runs: list[Counts], index: int) -> bool:
 
 
 def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
+    """The damage of a run; ``stale`` is signal -> lengths of its repeated readings [samples]."""
     period = float(np.median(np.diff(run.time)))
     repeated = " and ".join(
         f"each {name} for {held.mean():.1f} samples" for name, held in stale.items()
@@ -85,7 +86,9 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
     longest = {name: float(np.median(held)) * period for name, held in stale.items()}
     usual = max(float(held.mean()) for held in stale.values()) * period
     readings = max(held.size for held in stale.values())
-    ordinary = longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= OWN_PACE
+    ordinary = (
+        longest.get("position", 0.0) <= FRAME and longest.get("velocity", 0.0) <= VELOCITY_FRAME
+    )
     advice = (
         "This is no fault. For a more accurate kA, raise the rate of the controller's status "
         "frames."
@@ -105,7 +108,7 @@ def _damage(index: int, run: Run, stale: dict[str, Counts]) -> Damage:
 
 
 def _hold(run: Run, held: int, phase: int) -> Run:
-    """The run with frames of ``held`` samples, the first of them cut short by ``phase``."""
+    """The run with frames of ``held`` samples, the first one shorter by ``phase``."""
     count = np.arange(len(run))
     latest = np.maximum((count + phase) // held * held - phase, 0)
     return replace(run, position=run.position[latest], velocity=run.velocity[latest])

@@ -1,14 +1,14 @@
-"""Stuck sensor: position and velocity stand still in the log while the mechanism goes on.
+"""Stuck sensor: position and velocity do not change in the log while the mechanism moves.
 
-On a robot: the CAN bus drops a device for a while, a connector shakes loose, or a sensor thread
-hangs; the last reading is logged again and again, and then the truth returns at one jump.
+On a robot: the CAN bus loses a device for a while, a connector is loose, or a sensor thread hangs.
+The last reading is logged again and again, and then the readings jump to the true values.
 
-To the gains: the frozen samples have no acceleration, and SysId drops most of them; the jump at
-their end reads as an acceleration that never was. kA and kS stray, kV a little.
+Effect on the gains: the repeated samples have no acceleration, and SysId removes most of them. The
+jump at the end looks like a large acceleration. kA and kS are wrong, kV a little.
 
-Fingerprint: a velocity that is not zero beside a position that does not change, for much longer
-than the sensor's readings usually stand, and then a position as far on as the time that has passed.
-A mechanism held by friction or by a hard stop has a velocity of zero, and continues where it was.
+Fingerprint: for much longer than readings usually repeat, the velocity is not zero and the position
+does not change. Then the position jumps by the distance of that time. A mechanism that is held by
+friction or by a hard stop has a velocity of zero, and continues where it was.
 """
 
 from collections.abc import Iterable
@@ -21,17 +21,17 @@ from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterva
 from sim.inspect.log_features import MOVING, Counts, LogFeatures, find_held_samples
 
 ORDINARY = 0.15  # [share of the run] that is frozen at severity 1
-ROOM = 0.9  # [share of what is left of the run] a freeze may take, so that the truth returns
-FEWEST = 5  # [samples] a shorter freeze is a late frame
-SHORTEST = 0.06  # [s] the same: three status frames of 20 ms
-UNUSUAL = 2.5  # [times] longer than readings usually stand
-FAR = 5.0  # [smallest steps of the position] that a freeze must hide to be one
-WENT = 0.4  # [share] of the way that two speeds promise, which the jump at the end must make up
-AFTER = 3  # [samples] that tell how fast it went on
+ROOM = 0.9  # [share of the rest of the run] longest freeze, so that the readings return
+FEWEST = 5  # [samples] shortest freeze; a shorter one is a late frame
+SHORTEST = 0.06  # [s] shortest freeze: three status frames of 20 ms
+UNUSUAL = 2.5  # [times] the usual length of a repeated reading, at least
+FAR = 5.0  # [smallest steps of the position] distance during a freeze, at least
+WENT = 0.4  # [share] of the distance predicted from the speeds, which the jump must have
+AFTER = 3  # [samples] after a freeze, of which the speed is the median
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:  # noqa: ARG001 - the contract
-    """Freeze the reading of one moment; nothing happens where nothing moves."""
+    """Freeze the readings for a share of the run; no damage if the mechanism does not move."""
     run = log.runs[strike.run]
     left = float(run.time[-1] - run.time[0]) - strike.start
     lasts = min(ORDINARY * strike.severity * float(np.ptp(run.time)), ROOM * left)
@@ -57,7 +57,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
         changed = np.any(np.diff(together, axis=1) != 0.0, axis=0)
         starts, lengths = find_held_samples(np.concatenate(([0], np.cumsum(changed))).astype(float))
         shortest = max(FEWEST, UNUSUAL * _usual(features, index))
-        for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - one mask cuts both
+        for first, length in zip(starts[lengths >= shortest], lengths[lengths >= shortest]):  # noqa: B905 - both have the same mask
             last = int(first + length - 1)
             if run.time[min(last + 1, len(run) - 1)] - run.time[first] < SHORTEST:
                 continue
@@ -67,7 +67,7 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
 
 
 def _usual(features: LogFeatures, index: int) -> float:
-    """[samples] that a reading usually stands in motion, the slower one of the two."""
+    """[samples] usual length of a repeated reading in motion, of the slower signal."""
     run, moving = features.log.runs[index], features.moving[index]
     return max(
         _median_hold(*find_held_samples(v), moving.nonzero()[0])
@@ -76,29 +76,31 @@ def _usual(features: LogFeatures, index: int) -> float:
 
 
 def _median_hold(starts: Counts, lengths: Counts, moving: Counts) -> float:
+    """[samples] median length of the readings that start in motion; 1 if there is none."""
     judged = lengths[np.isin(starts, moving)]
     return float(np.median(judged)) if judged.size else 1.0
 
 
 def _hidden(run: Run, first: int, last: int, *, step: float) -> float:
-    """[m or rad] how far it went unseen; 0 if it may well have stood still."""
+    """[m or rad] distance during a freeze; 0 if the mechanism may have been at rest."""
     lasted = float(run.time[last] - run.time[first])
     frozen = abs(float(run.velocity[first]))
     slow = MOVING * run.top_speed
-    promised = frozen * lasted
+    predicted = frozen * lasted
     if last + 1 >= len(run):
         return 0.0
     jump = abs(float(run.position[last + 1] - run.position[last]))
-    if frozen > slow and promised > FAR * step:
-        return promised if jump > WENT * promised else 0.0
+    if frozen > slow and predicted > FAR * step:
+        return predicted if jump > WENT * predicted else 0.0
     if last + AFTER >= len(run):
         return 0.0
     after = float(np.median(np.abs(run.velocity[last + 1 : last + 1 + AFTER])))
-    promised = 0.5 * (frozen + after) * lasted
-    return jump if after > slow and jump > max(WENT * promised, FAR * step) else 0.0
+    predicted = 0.5 * (frozen + after) * lasted
+    return jump if after > slow and jump > max(WENT * predicted, FAR * step) else 0.0
 
 
 def _damage(index: int, run: Run, first: int, last: int, hidden: float) -> Damage:
+    """The damage of a freeze from sample ``first`` to ``last``, with its distance [m or rad]."""
     where = LogInterval.of_samples(index, run, first, last)
     return Damage(
         fault="stuck-sensor",

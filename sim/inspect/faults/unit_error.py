@@ -1,17 +1,17 @@
-"""Unit error: velocity is counted in another unit than the position it belongs to.
+"""Unit error: the unit of the velocity does not match the unit of the position.
 
-On a robot: position in rotations and velocity in rotations per minute, degrees beside radians, or
-a conversion factor that was set for one of the two and not for the other.
+On a robot: position in rotations and velocity in rotations per minute, degrees and radians mixed,
+or a conversion factor that was set for only one of the two.
 
-To the gains: kV and kA are off by the factor, and so is everything they are compared with; kS and
-R² are untouched. An arm fits its gravity to an angle that is none.
+Effect on the gains: kV and kA are wrong by the factor; kS and R² do not change. The gravity of an
+arm is fitted to a wrong angle.
 
-A velocity can also be the position itself, logged twice; and a drivetrain that would go 17 m/s at
-12 V has both of its readings in a unit that is not the one it says.
+A velocity can also be a copy of the position. And if a drivetrain would move at 17 m/s at 12 V,
+both of its readings are in another unit than the log says.
 
-Fingerprint: the velocity is a known multiple of the slope of the position: 2π, 60, 360 and what
-they make together. A factor on *both* cannot be known from a log alone, because motion in another
-unit is just as consistent: compare kV with theory for that. So this fault strikes velocity only.
+Fingerprint: the velocity is a known multiple of the slope of the position: 2π, 60, 360 and their
+products. A factor of *both* cannot be found in a log alone, because the motion is consistent in any
+unit; compare kV with theory instead. So this fault changes the velocity only.
 """
 
 import math
@@ -26,11 +26,11 @@ from sim.inspect.fault import Damage, DamagedLog, Fault, FaultStrike, LogInterva
 from sim.inspect.log_features import LogFeatures
 
 TURN = 2.0 * math.pi
-NEAR = 0.05  # [share] how closely a factor must be met; slip and filters bend it less
+NEAR = 0.05  # [share] largest difference from a known factor; slip and filters change it less
 DRIVES = ("drive", "swerve")  # in the name of a mechanism; SysId's own tool writes Drivetrain
 FULL = 12.0  # [V]
-FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes span about 2 to 7
-FAR = 2.5  # [times] a factor that is none of the known ones but too large to be a bent measurement
+FASTEST, SLOWEST = 9.0, 1.2  # [m/s] of a drive at 12 V: two-speed gearboxes have about 2 to 7
+FAR = 2.5  # [1] least factor of a wrong unit
 
 KNOWN: Mapping[str, float] = {
     "2π, the factor between rotations and radians": TURN,
@@ -65,15 +65,15 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
     for index, (run, ratio) in enumerate(
         zip(features.log.runs, features.distance_ratios, strict=True)
     ):
-        times = features.position_copy_factors[index]
-        said = _named(ratio) if _named(usual) else ""
-        if times:
+        copied = features.position_copy_factors[index]
+        said = _explain_ratio(ratio) if _explain_ratio(usual) else ""
+        if copied:
             yield Damage(
                 fault="unit-error",
                 where=LogInterval.of_samples(index, run),
                 confidence=0.97,
-                evidence=f"The recorded velocity is the position, multiplied by {times:.3g}. Where "
-                "the position does not change, the velocity should be 0, and it is not.",
+                evidence=f"The recorded velocity is the position, multiplied by {copied:.3g}. "
+                "Where the position does not change, the velocity should be 0, and it is not.",
                 advice="Log the encoder's velocity in place of its position, and record again. "
                 "Without a velocity nothing can be fitted.",
             )
@@ -86,11 +86,11 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
                 advice="Make the conversion factors of position and velocity agree, and "
                 f"divide the recorded velocity by {ratio:.4g}.",
             )
-    yield from _no_such_drive(features)
+    yield from _check_drive_speed(features)
 
 
-def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
-    """A drivetrain faster or slower than any: both readings are in another unit than it says."""
+def _check_drive_speed(features: LogFeatures) -> Iterable[Damage]:
+    """A drivetrain that is faster or slower than any: position and velocity have a wrong unit."""
     per, name = find_unit(features.log.units), features.log.mechanism
     if per.angular or not any(word in name.lower() for word in DRIVES):
         return
@@ -100,7 +100,7 @@ def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
         if run.test in FOUR_TESTS and run.top_speed and run.voltage.any()
     ]
     speed = float(np.median(speeds)) if speeds else 0.0
-    if not speed or SLOWEST <= speed <= FASTEST or _named(features.usual_distance_ratio):
+    if not speed or SLOWEST <= speed <= FASTEST or _explain_ratio(features.usual_distance_ratio):
         return
     bound = f"faster than {FASTEST:g}" if speed > FASTEST else f"slower than {SLOWEST:g}"
     yield Damage(
@@ -115,14 +115,14 @@ def _no_such_drive(features: LogFeatures) -> Iterable[Damage]:
     )
 
 
-def _named(ratio: float) -> str:
-    """What a ratio is; empty if nothing is wrong."""
+def _explain_ratio(ratio: float) -> str:
+    """A sentence that explains a distance ratio; empty if no unit is wrong."""
     if 1.0 / FAR < ratio < FAR or not ratio > 0.0:
         return ""
-    sought = {f"This is {name}": factor for name, factor in KNOWN.items()}
-    sought |= {f"This is 1 over {name}": 1.0 / factor for name, factor in KNOWN.items()}
-    nearest = min(sought, key=lambda said: abs(np.log(ratio / sought[said])))
-    if abs(ratio / sought[nearest] - 1.0) < NEAR:
+    known = {f"This is {name}": factor for name, factor in KNOWN.items()}
+    known |= {f"This is 1 over {name}": 1.0 / factor for name, factor in KNOWN.items()}
+    nearest = min(known, key=lambda said: abs(np.log(ratio / known[said])))
+    if abs(ratio / known[nearest] - 1.0) < NEAR:
         return nearest
     return (
         "This factor belongs to no unit: probably only one of the two signals contains a gear "

@@ -1,15 +1,15 @@
-"""Voltage drop-out: the voltage reads too little for a moment, over and over, at a rhythm.
+"""Voltage drop-out: the logged voltage is too small for a few samples, again and again.
 
-On a robot: the voltage is read by another loop, a CAN frame of it is lost, or two motors are
-averaged of which one did not answer. In some logs of real arms and elevators the drop comes every
-0.22 s and the velocity follows it: there the motor really lost its command for 5 to 25 ms.
+On a robot: the voltage is read by another loop, a CAN frame of it is lost, or it is the mean of two
+motors of which one did not answer. In some logs of real arms and elevators the voltage drops every
+0.22 s and so does the velocity: there the motor really lost its command for 5 to 25 ms.
 
-To the gains: where only the record drops, rows with motion have hardly a voltage. They flatten the
-regression along the voltage: kA comes out too large and kS too small, kV a little too small. Where
-the motor drops as well the rows are true, but a mean of two motors is not, and a ramp no ramp.
+Effect on the gains: if only the log loses the voltage, there are rows with motion and hardly any
+voltage. kA becomes too large and kS too small, kV a little too small. If the motor loses it as
+well, the rows are right, but not for a mean of two motors, and a ramp is no longer a ramp.
 
-Fingerprint: the voltage falls by a quarter or more for a few samples and returns to where it was.
-A single fall that the velocity follows may be a brownout, and is left to that.
+Fingerprint: the voltage falls by a quarter or more for a few samples and returns to its value. A
+single drop that the velocity follows may be a brownout, and is not reported here.
 """
 
 from collections.abc import Iterable
@@ -24,26 +24,26 @@ from sim.inspect.log_features import LogFeatures
 
 EVERY = 0.22  # [s] between two drop-outs
 LASTS = 0.015  # [s] at severity 1; never less than a sample
-MILD, HALF = 0.7, 0.5  # [severity] below which a drop-out reads this share instead of zero
-SEEN = 0.2  # [share of the run's largest voltage] a smaller voltage can drop unseen
+MILD, HALF = 0.7, 0.5  # [severity] below which a drop-out has this share instead of zero
+VISIBLE = 0.2  # [share of the run's largest voltage] a smaller voltage does not drop
 
-AROUND = 0.22  # [s] of voltages whose median is what a sample ought to read
-NARROWEST = 7  # [samples] for that median
-FALL = 0.25  # [share of that median]
-FLOOR = 0.08  # [V] a smaller fall is noise
-NOISE = 6.0  # [times] the voltage's own usual strays
-LONGEST = 0.08  # [s] a drop-out; what lasts longer is a brownout or a person
-ECHO = 0.06  # [s] in which a velocity would have answered
-ANSWER = 0.5  # [share of the loss of speed that physics asks for] which is one
+AROUND = 0.22  # [s] window of the running median, the expected voltage
+NARROWEST = 7  # [samples] of that window, at least
+FALL = 0.25  # [share of the expected voltage] least drop
+FLOOR = 0.08  # [V] least drop
+NOISE = 6.0  # [times the voltage's median deviation] least drop
+LONGEST = 0.08  # [s] longest drop-out; longer is a brownout or a released button
+ECHO = 0.06  # [s] in which the velocity would follow
+ANSWER = 0.5  # [share of the predicted loss of speed] from which on the velocity follows
 CLEAR = 0.1  # [share of the speed] a smaller loss is noise
-SAGS = 0.5  # [share of the fall] by which the bus falls as well
-LAUNCH = 0.2  # [s] after a step, in which a single fall of the voltage is no lost reading
-SERIES = 3  # drop-outs that are one story rather than so many
+SAGS = 0.5  # [share of the voltage's drop] by which the bus voltage drops as well, in a sag
+LAUNCH = 0.2  # [s] after a step, in which a single drop of the voltage is no lost reading
+SERIES = 3  # drop-outs that are reported together
 
 
 @dataclass(frozen=True)
 class _Drop:
-    """Samples ``first`` to ``last`` of a run, where ``expected`` [V] should have been read."""
+    """A drop-out from sample ``first`` to ``last``, with the expected voltage [V]."""
 
     first: int
     last: int
@@ -60,13 +60,13 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     drops = []
     moment = float(run.time[0]) + strike.start
     while (first := int(np.searchsorted(run.time, moment))) + width < len(run) - 1:
-        if first and abs(run.voltage[first]) > SEEN * most:
+        if first and abs(run.voltage[first]) > VISIBLE * most:
             drops.append(_Drop(first, first + width - 1, float(run.voltage[first])))
             voltage[first : first + width] *= HALF if strike.severity < MILD else 0.0
         moment += max(EVERY * rng.uniform(0.9, 1.1), 3.0 * width * period)
     runs = tuple(replace(r, voltage=voltage) if r is run else r for r in log.runs)
     return DamagedLog(
-        replace(log, runs=runs), tuple(s for s, _ in _stories(strike.run, run, drops))
+        replace(log, runs=runs), tuple(s for s, _ in _group_drops(strike.run, run, drops))
     )
 
 
@@ -81,33 +81,34 @@ def detect(features: LogFeatures) -> Iterable[Damage]:
             drops = [
                 drop
                 for drop, answer in zip(drops, answers, strict=True)
-                if answer < _due(run, drop, features.timescale) and not _launches(run, drop)
+                if answer < _least_answer(run, drop, features.timescale)
+                and not _launches(run, drop)
             ]
-        for where, story in _stories(index, run, drops):
-            yield _damage(run, where, story, answer=float(np.median(answers)))
+        for where, group in _group_drops(index, run, drops):
+            yield _damage(run, where, group, answer=float(np.median(answers)))
 
 
 def _drops(run: Run, period: float) -> list[_Drop]:
-    """Short falls of the voltage's size below its running median, from which it returns."""
+    """Short drops of the voltage below its running median, after which it returns."""
     window = max(NARROWEST, 2 * round(AROUND / period / 2.0) + 1)
     padded = np.pad(run.voltage, window // 2, mode="reflect" if len(run) > window else "edge")
-    ought = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
-    short = (ought - run.voltage) * np.sign(ought)
+    expected = np.median(np.lib.stride_tricks.sliding_window_view(padded, window), axis=1)
+    short = (expected - run.voltage) * np.sign(expected)
     least = max(FLOOR, NOISE * float(np.median(np.abs(short))))
-    low = np.flatnonzero((short > FALL * np.abs(ought)) & (short > least))
+    low = np.flatnonzero((short > FALL * np.abs(expected)) & (short > least))
     groups = np.split(low, np.flatnonzero(np.diff(low) > 1) + 1) if low.size else []
     drops = []
     for group in groups:
         first, last = int(group[0]), int(group[-1])
         lasted = float(run.time[min(last + 1, len(run) - 1)] - run.time[first])
         inside = first > 0 and last < len(run) - 1 and not _sags(run, first, last)
-        if inside and lasted <= LONGEST and _returns(run.voltage, first, last, ought):
-            drops.append(_Drop(first, last, float(ought[first])))
+        if inside and lasted <= LONGEST and _returns(run.voltage, first, last, expected):
+            drops.append(_Drop(first, last, float(expected[first])))
     return drops
 
 
 def _sags(run: Run, first: int, last: int) -> bool:
-    """Whether the bus falls as well: then the battery gives way, and nothing is lost."""
+    """Whether the bus voltage drops as well: then the battery sags, and no reading is lost."""
     if run.bus_voltage is None:
         return False
     before = max(first - 2, 0)
@@ -118,21 +119,21 @@ def _sags(run: Run, first: int, last: int) -> bool:
 
 
 def _launches(run: Run, drop: _Drop) -> bool:
-    """Whether it is in the first moment of a step, when a controller's limits may act."""
+    """Whether it is at the start of a step, where a controller's limits may act."""
     return bool(0.0 <= run.time[drop.first] - run.time[find_step_start(run)] < LAUNCH)
 
 
-def _returns(voltage: Array, first: int, last: int, ought: Array) -> bool:
-    """Whether the voltage is as it ought to be on both sides, within two samples."""
+def _returns(voltage: Array, first: int, last: int, expected: Array) -> bool:
+    """Whether the voltage has its expected value on both sides, within two samples."""
     sides = (slice(max(first - 2, 0), first), slice(last + 1, last + 3))
     return all(
-        bool(np.any(np.abs(voltage[side] - ought[side]) <= FALL * np.abs(ought[side])))
+        bool(np.any(np.abs(voltage[side] - expected[side]) <= FALL * np.abs(expected[side])))
         for side in sides
     )
 
 
 def _answer(run: Run, drop: _Drop) -> float:
-    """[share of its speed] that it loses in and after a drop-out."""
+    """[share of the speed] loss of speed in and after a drop-out."""
     speed = np.abs(run.velocity)
     before = float(np.median(speed[max(drop.first - 2, 0) : drop.first + 1]))
     until = int(np.searchsorted(run.time, run.time[drop.last] + ECHO)) + 1
@@ -140,39 +141,40 @@ def _answer(run: Run, drop: _Drop) -> float:
     return 1.0 - slowest / before if before > 0.0 else 0.0
 
 
-def _due(run: Run, drop: _Drop, timescale: float) -> float:
-    """[share of its speed] from which on a loss is an answer of the mechanism, not noise."""
+def _least_answer(run: Run, drop: _Drop, timescale: float) -> float:
+    """[share of the speed] loss from which on the velocity follows the drop-out."""
     lasted = float(run.time[drop.last + 1] - run.time[drop.first])
     lost = 1.0 - abs(float(np.mean(run.voltage[drop.first : drop.last + 1]) / drop.expected))
     due = lost * -np.expm1(-lasted / timescale) if timescale > 0.0 else 0.0
     return max(ANSWER * float(due), CLEAR)
 
 
-def _stories(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval, list[_Drop]]]:
-    """What to report: a series as one, a few drop-outs one by one."""
-    stories = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
+def _group_drops(index: int, run: Run, drops: list[_Drop]) -> list[tuple[LogInterval, list[_Drop]]]:
+    """The drop-outs as they are reported: a series together, a few one by one."""
+    reports = [drops] if len(drops) >= SERIES else [[drop] for drop in drops]
     return [
         (
             LogInterval.of_samples(
-                index, run, story[0].first, min(story[-1].last + 1, len(run) - 1)
+                index, run, group[0].first, min(group[-1].last + 1, len(run) - 1)
             ),
-            story,
+            group,
         )
-        for story in stories
+        for group in reports
     ]
 
 
-def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) -> Damage:
-    lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in story)
+def _damage(run: Run, where: LogInterval, group: list[_Drop], *, answer: float) -> Damage:
+    """The damage of some drop-outs; ``answer`` is the median loss of speed [share]."""
+    lasts = 1e3 * sum(float(run.time[drop.last + 1] - run.time[drop.first]) for drop in group)
     deepest = min(
-        float(np.abs(run.voltage[d.first : d.last + 1] / d.expected).min()) for d in story
+        float(np.abs(run.voltage[d.first : d.last + 1] / d.expected).min()) for d in group
     )
-    if len(story) == 1:
+    if len(group) == 1:
         said = f"Once, for {lasts:.0f} ms, the voltage drops to {deepest:.0%} of its value"
     else:
-        every = float(np.median(np.diff([run.time[drop.first] for drop in story])))
+        every = float(np.median(np.diff([run.time[drop.first] for drop in group])))
         said = (
-            f"The voltage drops {len(story)} times, about every {every:.2f} s, down to "
+            f"The voltage drops {len(group)} times, about every {every:.2f} s, down to "
             f"{deepest:.0%} of its value. Together the drops last {lasts:.0f} ms"
         )
     echo = (
@@ -183,7 +185,7 @@ def _damage(run: Run, where: LogInterval, story: list[_Drop], *, answer: float) 
     return Damage(
         fault="voltage-dropout",
         where=where,
-        confidence=1.0 - 0.3 / len(story),
+        confidence=1.0 - 0.3 / len(group),
         evidence=f"{said}. {echo}.",
         advice="If there are several motors, check whether one of them stops receiving its "
         "command. Look also for missing CAN frames, and for a second loop that writes the voltage. "

@@ -1,20 +1,20 @@
-"""Wheel slip: the wheels break loose under a step of voltage and spin ahead of the robot.
+"""Wheel slip: the wheels slip in a voltage step and spin faster than the robot moves.
 
-On a robot: tires on carpet hold no more than their friction. A step that asks for more spins the
-wheels up, light as they are, to where the motor's force is down to what the tires do hold; there
-they wait until the robot has caught up.
+On a robot: the traction of tires on carpet is limited. With a larger step the light wheels spin up
+until the back-EMF has reduced the motor's force to the traction. Then their speed is constant until
+the robot is as fast.
 
     wheels:  kA_w·v' = V - kS - kV·v - F        robot:  kA·v' = F
 
-with F [V] what the tires hold, and kA_w a tenth of kA.
+with F [V] the traction, and kA_w a tenth of kA.
 
-To the gains: kA too large, by 39 % for a step of 3.5 V and 66 % for 7 V on four Kraken X60; kV is
-not harmed.
+Effect on the gains: kA becomes too large, by 39 % for a step of 3.5 V and 66 % for 7 V on four
+Kraken X60; kV does not change.
 
-Fingerprint: a dynamic test surges, lulls, and only then climbs as a mass does: an acceleration that
-falls and rises again. On real robots the tires grip and slip in turn, and the speed falls and
-recovers within the first 0.8 s. A springy drive looks alike, but does so in every step, however
-small.
+Fingerprint: in a dynamic test the speed jumps, stops rising, and then rises like that of a mass:
+the acceleration falls and rises again. On real robots the tires grip and slip in turn, and the
+speed falls and recovers within the first 0.8 s. An elastic drive looks the same, but in every step,
+also in a small one.
 """
 
 import math
@@ -39,22 +39,22 @@ from sim.inspect.launch import CLIMBS, FALLS, find_launch_event, find_step_start
 from sim.inspect.log_features import Counts, LogFeatures, find_held_samples
 from sim.inspect.wheel_model import SAMPLES, StepRise, spin_wheels
 
-HELD = 0.4  # [share of the step] that the tires hold at severity 1
-SPIN = 8.0  # [times the plain speed] that wheels spin up to at most in a sample
-LIMITED = 0.9  # [share of the push] a step that never shows more starts under a current limit
-SHOWS = 5.0  # [samples] a shorter slip cannot be seen
-STARTS = 0.1  # [timescales] after which a plain rise is seen to move
-ALL = np.array((10.0,))  # [share of the step] tires that hold it all
-SOME = np.arange(0.05, 0.75, 0.05)  # the same, of tires that do not
-SETTLED = 30.0  # [timescales] after which a slip is long over
-FINE = 8  # steps per sample in which wheels are spun up
-LASTS = 6.0  # [timescales] after which a step has nothing more to say
-LEAST = 15  # [samples] of it that are looked at in any case
-STALE = 2  # [samples] that a reading usually stands in a log of slow frames
-FEWEST = 6  # [samples] of a rise; fewer cannot show a lull
-BELIEVED = 0.8  # [share explained] of what a plain rise leaves unexplained
-CLEAR = 0.04  # [share of top speed] a plain rise misses by at least this much
-CAUTION = 0.8  # [share of the voltage that still held] for the next step
+HELD = 0.4  # [share of the step] grip of the tires at severity 1
+SPIN = 8.0  # [times the speed without slip] largest speed of spinning wheels
+LIMITED = 0.9  # [share of the push] a step that never has more starts under a current limit
+SHOWS = 5.0  # [samples] shortest slip
+STARTS = 0.1  # [time constants] after which a motion shows
+ALL = np.array((10.0,))  # [share of the step] grip of tires that do not slip
+SOME = np.arange(0.05, 0.75, 0.05)  # [share of the step] grips that are tried
+SETTLED = 30.0  # [time constants] after which a slip is over
+FINE = 8  # simulation steps per sample
+LASTS = 6.0  # [time constants] of a step that are evaluated
+LEAST = 15  # [samples] of a step that are evaluated, at least
+STALE = 2  # [samples] median length of a repeated reading in a log of slow frames
+FEWEST = 6  # [samples] of a rise, at least
+BELIEVED = 0.8  # [share] of the squared error without slip that slip must explain
+CLEAR = 0.04  # [share of the top speed] least error without slip
+CAUTION = 0.8  # [share of the largest step without slip] that is advised
 
 
 def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog:
@@ -74,13 +74,11 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     lasts = min(float(since[-1]), SETTLED * baseline.timescale)
     grid = np.arange(0.0, lasts, features.period / FINE)
     push = _push(run, baseline)
-    limit = float(
-        np.max(push - speed, initial=0.0)
-    )  # of the motor's current, if not of its voltage
+    limit = float(np.max(push - speed, initial=0.0))  # of the current, or the step itself
     limited = limit < LIMITED * push.max()
-    asked = np.full(grid.size, push.max()) if limited else np.interp(grid, since, push)
+    command = np.full(grid.size, push.max()) if limited else np.interp(grid, since, push)
     spun = spin_wheels(
-        asked,
+        command,
         grid,
         scales=np.array((baseline.timescale,)),
         held=np.array((held * limit,)),
@@ -95,7 +93,7 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
     moves &= since < lasts
     pace[moves] = np.clip(slipping[moves] / speed[moves], 0.0, SPIN)
     spoilt = rescale_motion(run, pace)
-    if limited:  # faster wheels leave the limit sooner
+    if limited:  # faster wheels leave the current limit earlier
         more = np.interp(since, grid, spun.push[0]) - push
         more *= np.sign(run.voltage[first]) * ((since >= 0.0) & (since < lasts))
         spoilt = replace(spoilt, voltage=run.voltage + baseline.kv * more)
@@ -105,25 +103,25 @@ def spoil(log: Log, strike: FaultStrike, rng: np.random.Generator) -> DamagedLog
 
 
 def detect(features: LogFeatures) -> Iterable[Damage]:
-    """Find steps in which the speed falls or waits, or that slipping wheels explain best."""
+    """Find steps in which the speed falls or stops rising, or that wheel slip explains best."""
     if features.log.type not in ("", *FAULT.types):
         return
     for index, run in enumerate(features.log.runs):
         if run.kind == "dynamic" and len(run) >= FEWEST:
-            found = _modeled(features, index, run) or (
-                _launched(index, run) if _rolls(features) else None
+            found = _fit_slip(features, index, run) or (
+                _find_event(index, run) if _may_have_wheels(features) else None
             )
             if found:
                 yield found
 
 
-def _rolls(features: LogFeatures) -> bool:
-    """Whether it may have wheels on a floor: it covers a length, or is named a drive."""
+def _may_have_wheels(features: LogFeatures) -> bool:
+    """Whether it may drive on wheels: positions are lengths, or it is named a drive."""
     return not find_unit(features.log.units).angular or "drive" in features.log.mechanism.lower()
 
 
-def _launched(index: int, run: Run) -> Damage | None:
-    """What the launch of a step shows without any model."""
+def _find_event(index: int, run: Run) -> Damage | None:
+    """Wheel slip by a fall or a wait of the speed, without a model; None if there is none."""
     event = find_launch_event(run)
     if event is None:
         return None
@@ -148,8 +146,8 @@ def _launched(index: int, run: Run) -> Damage | None:
     )
 
 
-def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
-    """A surge and a lull that slipping wheels explain better than any plain rise."""
+def _fit_slip(features: LogFeatures, index: int, run: Run) -> Damage | None:
+    """Wheel slip that explains a step much better than a rise without slip; else None."""
     if features.baseline is None:
         return None
     first = find_step_start(run)
@@ -186,7 +184,7 @@ def _modeled(features: LogFeatures, index: int, run: Run) -> Damage | None:
 
 
 def _fresh(run: Run, first: int, last: int) -> Counts:
-    """The samples to look at: not too many, and of frames that stand for long only the new ones."""
+    """Indices of the samples to evaluate: at most about ``SAMPLES``, and no repeated readings."""
     starts, lengths = find_held_samples(run.velocity[first:last])
     if float(np.median(lengths)) < STALE:
         starts = np.arange(last - first)
@@ -194,16 +192,16 @@ def _fresh(run: Run, first: int, last: int) -> Counts:
 
 
 def _push(run: Run, baseline: BaselineModel) -> Array:
-    """(n,) [m/s or rad/s] the speed at which each voltage would end, in the step's direction."""
+    """(n,) [m/s or rad/s] steady-state speed of each voltage, in the step's direction."""
     return np.asarray(
         baseline.compute_steady_speed(run) * np.sign(run.voltage[find_step_start(run)])
     )
 
 
 def _smooth(values: Array) -> Array:
-    """A running mean of three samples."""
-    fed = np.pad(values, 1, mode="edge")
-    return np.asarray((fed[:-2] + fed[1:-1] + fed[2:]) / 3.0)
+    """(n,) running mean of three samples."""
+    padded = np.pad(values, 1, mode="edge")
+    return np.asarray((padded[:-2] + padded[1:-1] + padded[2:]) / 3.0)
 
 
 FAULT = Fault(
