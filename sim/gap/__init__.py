@@ -1,11 +1,11 @@
 """The gap between simulation and measurement, by run, speed, position and time.
 
-    found = gap_map(residuals, noise=noise)
-    found.places(5)                     # in words, the surest first
+    found = map_gap(residuals, noise=noise)
+    found.find_places(5)                # the bins with the most significant residuals
 
 The residual of each sample is binned by run and time, by direction and speed, by direction and
 position, by the time since a voltage step, and by voltage at rest. All numbers are multiples of the
-noise, so that a shooter and an arm can be compared.
+noise, so mechanisms of any kind can be compared.
 """
 
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ from sim.gap.residuals import Residuals
 
 __all__ = ["BinnedResiduals", "GapMap", "Place", "Repeat", "Residuals", "map_gap"]
 
-OF_A_KIND = 2  # places of one kind among the first that are told: the others say the same again
+PER_MAP = 2  # places of one map that are listed; the others are mostly the same
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,13 +53,13 @@ class GapMap:
         """The bins with significant residuals, the most significant first.
 
         Args:
-            most: so many at most, and of one kind only two.
-            signal: ``position`` or ``velocity``; empty looks at both.
+            most: number of places, at most; of each map there are only two.
+            signal: ``position`` or ``velocity``; empty for both.
         """
         kept = []
-        for cells in self.all_maps:
-            mine = [one for one in cells.find_places() if signal in {"", one.signal}]
-            kept += sorted(mine, key=lambda one: -one.sure)[:OF_A_KIND]
+        for residuals in self.all_maps:
+            mine = [one for one in residuals.find_places() if signal in {"", one.signal}]
+            kept += sorted(mine, key=lambda one: -one.sure)[:PER_MAP]
         return tuple(sorted(kept, key=lambda one: -one.sure)[:most])
 
 
@@ -67,11 +67,11 @@ def map_gap(runs: Sequence[Residuals], *, noise: SensorNoise) -> GapMap:
     """Bin residuals by run, speed, position, time after a step, and voltage at rest.
 
     Args:
-        runs: what it leaves of each.
-        noise: standard deviations of a position and a velocity, in whose multiples gaps are given.
+        runs: residuals of each run.
+        noise: standard deviations of a position and a velocity, the unit of the residuals.
 
     Raises:
-        BadRequest: there is nothing to compare.
+        BadRequest: no sample is compared.
     """
     runs = [run for run in runs if run.compared.any()]
     if not runs:

@@ -1,9 +1,10 @@
 """Residuals in bins: mean, standard error and count of each.
 
-    mean = Σ r/n        error = s·√((1 + ρ)/(1 - ρ))/√n        of r in noises, along the motion
+    mean = Σ r/n        error = s·√((1 + ρ)/(1 - ρ))/√n
 
-s is the spread within the cell, at least the noise; ρ is how much a sample says that the one before
-has said already, measured within cells. For white innovations s = 1 and ρ = 0.
+r is the residual in the direction of motion, divided by the noise. s is the standard deviation
+within the bin, at least 1, and ρ the lag-one autocorrelation within bins. For white innovations s =
+1 and ρ = 0.
 """
 
 from collections.abc import Iterator
@@ -15,9 +16,9 @@ from numpy.typing import NDArray
 from sim.core.log import Array
 from sim.gap.place import SIGNALS, STEPS, Place
 
-FEWEST = 4  # samples of which a cell's mean says anything
-STICKIEST = 0.98  # ρ, beyond which nothing could be told at all
-SURE = 4.0  # [standard errors] of 300 cells of pure noise, one in fifty logs has one beyond
+FEWEST = 4  # samples of a bin with a mean
+LARGEST_RHO = 0.98  # [1] upper limit of ρ
+SURE = 4.0  # [standard errors] with pure noise, one log in fifty has one of 300 bins beyond it
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,13 +27,13 @@ class BinnedResiduals:
 
     Args:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps``, ``at-rest``.
-        rows: the name of each row.
-        edges: (rows, columns + 1) [s, unit/s, unit or V] between the columns.
-        edges_as_shares: whether texts give the edges as shares of the largest, as they are in the
-            log's unit.
+        rows: name of each row.
+        edges: (rows, columns + 1) [s, unit/s, unit or V] edges of the columns.
+        edges_as_shares: whether texts give the edges as shares of the largest one, because they are
+            in SI and not in the log's unit.
         mean: (2, rows, columns) [noise] mean residuals of position and velocity; nan if too few.
-        error: (2, rows, columns) [noise] their standard errors.
-        count: (2, rows, columns) samples.
+        error: (2, rows, columns) [noise] standard errors of the means.
+        count: (2, rows, columns) numbers of samples.
     """
 
     what: str
@@ -53,13 +54,14 @@ class BinnedResiduals:
         sure = self.significance
         way = np.where(np.abs(sure) >= SURE, np.sign(sure), 0.0)
         for signal, row in zip(*np.nonzero(np.any(way, axis=2)), strict=True):
-            ways = way[signal, row]
-            breaks = np.flatnonzero(np.diff(ways)) + 1
-            for part in np.split(np.arange(ways.size), breaks):
-                if ways[part[0]]:
+            signs = way[signal, row]
+            breaks = np.flatnonzero(np.diff(signs)) + 1
+            for part in np.split(np.arange(signs.size), breaks):
+                if signs[part[0]]:
                     yield self._place(int(signal), int(row), slice(part[0], part[-1] + 1))
 
     def _place(self, signal: int, row: int, part: slice) -> Place:
+        """The place of neighboring bins, with their weighted mean."""
         mean, error = self.mean[signal, row, part], self.error[signal, row, part]
         weight = self.count[signal, row, part].astype(np.float64)
         weight /= weight.sum()
@@ -69,7 +71,7 @@ class BinnedResiduals:
         return Place(self.what, where, together, abs(together) / spread, SIGNALS[signal])
 
     def describe_bin(self, row: int, part: slice) -> str:
-        """The place of neighboring bins in words, such as ``forward, 40 to 60% of the top speed``.
+        """Neighboring bins in words, like ``forward, 40 to 60% of the top speed``.
 
         Args:
             row: the row of the bins.
@@ -91,18 +93,18 @@ _WHOLES = {"direction-speed": "the top speed", "direction-position": "the way"}
 
 
 def _pair(low: float, high: float) -> str:
-    """Two numbers with as many digits as they need to differ."""
+    """A range in words, with enough digits to tell its ends apart."""
     digits = 1 if high - low >= 0.5 else 2  # noqa: PLR2004 - half a second, or half a volt
     return f"{low:.{digits}f} to {high:.{digits}f}"
 
 
 @dataclass(frozen=True, eq=False)
 class SampleTable:
-    """All samples of all runs in one table.
+    """The residuals of all runs in one table.
 
     Args:
         table: (n, 2) [noise] residuals of position and velocity; nan where not compared.
-        run: (n,) which run each is of.
+        run: (n,) index of the run of each sample.
     """
 
     table: Array
@@ -115,12 +117,12 @@ class SampleTable:
         """Bin all samples along one axis.
 
         Args:
-            what: of which kind.
-            rows: their names.
-            edges: (rows, columns + 1) rising.
-            row: (n,) which row a sample is in; below 0 is in none.
-            value: (n,) what decides on its column; nan is in none.
-            way: (n,) ±1, the direction that counts as ahead.
+            what: kind of the bins, as in ``BinnedResiduals``.
+            rows: names of the rows.
+            edges: (rows, columns + 1) edges of the columns, increasing.
+            row: (n,) row of each sample; negative for none.
+            value: (n,) value that is binned, in the unit of ``edges``; nan for none.
+            way: (n,) ±1, the positive direction of each residual.
             shares: whether texts give the edges as shares.
         """
         columns = edges.shape[1] - 1
@@ -149,6 +151,7 @@ class SampleTable:
     def _means(
         self, signed: Array, cell: NDArray[np.intp], *, size: int
     ) -> tuple[Array, Array, NDArray[np.intp]]:
+        """(size,) mean, standard error and count of residuals (n,) in the bins ``cell`` (n,)."""
         there = (cell >= 0) & ~np.isnan(signed)
         cells, values = cell[there], signed[there]
         count = np.bincount(cells, minlength=size)
@@ -157,19 +160,19 @@ class SampleTable:
         square = np.bincount(cells, rest**2, minlength=size) / np.maximum(count - 1, 1)
         place = np.flatnonzero(there)
         next_to = (np.diff(place) == 1) & (np.diff(cells) == 0) & (np.diff(self.run[place]) == 0)
-        both = float(np.sum((rest[1:] * rest[:-1])[next_to]))
-        alone = float(np.sum((rest[1:] ** 2)[next_to]))
-        said = min(max(both / alone, 0.0), STICKIEST) if alone > 0.0 else 0.0
-        longer = (1.0 + said) / (1.0 - said)
+        products = float(np.sum((rest[1:] * rest[:-1])[next_to]))
+        squares = float(np.sum((rest[1:] ** 2)[next_to]))
+        rho = min(max(products / squares, 0.0), LARGEST_RHO) if squares > 0.0 else 0.0
+        inflation = (1.0 + rho) / (1.0 - rho)
         few = count < FEWEST
         mean[few] = np.nan
-        error = np.sqrt(np.maximum(square, 1.0) * longer / np.maximum(count, 1))
+        error = np.sqrt(np.maximum(square, 1.0) * inflation / np.maximum(count, 1))
         error[few] = np.nan
         return mean, error, count
 
 
 def _column(value: Array, edges: Array, row: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(n,) the column of each value, -1 outside; all rows' columns may differ."""
+    """(n,) column of each value (n,), by the edges of its row; -1 outside of them."""
     column = np.full(value.size, -1, dtype=np.intp)
     last = edges.shape[1] - 2
     for number in range(edges.shape[0]):

@@ -12,32 +12,34 @@ from sim.gap.binned_residuals import FEWEST, BinnedResiduals, SampleTable
 from sim.gap.place import POSITION, REST, RUN, SPEED, STEPS
 from sim.gap.residuals import Residuals
 
-LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # columns
-AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] since a jump: short where things happen
-STILL = 0.02  # [share of the top speed] slower is at rest
-WAYS = ("forward", "reverse")
+LEAST_TIMES, TIMES, SPEEDS, POSITIONS, VOLTS = 6, 12, 8, 12, 4  # numbers of columns
+AFTER = (0.0, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6)  # [s] edges since a step: narrow just after it
+STILL = 0.02  # [share of the top speed] a slower sample is at rest
+DIRECTIONS = ("forward", "reverse")
 JUMPS = ("the voltage jumps up", "the voltage jumps down")
-HELD = ("at rest under forward voltage", "at rest under reverse voltage")
+RESTS = ("at rest under forward voltage", "at rest under reverse voltage")
 
 
 class ResidualBins:
     """The residuals of some runs, binned in several ways.
 
     Args:
-        runs: each with something to compare.
-        noise: of a position and a velocity.
+        runs: residuals of the runs, each with at least one compared sample.
+        noise: standard deviations of a position and a velocity.
     """
 
     def __init__(self, runs: Sequence[Residuals], *, noise: SensorNoise) -> None:
         self.runs = runs
         self.predicted = np.concatenate([run.predicted for run in runs])
         self.voltage = np.concatenate([run.voltage for run in runs])
-        self.number = np.repeat(np.arange(len(runs)), [run.time.size for run in runs])
-        missed = np.concatenate([run.error for run in runs])
-        self.kept = ~np.isnan(missed).all(axis=1)
-        self.sorted = SampleTable(missed / np.array([noise.position, noise.velocity]), self.number)
+        self.run_index = np.repeat(np.arange(len(runs)), [run.time.size for run in runs])
+        residuals = np.concatenate([run.error for run in runs])
+        self.compared = ~np.isnan(residuals).all(axis=1)
+        self.samples = SampleTable(
+            residuals / np.array([noise.position, noise.velocity]), self.run_index
+        )
         self.speed = np.abs(self.predicted[:, 1])
-        self.top = float(self.speed[self.kept].max())
+        self.top = float(self.speed[self.compared].max())
         self.rests = self.speed <= STILL * self.top
 
     @cached_property
@@ -65,16 +67,16 @@ class ResidualBins:
         edges = np.stack([np.linspace(start, end, columns + 1) for start, end in ends])
         since = np.concatenate([run.run_time for run in self.runs])
         names = _names([run.test for run in self.runs])
-        return self.sorted.bin_samples(
-            RUN, names, edges, row=self.number, value=since, way=self.direction
+        return self.samples.bin_samples(
+            RUN, names, edges, row=self.run_index, value=since, way=self.direction
         )
 
     def bin_by_speed(self) -> BinnedResiduals:
         """The residuals binned by direction and speed."""
         edges = _even(0.0, self.top, SPEEDS)
-        return self.sorted.bin_samples(
+        return self.samples.bin_samples(
             SPEED,
-            WAYS,
+            DIRECTIONS,
             edges,
             row=self.moving_row,
             value=self.speed,
@@ -85,11 +87,11 @@ class ResidualBins:
     def bin_by_position(self) -> BinnedResiduals:
         """The residuals binned by direction and position."""
         position = self.predicted[:, 0]
-        kept = position[self.kept]
+        kept = position[self.compared]
         edges = _even(float(kept.min()), float(kept.max()), POSITIONS)
-        return self.sorted.bin_samples(
+        return self.samples.bin_samples(
             POSITION,
-            WAYS,
+            DIRECTIONS,
             edges,
             row=self.moving_row,
             value=position,
@@ -103,22 +105,22 @@ class ResidualBins:
         found = [run.find_steps(largest=largest, still=STILL * self.top) for run in self.runs]
         since, jump = (np.concatenate([one[part] for one in found]) for part in (0, 1))
         row = np.where(jump > 0.0, 0, 1)
-        return self.sorted.bin_samples(
+        return self.samples.bin_samples(
             STEPS, JUMPS, np.tile(AFTER, (2, 1)), row=row, value=since, way=jump
         )
 
     def bin_at_rest(self) -> BinnedResiduals:
         """The residuals at rest, binned by direction and voltage."""
-        held = np.where(self.rests & self.kept, np.abs(self.voltage), np.nan)
+        held = np.where(self.rests & self.compared, np.abs(self.voltage), np.nan)
         most = float(np.max(held, initial=0.0, where=~np.isnan(held)))
         row = np.where(self.rests, self.direction_row, -1)
-        return self.sorted.bin_samples(
-            REST, HELD, _even(0.0, most, VOLTS), row=row, value=held, way=self.direction
+        return self.samples.bin_samples(
+            REST, RESTS, _even(0.0, most, VOLTS), row=row, value=held, way=self.direction
         )
 
 
 def _names(tests: Sequence[str]) -> tuple[str, ...]:
-    """Of each run its test, counted where there are several."""
+    """Name of each run: its test, numbered if there are several of it."""
     return tuple(
         f"{test} ({tests[: i + 1].count(test)})" if tests.count(test) > 1 else test
         for i, test in enumerate(tests)
@@ -126,5 +128,5 @@ def _names(tests: Sequence[str]) -> tuple[str, ...]:
 
 
 def _even(low: float, high: float, columns: int) -> Array:
-    """(2, columns + 1) equal columns for either direction."""
+    """(2, columns + 1) edges of equal columns, the same for both directions."""
     return np.tile(np.linspace(low, max(high, low + 1e-12), columns + 1), (2, 1))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
 STEPS, REST = "after-steps", "at-rest"
 SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
-MANY = 99.5  # [noises] from which on no digit is left out
+MANY = 99.5  # [noises] from which on all digits before the point are given
 FASTER = {
     "position": ("ahead of the position in the model", "behind the position in the model"),
     "velocity": ("faster than in the model", "slower than in the model"),
@@ -18,10 +18,10 @@ class Place:
 
     Args:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps`` or ``at-rest``.
-        where: which one: ``dynamic-forward, 0.2 to 0.4 s``.
-        error: [noises of the signal] mean of what the model leaves there, in the direction of
-            motion: above 0 the robot is faster, or farther, than the model says.
-        sure: [standard errors] how far from nothing that is.
+        where: the bin in words: ``dynamic-forward, 0.2 to 0.4 s``.
+        error: [noises of the signal] mean residual in the direction of motion: above 0 the robot is
+            faster than the model, or ahead of it.
+        sure: [standard errors] absolute value of this mean.
         signal: ``velocity`` or ``position``.
     """
 
@@ -33,7 +33,7 @@ class Place:
 
     @property
     def sentence(self) -> str:
-        """The disagreement in a sentence: where, which way, by how much."""
+        """The disagreement in a sentence: where, in which direction, by how much."""
         ahead, behind = FASTER[self.signal]
         way = ahead if self.error > 0.0 else behind
         return (

@@ -1,8 +1,9 @@
 """Whether the residual repeats when a test is repeated.
 
-    share = 2·Σ a·b/Σ(a² + b² - noise)     of the means a, b of short stretches, at equal times
+    share = 2·Σ a·b/Σ(a² + b² - noise)     with the means a, b of short intervals at equal times
 
-What comes again is physics that the model lacks; what does not is noise, a floor, a hand.
+A residual that repeats is physics that the model lacks; one that does not is noise or a
+disturbance.
 """
 
 import math
@@ -15,10 +16,10 @@ import numpy as np
 from sim.core.log import Array
 from sim.gap.residuals import Residuals
 
-SAME = 0.05  # [share of the largest voltage] RMS by which a repetition's voltage may differ
-STRETCHES, LEAST = 60, 5  # how many at most, and how many samples each at least
-MOSTLY, HARDLY = 0.7, 0.3  # [1] shares from which it comes again, and below which it does not
-LOUD = 3.0  # [standard errors] by which residuals exceed noise
+SAME = 0.05  # [share of the largest voltage] largest RMS difference of a repetition's voltage
+INTERVALS, LEAST = 60, 5  # at most; samples of each, at least
+MOSTLY, HARDLY = 0.7, 0.3  # [1] shares above which residuals repeat, and below which they do not
+LOUD = 3.0  # [standard errors] by which residuals exceed noise, at least
 AGAIN, PARTLY = "comes again", "comes again in part"
 CHANGES, NOISE = "changes from run to run", "is no more than noise"
 
@@ -28,8 +29,8 @@ class Repeat:
     """Two runs of the same test under the same voltage.
 
     Args:
-        test: its name.
-        runs: which two, from 0.
+        test: name of the test.
+        runs: indices of the two runs.
         sure: [standard errors] by which the correlation of both velocity residuals is above 0.
         excess: [1] mean square of the residuals over that of noise alone.
         share: [1] share of the residuals, beyond noise, that is equal in both; may be below 0.
@@ -49,39 +50,43 @@ def compare_repeats(runs: Sequence[Residuals], *, noise: float) -> tuple[Repeat,
     """Compare the residuals of every pair of runs of the same test.
 
     Args:
-        runs: any.
-        noise: [unit/s] of a velocity.
+        runs: residuals of any runs.
+        noise: [unit/s] standard deviation of a velocity.
     """
-    pairs = [pair for pair in combinations(range(len(runs)), 2) if _same(*(runs[i] for i in pair))]
-    return tuple(found for pair in pairs for found in _compared(runs, pair, noise=noise))
+    pairs = [
+        pair for pair in combinations(range(len(runs)), 2) if _are_repeats(*(runs[i] for i in pair))
+    ]
+    return tuple(found for pair in pairs for found in _compare_pair(runs, pair, noise=noise))
 
 
-def _same(one: Residuals, other: Residuals) -> bool:
+def _are_repeats(one: Residuals, other: Residuals) -> bool:
+    """Whether two runs are of the same test, with about the same voltage."""
     n = min(one.time.size, other.time.size)
     if one.test != other.test or n < 2 * LEAST:
         return False
     across = np.interp(one.run_time[:n], other.run_time, other.voltage)
-    apart = math.sqrt(float(np.mean((one.voltage[:n] - across) ** 2)))
-    return apart <= SAME * float(np.abs(one.voltage).max())
+    difference = math.sqrt(float(np.mean((one.voltage[:n] - across) ** 2)))
+    return difference <= SAME * float(np.abs(one.voltage).max())
 
 
-def _compared(
+def _compare_pair(
     runs: Sequence[Residuals], pair: tuple[int, int], *, noise: float
 ) -> Iterator[Repeat]:
+    """The comparison of two runs; nothing if they have too few common samples."""
     one, other = (runs[number] for number in pair)
     n = min(one.time.size, other.time.size)
     ends = np.linspace(
-        0.0, min(one.run_time[n - 1], other.run_time[n - 1]), min(STRETCHES, n // LEAST) + 1
+        0.0, min(one.run_time[n - 1], other.run_time[n - 1]), min(INTERVALS, n // LEAST) + 1
     )
-    (a, enough), (b, too) = (_interval_means(run, ends, noise=noise) for run in (one, other))
-    both = (enough >= LEAST - 1) & (too >= LEAST - 1)
-    a, b, counts = a[both], b[both], np.minimum(enough, too)[both]
+    (a, count_a), (b, count_b) = (_interval_means(run, ends, noise=noise) for run in (one, other))
+    both = (count_a >= LEAST - 1) & (count_b >= LEAST - 1)
+    a, b, counts = a[both], b[both], np.minimum(count_a, count_b)[both]
     if a.size < LEAST:
         return
     size = math.sqrt(float(a @ a) * float(b @ b))
     correlation = float(a @ b) / size if size > 0.0 else 0.0
-    alike = _lag_one_correlation(a) * _lag_one_correlation(b)
-    sure = correlation * math.sqrt(a.size * (1.0 - alike) / (1.0 + alike))
+    rho = _lag_one_correlation(a) * _lag_one_correlation(b)
+    sure = correlation * math.sqrt(a.size * (1.0 - rho) / (1.0 + rho))
     excess = float(np.mean(counts * (a**2 + b**2))) / 2.0
     share = float(np.mean(counts * a * b)) / max(excess - 1.0, 1e-9)
     if excess < 1.0 + LOUD * math.sqrt(1.0 / a.size):
@@ -92,16 +97,16 @@ def _compared(
 
 
 def _interval_means(run: Residuals, ends: Array, *, noise: float) -> tuple[Array, Array]:
-    """[noise] mean velocity residual in each stretch, and its number of samples."""
-    missed = run.error[:, 1] / noise
-    there = ~np.isnan(missed) & (run.run_time < ends[-1])
+    """[noise] mean velocity residual in each interval, and its number of samples."""
+    residual = run.error[:, 1] / noise
+    there = ~np.isnan(residual) & (run.run_time < ends[-1])
     place = np.searchsorted(ends, run.run_time[there], side="right") - 1
     count = np.bincount(place, minlength=ends.size - 1).astype(np.float64)
-    total = np.bincount(place, missed[there], minlength=ends.size - 1)
+    total = np.bincount(place, residual[there], minlength=ends.size - 1)
     return total / np.maximum(count, 1.0), count
 
 
 def _lag_one_correlation(values: Array) -> float:
-    """Lag-one correlation, from 0."""
+    """[1] lag-one autocorrelation, clamped to 0 and 0.95."""
     square = float(values @ values)
     return min(max(float(values[1:] @ values[:-1]) / square, 0.0), 0.95) if square > 0.0 else 0.0

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from sim.core.log import Array
 
-JUMP = 0.2  # [share of the largest voltage] a change of it, from one sample to the next, is a step
-QUIET = 0.25  # [share of that jump] that the voltage may change before and after a step
+JUMP = 0.2  # [share of the largest voltage] change between two samples that is a step
+QUIET = 0.25  # [share of the step] that the voltage may change before and after it
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,12 +17,13 @@ class Residuals:
     """The residuals of one run: of an open-loop simulation, or innovations.
 
     Args:
-        test: its name.
+        test: name of the test.
         time: (n,) [s] on any clock.
         voltage: (n,) [V].
-        predicted: (n, 2) [unit, unit/s] position and velocity, as the model has them. What is
-            measured is sorted by these alone: sorted by its own noise it would show what is not.
-        error: (n, 2) [the same] measured less predicted; nan where nothing is compared.
+        predicted: (n, 2) [unit, unit/s] predicted position and velocity. The residuals are binned
+            by
+            these: with measured values, their noise would bias the means.
+        error: (n, 2) [unit, unit/s] measured minus predicted; nan where nothing is compared.
     """
 
     test: str
@@ -33,7 +34,7 @@ class Residuals:
 
     @cached_property
     def compared(self) -> NDArray[np.bool_]:
-        """(n,) where a position or a velocity is compared."""
+        """(n,) whether a position or a velocity is compared."""
         return np.asarray(~np.isnan(self.error).all(axis=1))
 
     @cached_property
@@ -44,17 +45,17 @@ class Residuals:
     def find_steps(self, *, largest: float, still: float) -> tuple[Array, Array]:
         """(n,) [s] since the last voltage step, nan before one; and (n,) its direction, ±1.
 
-        A step stands alone: before and after it the voltage hardly changes, unlike in a chirp.
+        Before and after a step the voltage hardly changes, unlike in a chirp.
 
         Args:
-            largest: [V] of all runs.
-            still: [unit/s] slower is at rest; a run that begins at rest begins with a step from
-                0 V, and one that begins in motion does not.
+            largest: [V] largest voltage of all runs.
+            still: [unit/s] a slower mechanism is at rest. A run that begins at rest begins with a
+                step from 0 V, one that begins in motion does not.
         """
         before = 0.0 if abs(self.predicted[0, 1]) <= still else self.voltage[0]
         change = np.diff(self.voltage, prepend=before)
-        beside = np.abs(np.concatenate(([0.0], change, [0.0])))
-        calm = np.maximum(beside[:-2], beside[2:]) < QUIET * np.abs(change)
+        sizes = np.abs(np.concatenate(([0.0], change, [0.0])))
+        calm = np.maximum(sizes[:-2], sizes[2:]) < QUIET * np.abs(change)
         at = np.flatnonzero((np.abs(change) > JUMP * largest) & calm)
         if not at.size:
             return np.full(self.time.size, np.nan), np.ones(self.time.size)
