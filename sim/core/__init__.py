@@ -1,1 +1,1 @@
-"""What everything speaks of: logs, units, fixed names, errors and doubts."""
+"""Logs, units, fixed names, errors and warnings, which all other packages use."""

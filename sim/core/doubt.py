@@ -2,17 +2,17 @@
 
 from dataclasses import dataclass
 
-SHOWN_FIRST = frozenset({"contradicting-units", "not-volts"})  # all that follows depends on these
+SHOWN_FIRST = frozenset({"contradicting-units", "not-volts"})  # all others depend on these
 
 
 @dataclass(frozen=True)
 class Doubt:
-    """A warning about a result. In JSON output doubts stand under ``warnings``.
+    """A warning about a result; in JSON output its key is ``warnings``.
 
     Args:
-        code: a short fixed name for programs, e.g. ``negative-gain``.
-        message: cause and cure, one or two sentences for people.
-        grave: the result it stands beside cannot be right, rather than only be looked at twice.
+        code: a short fixed name for programs, like ``negative-gain``.
+        message: cause and advice, in one or two sentences for the user.
+        grave: whether the result cannot be right; if not, it only has to be checked.
     """
 
     code: str

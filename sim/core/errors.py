@@ -1,24 +1,24 @@
 """All exceptions raised on purpose: one line with what is wrong, where, and what to do next.
 
     Refusal
-    ├── UnreadableFile    missing, empty, damaged, truncated, or of a format nobody here reads
-    ├── MissingSignal     the file is sound, but an entry that a fit needs is not in it
+    ├── UnreadableFile    missing, empty, damaged, truncated, or of an unknown format
+    ├── MissingSignal     the file is intact, but an entry that a fit needs is missing
     ├── BadSample         a number that cannot be a measurement: nan, infinite, out of order
-    ├── NotIdentifiable   the log is sound, but does not determine the gains
-    └── BadRequest        what was asked for cannot be done: unknown name, value out of range,
+    ├── NotIdentifiable   the log is intact, but does not determine the gains
+    └── BadRequest        a request that cannot be carried out: unknown name, value out of range,
                           a folder that cannot be written
 
 A command turns any of them into one line on standard error and exit code 2.
 """
 
 
-class Refusal(Exception):  # noqa: N818 - a refusal is an answer, not a fault of the program
+class Refusal(Exception):  # noqa: N818 - not an error of the program
     """Base class of all errors raised on purpose: what is wrong, where, and what to do.
 
     Args:
         what: the problem, with its size: ``velocity is nan``.
         where: the file, and the place in it: ``log.csv, line 17``; may be empty.
-        advice: what the reader does next, an imperative sentence.
+        advice: what to do next, an imperative sentence.
     """
 
     def __init__(self, what: str, *, where: str = "", advice: str) -> None:
@@ -28,8 +28,8 @@ class Refusal(Exception):  # noqa: N818 - a refusal is an answer, not a fault of
         super().__init__(what, where, advice)
 
     def __reduce__(self) -> tuple[object, ...]:
-        """How it travels from one process to another."""
-        return _again, (type(self), self.what, self.where, self.advice)
+        """How to pickle it, to send it from one process to another."""
+        return _rebuild, (type(self), self.what, self.where, self.advice)
 
     def __str__(self) -> str:
         said = f"{self.where}: {self.what}" if self.where else self.what
@@ -41,7 +41,7 @@ class UnreadableFile(Refusal):
 
 
 class MissingSignal(Refusal):
-    """A sound file that lacks an entry which the work at hand needs."""
+    """An intact file without an entry that is needed."""
 
 
 class BadSample(Refusal):
@@ -49,12 +49,13 @@ class BadSample(Refusal):
 
 
 class NotIdentifiable(Refusal):
-    """A sound log that does not determine the gains."""
+    """An intact log that does not determine the gains."""
 
 
 class BadRequest(Refusal):
-    """A request that cannot be met as it was made."""
+    """A request that cannot be carried out."""
 
 
-def _again(kind: type[Refusal], what: str, where: str, advice: str) -> Refusal:
+def _rebuild(kind: type[Refusal], what: str, where: str, advice: str) -> Refusal:
+    """An unpickled refusal."""
     return kind(what, where=where, advice=advice)

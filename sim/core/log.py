@@ -1,8 +1,7 @@
 """Log and Run: the recorded tests of one mechanism, from a robot or from the simulation.
 
-Everything is in SI: seconds, volts, meters or radians. The unit the owner of the log thinks in
-travels along as a name (``Log.units``); conversion happens where a file is read and where a
-number is shown, nowhere between.
+Everything is in SI: seconds, volts, meters or radians. ``Log.units`` is the name of the unit of the
+log's owner. Numbers are converted only when a file is read, and when they are shown.
 """
 
 import math
@@ -18,7 +17,7 @@ from sim.core.errors import BadRequest, BadSample
 from sim.core.units import find_unit
 from sim.core.vocabulary import DIRECTIONS, FOUR_TESTS, KINDS, TESTS, TYPES
 
-__all__ = [  # the words come along, for those who work on logs
+__all__ = [  # with the fixed names, which code that works on logs needs
     "DIRECTIONS",
     "FOUR_TESTS",
     "KINDS",
@@ -32,10 +31,10 @@ __all__ = [  # the words come along, for those who work on logs
 
 Array: TypeAlias = NDArray[np.float64]
 
-LARGEST = 1e9  # [any SI unit] no robot shows a reading this large; squares of it still fit a double
-CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # whose command stands between steps
-LONE_STEP = 2.0  # [1] times the changes beside it, from which a change is a step
-LEAST_STEP = 0.25  # [of the largest voltage] that a step of the command changes
+LARGEST = 1e9  # [any SI unit] larger than any reading of a robot; its square still fits a double
+CONSTANT_KINDS = frozenset({"dynamic", "coast", "multistep"})  # tests with a constant command
+LONE_STEP = 2.0  # [1] ratio to the changes before and after, from which on a change is a step
+LEAST_STEP = 0.25  # [share of the largest voltage] least step of a command
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,12 +47,12 @@ class Run:
         voltage: (n,) [V], applied from this sample until the next.
         position: (n,) [m or rad].
         velocity: (n,) [m/s or rad/s].
-        current: (n,) [A], where it was recorded.
-        bus_voltage: (n,) [V], where it was recorded.
+        current: (n,) [A] of a motor; None if it was not recorded.
+        bus_voltage: (n,) [V] of the battery; None if it was not recorded.
 
     Raises:
         BadRequest: ``test`` is not the name of a test.
-        BadSample: lengths differ, a value is not finite or is absurd, or time stands still.
+        BadSample: lengths differ, a value is not finite or too large, or time does not increase.
 
     Examples:
         >>> run = Run("dynamic-forward", time=[0.0, 0.02], voltage=[7.0, 7.0],
@@ -98,11 +97,12 @@ class Run:
     def voltage_slide(self) -> Array:
         """(n,) [V] linear change of the voltage from each sample to the next; 0 if it is held.
 
-        A program sets a voltage once a loop and holds it, so a ramp is a stair. Where the command
-        is constant, a voltage that changes from sample to sample follows the speed: a current
-        limit or a weak battery acts. A large change that is more than twice as large as those
-        before and after it is a step of the command, which is held. Dynamic and coast tests know
-        two commands only, the step and nothing, so from one voltage to another it slides.
+        A program sets a voltage once per loop and holds it, so a ramp is a staircase. In a test
+        with a constant command, a voltage that changes from sample to sample follows the speed,
+        because of a current limit or a weak battery, and is interpolated. A large change of more
+        than twice those before and after it is a step of the command, which is held. Dynamic and
+        coast tests have only two commands, the step and zero, so only a change from or to almost
+        zero is a step.
         """
         change = np.diff(self.voltage)
         if self.kind not in CONSTANT_KINDS or not change.any():
@@ -119,19 +119,20 @@ class Run:
     def voltage_error(self) -> Array:
         """(n,) [V] standard deviation of the mean voltage from each sample to the next.
 
-        It is 0 where the voltage is held. A limit that begins or ends to act between two samples
-        bends the voltage there. The chord of a path with one bend misses its mean by at most an
-        eighth of the change of slope. A slide that is over within one sample may have any slope:
-        its mean lies evenly between the two readings.
+        It is 0 where the voltage is held. A limit that begins or ends between two samples gives the
+        voltage a kink there, and the mean differs from that of a straight line by at most an eighth
+        of the change of slope. If the voltage changes within one sample only, its mean is uniformly
+        distributed between the two readings.
         """
         slides = np.append(0.0, self.voltage_slide)
         before, here, after = slides[:-2], slides[1:-1], slides[2:]
-        bends = np.max(np.abs([after - before, here - before, after - here]), axis=0, initial=0.0)
-        alone = (before == 0.0) & (after == 0.0)
-        error = np.where(alone, np.abs(here) / math.sqrt(12.0), bends / 8.0)
+        kinks = np.max(np.abs([after - before, here - before, after - here]), axis=0, initial=0.0)
+        isolated = (before == 0.0) & (after == 0.0)
+        error = np.where(isolated, np.abs(here) / math.sqrt(12.0), kinks / 8.0)
         return _frozen(np.append(np.where(here == 0.0, 0.0, error), 0.0))
 
     def _check(self, name: str, values: Array) -> None:
+        """Refuse a signal with a wrong length, or with values that are not finite or too large."""
         if values.shape != (self.time.size,):
             raise BadSample(
                 f"{name} has shape {values.shape} where time has {self.time.size} samples",
@@ -151,7 +152,7 @@ class Run:
 
     @property
     def kind(self) -> str:
-        """What the voltage does, the first half of the test's name: ``quasistatic``."""
+        """Kind of the test, the first part of its name: ``quasistatic``."""
         return self.test.rpartition("-")[0]
 
     @property
@@ -165,12 +166,15 @@ class Log:
     """The runs of one mechanism, with unit, type and origin.
 
     Args:
-        runs: in the order they were recorded.
-        units: the unit of position its owner thinks in, a name in ``sim.core.units.UNITS``.
-        mechanism: its name, where the source says it.
-        type: ``simple``, ``elevator`` or ``arm`` where the source says it, else empty.
+        runs: the runs, in the order in which they were recorded.
+        units: unit of position of its owner, a name in ``sim.core.units.UNITS``.
+        mechanism: name of the mechanism; empty if unknown.
+        type: ``simple``, ``elevator`` or ``arm``; empty if unknown.
         source: the file it was read from, for messages; empty if none.
-        doubts: what was odd about the source.
+        doubts: warnings about the source.
+
+    Raises:
+        BadRequest: an unknown unit or type.
 
     Examples:
         >>> run = Run("quasistatic-reverse", [0.0], [0.0], [0.0], [0.0])
@@ -201,7 +205,7 @@ class Log:
 
     @property
     def has_ramps_and_steps(self) -> bool:
-        """Whether it holds quasistatic and dynamic tests, so that it can be fitted alone."""
+        """Whether it has quasistatic and dynamic tests, so that it can be fitted alone."""
         return {run.kind for run in self.runs} >= {"quasistatic", "dynamic"}
 
     def list_runs_of_test(self, test: str) -> tuple[Run, ...]:
@@ -209,7 +213,7 @@ class Log:
         return tuple(run for run in self.runs if run.test == test)
 
     def join(self, other: "Log") -> "Log":
-        """The runs of two logs of one mechanism together.
+        """A log with the runs and warnings of two logs of one mechanism.
 
         Raises:
             BadRequest: one measures a length, the other an angle.

@@ -1,4 +1,4 @@
-"""Units of position of a log. Inside, everything is SI: meters or radians, and seconds."""
+"""Units of position. Logs and gains in memory are in SI: meters or radians, and seconds."""
 
 import math
 from collections.abc import Mapping
@@ -12,9 +12,9 @@ class Unit:
     """A unit of position.
 
     Args:
-        name: as on the command line: ``meters``.
-        symbol: as in a table: ``m``.
-        si: how many meters or radians one of it is.
+        name: name on the command line: ``meters``.
+        symbol: symbol in messages and tables: ``m``.
+        si: [m or rad] its size in SI.
         angular: whether it measures an angle.
     """
 
@@ -42,7 +42,7 @@ def convert_gains(gains: Mapping[str, float], *, factor: float) -> dict[str, flo
 
     Args:
         gains: gain -> value; only kV and kA depend on the unit of position.
-        factor: ``unit("rotations").si`` turns gains per radian into gains per rotation.
+        factor: ``find_unit("rotations").si`` converts gains per radian to gains per rotation.
 
     Examples:
         >>> convert_gains({"kV": 0.02}, factor=find_unit("rotations").si)["kV"]  # [V·s/rotation]
