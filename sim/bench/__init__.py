@@ -1,1 +1,1 @@
-"""The simulated mechanism: the truth. Nothing that fits may import from here."""
+"""Simulated mechanisms with known gains. Code that fits must not import from here."""

@@ -1,10 +1,10 @@
-"""Simulate a program that commands a share of the battery voltage instead of a voltage.
+"""Simulate a program that commands a duty cycle instead of a voltage.
 
-    D = V/12                          the duty cycle that ``set(volts / 12)`` asks for
-    Vbat = V0 - Rb·D·n·I              what the battery gives while the motors draw from it
-    I = (D·Vbat - Ke·G/r·v) / R       the current of one motor at speed v
+    D = V/12                          duty cycle of ``set(volts / 12)``
+    Vbat = V0 - Rb·D·n·I              battery voltage under the current of n motors
+    I = (D·Vbat - Ke·G/r·v) / R       current of one motor at speed v
 
-so that the motors get D·Vbat, not V.
+The motors get D·Vbat, not V.
 """
 
 import math
@@ -35,18 +35,18 @@ def simulate_duty_cycle(
     """Run a routine that sets a duty cycle, ``motor.set(volts / 12)``; no current limit.
 
     Args:
-        mechanism: what is tested.
+        mechanism: the mechanism.
         routine: the commanded voltages.
-        rng: the source of noise and jitter.
-        battery: what feeds it.
+        rng: random generator of noise and jitter.
+        battery: the battery.
 
     Returns:
-        The log with the voltage that really reached the motors, and the battery's as
-        ``bus_voltage``. The command was 12 V times motor voltage over bus voltage. If the
-        battery falls below ``LOWEST``, the log has a warning, and the simulation goes on.
+        The log with the motor voltage, and the battery voltage as ``bus_voltage``. The command was
+        12 V times motor voltage over bus voltage. If the battery voltage falls below ``LOWEST``,
+        the log has a warning, and the simulation continues.
 
     Raises:
-        BadRequest: as for ``simulate``.
+        BadRequest: as ``simulate``.
     """
     unlimited = replace(mechanism, battery=battery, stator=math.inf, supply=math.inf, brownout=0.0)
     log = simulate(unlimited, routine, rng=rng, duty_cycle=True, electrical=True)
@@ -55,6 +55,7 @@ def simulate_duty_cycle(
 
 
 def _brownout(lowest: float) -> Doubt:
+    """A warning about a battery voltage [V] at which a robot controller disables the motors."""
     return Doubt(
         "brownout",
         f"The battery falls to {lowest:.1f} V. Below {LOWEST} V a real robot stops its motors, "

@@ -19,13 +19,13 @@ def write_ground_truth(
     path: Path,
     faults: Iterable[tuple[str, float, LogInterval]] = (),
 ) -> None:
-    """Write the true gains, per unit of the mechanism's own logs, and what is hidden, as JSON.
+    """Write the true gains, in the unit of the logs, and hidden effects and faults, as JSON.
 
     Args:
-        mechanism: as it was simulated.
+        mechanism: the simulated mechanism.
         routine: its tests.
         path: the file.
-        faults: name, severity and place of each damage done to the record.
+        faults: name, severity and interval of each fault in the log.
 
     Raises:
         BadRequest: the file cannot be written.

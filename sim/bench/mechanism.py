@@ -5,8 +5,8 @@ Its gains follow from its parts:
     kV = Ke·G/r · (1 + drag)        kA = R·r/(n·Kt·G) · m · (1 + spin)
     kG = R·r/(n·Kt·G) · m · lift    where there is gravity
 
-with ratio G, radius r (1 for what turns), n motors and the moved mass m, or inertia J. A module in
-``sim/bench/mechanisms`` offers one as ``MECHANISM``.
+with ratio G, radius r (1 if the position is an angle), n motors and the moved mass m, or inertia J.
+A module in ``sim/bench/mechanisms`` defines one mechanism as ``MECHANISM``.
 """
 
 import math
@@ -18,15 +18,15 @@ from sim.core.errors import BadRequest
 from sim.core.units import find_unit
 from sim.physics.battery import CONTROLLERS, Battery
 from sim.physics.effect import Scale
-from sim.physics.effects import find_effect as find
+from sim.physics.effects import find_effect
 from sim.physics.model import Model, Part
 from sim.physics.motors import Motor
 
 if TYPE_CHECKING:
     import numpy as np
 
-LARGEST = 5.0  # [1] size of a hidden effect beyond which nothing would move as a robot does
-ORDINARY_STEP = 3.5  # [V] dynamic test by which effects are sized
+LARGEST = 5.0  # [1] largest size of a hidden effect, with which a robot still moves
+ORDINARY_STEP = 3.5  # [V] step of a dynamic test, by which effects are sized
 
 
 @dataclass(frozen=True)
@@ -35,13 +35,13 @@ class Sensor:
 
     Args:
         resolution: [m or rad] smallest step of the position.
-        velocity_noise: [m/s or rad/s] standard deviation while moving; an encoder at rest is quiet.
-        noise_speed: [m/s or rad/s] speed at which the noise has reached about two thirds of that.
-        jitter: [s] standard deviation of the sample times about the loop's period.
-        filter: [s] over which the motor controller averages the velocity.
-        latency: [s] from motion to the value that the robot program reads.
-        frame: [s] between two status frames on the bus; a reading stands until the next. 0 reads at
-            the moment asked.
+        velocity_noise: [m/s or rad/s] standard deviation in motion; at rest there is none.
+        noise_speed: [m/s or rad/s] speed at which the noise is about two thirds of that.
+        jitter: [s] standard deviation of the sample times about multiples of the period.
+        filter: [s] time over which the motor controller averages the velocity.
+        latency: [s] delay from motion to the value that the robot program reads.
+        frame: [s] time between two status frames on the bus; a reading repeats until the next one.
+            0 has no frames.
     """
 
     resolution: float
@@ -55,35 +55,35 @@ class Sensor:
 
 @dataclass(frozen=True)
 class Mechanism:
-    """A robot mechanism, as built.
+    """A robot mechanism.
 
     Args:
-        name: as on the command line.
+        name: name on the command line.
         summary: one line for a list.
         type: ``simple``, ``elevator`` or ``arm``.
-        units: the unit of position a team would log it in.
-        motor: which one drives it.
-        motor_count: how many of them.
-        ratio: motor turns per turn of the output.
-        radius: [m] of wheel or drum; 1 where the output's own angle is the position. Of a robot
-            that turns on the spot: the wheels' radius over their distance from its middle.
-        load: [kg] moved mass, or [kg·m²] inertia where the position is an angle.
+        units: unit of position of its logs.
+        motor: the motor.
+        motor_count: number of motors.
+        ratio: [1] motor turns per turn of the output.
+        radius: [m] of wheel or drum; 1 if the angle of the output is the position. For a robot that
+            turns on the spot: [1] the wheels' radius over their distance from its center.
+        load: [kg] moved mass, or [kg·m²] inertia if the position is an angle.
         friction: [V] kS.
-        drag: share by which kV exceeds the motor's own.
-        spin: share by which rotors and wheels add to the load.
-        travel: [m or rad] how far a test may go; None is without end.
-        sensor: what reads it.
-        spread: field -> (least, most) from which ``draw`` takes a realistic other one.
-        lift: [m/s² or rad/s²] that gravity would give the load by itself, of an arm when level.
+        drag: [1] share by which kV exceeds that of the motor.
+        spin: [1] share of the load by which rotors and wheels add to it.
+        travel: [m or rad] length of the travel; None is unlimited.
+        sensor: the sensor.
+        spread: field -> (least, most) between which ``draw`` chooses a value.
+        lift: [m/s² or rad/s²] acceleration of the load by gravity alone, of an arm when level.
         lowest: [m or rad] position of the lower stop; None has no stops, and a test ends after
-            ``travel`` from where it began.
-        battery: what feeds it.
+            ``travel`` from its start.
+        battery: the battery.
         stator: [A] limit of a motor's current.
-        supply: [A] limit of what one controller draws.
-        brownout: [V] below which the motors are taken off.
+        supply: [A] limit of the supply current of a motor controller.
+        brownout: [V] battery voltage below which the motors are disabled.
         grip: [m/s² or rad/s²] acceleration of the load at which its wheels begin to slip; None if
             nothing can slip.
-        hidden: effects that its team does not know of.
+        hidden: effects that are not in the gains.
     """
 
     name: str
@@ -141,7 +141,7 @@ class Mechanism:
 
     @property
     def scale(self) -> Scale:
-        """Ordinary speeds, voltages and times of the mechanism, by which effects are sized."""
+        """Typical voltage, travel and gains of the mechanism, by which effects are sized."""
         gains = self.gains
         speed = max(ORDINARY_STEP - gains["kS"], 0.1 * ORDINARY_STEP) / gains["kV"]
         return Scale(
@@ -164,14 +164,14 @@ class Mechanism:
         """A copy of the mechanism with a hidden effect.
 
         Args:
-            effect: its name.
-            size: 1 is ordinary, a third of it subtle.
+            effect: name of the effect.
+            size: [1] 1 is ordinary, a third is subtle, 0 hides nothing.
 
         Raises:
-            BadRequest: no such effect, it is there already, the mechanism cannot have it, or the
-                size is not one.
+            BadRequest: no such effect, it is hidden already, the mechanism cannot have it, or the
+                size is out of range.
         """
-        known = find(effect)
+        known = find_effect(effect)
         if not (math.isfinite(size) and 0.0 <= size <= LARGEST):
             raise BadRequest(
                 f"{effect} of size {size:g}",
@@ -184,7 +184,7 @@ class Mechanism:
         if size == 0.0:
             return self
         hidden = (*self.hidden, Part(effect, dict(known.example(self.scale, size))))
-        Model(self.type, self.gains, hidden)  # refuses what does not go together
+        Model(self.type, self.gains, hidden)  # refuses incompatible effects
         return replace(self, hidden=hidden)
 
 

@@ -1,10 +1,10 @@
-"""Recorders: how often a device measures, filters and sends what a robot program logs.
+"""Recorders: how a device measures, filters and sends the values that a robot program logs.
 
     mechanism = RECORDERS["sparkmax"].record(MECHANISMS["drivetrain"])
     log = simulate(mechanism, Routine(), rng=rng, period=RECORDERS["sparkmax"].period)
 
-A filter is one moving average whose delay is the published one: Phoenix 5 averages differences over
-100 ms for 64 ms, which is 81.5 ms late, as an average over 163 ms is.
+A filter is one moving average with the published delay: Phoenix 5 averages differences over 100 ms
+for 64 ms. Its delay of 81.5 ms is that of an average over 163 ms.
 
 Sources: the measurement delays are those of WPILib SysId's presets, T(n - 1)/2 for n averaged
 differences; the frame rates are the vendors' defaults (Phoenix 6: 50 Hz on CAN 2.0, 100 Hz on
@@ -24,10 +24,10 @@ class Recorder:
 
     Args:
         summary: one line for a list.
-        period: [s] between two samples of the log.
-        frame: [s] between two status frames; 0 reads at the moment asked.
-        filter: [s] over which the velocity is averaged.
-        latency: [s] from motion to reading.
+        period: [s] time between two samples of the log.
+        frame: [s] time between two status frames; 0 has no frames.
+        filter: [s] time over which the velocity is averaged.
+        latency: [s] delay from motion to reading.
     """
 
     summary: str
@@ -68,7 +68,7 @@ def find_recorder(name: str) -> Recorder:
     """Look up a recorder.
 
     Raises:
-        BadRequest: there is none.
+        BadRequest: no such recorder; the message lists those there are.
     """
     if name not in RECORDERS:
         raise BadRequest(

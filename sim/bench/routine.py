@@ -2,15 +2,15 @@
 
     quasistatic   V = ± ramp · t            dynamic   V = ± step
 
-and what tells effects apart that those four tests cannot, within the same bounds:
+and further tests, which tell effects apart that the four tests cannot:
 
-    coast         ± step, then nothing      triangle  ± up to the step, down to minus it, and back
-    multistep     ± steps of many sizes     chirp     ± swings that get faster
+    coast         ± step, then zero         triangle  ± up to the step, down to minus it, and back
+    multistep     ± steps of many sizes     chirp     ± a sine whose frequency rises
 
-A test starts its timer in one loop of the robot program and drives in the loops after the next, so
-the first voltage of a ramp is ``ramp`` times two periods, not zero. It ends after ``timeout``, or
-when the person at the controller lets go. Source: WPILib 2026.2.2, ``SysIdRoutine``; the number of
-loops from a run of RobotPy's.
+A test starts its timer in one loop of the robot program and applies a voltage from the second loop
+after it on, so the first voltage of a ramp is ``ramp`` times two periods, not zero. It ends after
+``timeout``, or when the button is released. Source: WPILib 2026.2.2, ``SysIdRoutine``; the number
+of loops is from a run of RobotPy's.
 """
 
 import math
@@ -20,11 +20,11 @@ from sim.core.errors import BadRequest
 from sim.core.log import DIRECTIONS, KINDS
 
 LOOPS_BEFORE_DRIVE = 2  # loops from the start of the timer to the first voltage
-COAST_AFTER = 1.0  # [s] of drive before the motor is left alone
+COAST_AFTER = 1.0  # [s] of the step before the coast
 LEVELS = (0.4, 0.8, -0.4, 0.6, -0.8, 1.0, -0.6, 0.2, -1.0, -0.2)  # [share of the step] of multistep
-LEVEL_LASTS = 0.5  # [s]
-SLOWEST_SWING, FASTEST_SWING = 0.2, 4.0  # [Hz] of a chirp, from its beginning to its timeout
-TRIANGLE_RISES = 2.0  # [s] from nothing to the step
+LEVEL_LASTS = 0.5  # [s] length of each level
+SLOWEST_SWING, FASTEST_SWING = 0.2, 4.0  # [Hz] frequency of a chirp at its start and timeout
+TRIANGLE_RISES = 2.0  # [s] from zero to the step
 
 
 @dataclass(frozen=True)
@@ -32,14 +32,13 @@ class Routine:
     """The Config of a SysIdRoutine; its defaults are WPILib's.
 
     Args:
-        ramp: [V/s] of the quasistatic tests.
-        step: [V] of the dynamic tests.
-        timeout: [s] after which a test ends by itself.
-        kinds: of test, each forward and reverse; SysIdRoutine itself has the first two.
+        ramp: [V/s] ramp rate of the quasistatic tests.
+        step: [V] voltage of the dynamic tests.
+        timeout: [s] longest duration of a test.
+        kinds: kinds of test, each run forward and reverse; SysIdRoutine has the first two.
 
     Raises:
-        BadRequest: a number is not positive and finite, a voltage beyond the battery's, or a kind
-            that there is not.
+        BadRequest: a number out of range, or a kind that is unknown or there twice.
     """
 
     ramp: float = 1.0
@@ -57,8 +56,8 @@ class Routine:
                     advice=f"Choose a number above 0, at most {most:g} {symbol}.",
                 )
 
-        strange = [kind for kind in self.kinds if kind not in KINDS]
-        if strange or not self.kinds or len(set(self.kinds)) < len(self.kinds):
+        unknown = [kind for kind in self.kinds if kind not in KINDS]
+        if unknown or not self.kinds or len(set(self.kinds)) < len(self.kinds):
             raise BadRequest(
                 f"tests of the kinds {', '.join(self.kinds) or '(none)'}",
                 advice=f"Choose from these, each at most once: {', '.join(KINDS)}.",
@@ -70,7 +69,7 @@ class Routine:
         return tuple(f"{kind}-{way}" for kind in self.kinds for way in DIRECTIONS)
 
     def find_longest_duration(self, _test: str, /) -> float:
-        """[s] duration of a test that no end of the travel cuts short."""
+        """[s] duration of a test that does not reach the end of the travel."""
         return self.timeout
 
     def command_voltage(self, test: str, time: float) -> float:
@@ -78,10 +77,10 @@ class Routine:
 
         Args:
             test: one of ``tests``.
-            time: [s] since its timer started.
+            time: [s] since the timer started.
 
         Returns:
-            [V], negative in a reverse test.
+            [V] the command of a forward test, negated in a reverse test.
         """
         kind, _, way = test.rpartition("-")
         return (1.0 if way == "forward" else -1.0) * self._forward(kind, time)
@@ -93,12 +92,12 @@ class Routine:
                 return self.ramp * time
             case "coast":
                 return self.step if time < COAST_AFTER else 0.0
-            case "triangle":  # up, down through nothing to the other side, and back
+            case "triangle":  # up, down to the negative step, and back to zero
                 phase = (time / TRIANGLE_RISES) % 4.0
                 return self.step * (abs((phase + 3.0) % 4.0 - 2.0) - 1.0)
             case "multistep":
                 return self.step * LEVELS[int(time / LEVEL_LASTS) % len(LEVELS)]
-            case "chirp":  # the phase is the integral of a frequency that rises evenly
+            case "chirp":  # the phase is the integral of a frequency that rises linearly
                 rise = (FASTEST_SWING - SLOWEST_SWING) / self.timeout
                 return self.step * math.sin(
                     2.0 * math.pi * (SLOWEST_SWING + 0.5 * rise * time) * time

@@ -12,8 +12,8 @@ class SensorReading(NamedTuple):
     """Position and velocity as the robot program reads them.
 
     Args:
-        position: (n,) [m or rad] in steps of the resolution.
-        velocity: (n,) [m/s or rad/s].
+        position: (n,) [m or rad] rounded to the resolution.
+        velocity: (n,) [m/s or rad/s] with noise.
     """
 
     position: Array
@@ -33,14 +33,14 @@ def read_sensor(
 
     Args:
         sensor: the sensor.
-        position: (n,) [m or rad].
-        velocity: (n,) [m/s or rad/s].
-        rng: the source of noise.
-        time: (n,) [s]; needed by a sensor that is late, filters or sends frames.
-        read_at: (m,) [s] when the robot program reads such a sensor; by default at every ``time``.
+        position: (n,) [m or rad] true position.
+        velocity: (n,) [m/s or rad/s] true velocity.
+        rng: random generator of the noise.
+        time: (n,) [s]; needed for a sensor with latency, filter or frames.
+        read_at: (m,) [s] times at which the robot program reads such a sensor; by default ``time``.
 
     Returns:
-        (m,) readings.
+        (m,) readings, or (n,) without ``read_at``.
     """
     read_at = time if read_at is None else read_at
     noise = rng.standard_normal(velocity.size if read_at is None else read_at.size)
@@ -50,7 +50,7 @@ def read_sensor(
             phase = sensor.frame * rng.random()
             frame = np.floor((at - phase) / sensor.frame)
             at = frame * sensor.frame + phase
-            first = np.searchsorted(frame, frame)  # a frame is read as often as it is there
+            first = np.searchsorted(frame, frame)  # all readings of a frame have the same noise
             noise = noise[first]
         way = np.concatenate(
             ([0.0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time)))
@@ -70,15 +70,20 @@ def read_sensor(
 
 
 def has_sensor_lag(sensor: Sensor) -> bool:
-    """Whether a sensor reports an earlier moment than that at which it is read."""
+    """Whether a sensor has latency, a filter or frames, so that its readings are late."""
     return bool(sensor.latency or sensor.filter or sensor.frame)
 
 
 def interpolate_cubic(at: Array, time: Array, value: Array, slope: Array) -> Array:
     """(m,) cubic Hermite interpolation of a curve with known slopes.
 
-    Between two of them it is the cubic with both values and both slopes; before the first it is
-    flat, since a test begins at rest.
+    Before the first and after the last value it is constant; a test begins at rest.
+
+    Args:
+        at: (m,) [s] times of the result.
+        time: (n,) [s] times of the values.
+        value: (n,) values.
+        slope: (n,) [per s] slopes.
     """
     k = np.clip(np.searchsorted(time, at, side="right") - 1, 0, time.size - 2)
     span = time[k + 1] - time[k]

@@ -1,10 +1,10 @@
-"""Simulate a mechanism under a routine and record what its sensor reports.
+"""Simulate a mechanism under a routine and record the readings of its sensor.
 
     kA·v' = u - kV·v - kS·sgn(v) - gravity - hidden effects
 
-A test begins at rest: where there are stops, a forward test at the lower one and a reverse test
-near the upper one, as someone who drives it back between tests would have it. Someone at the
-controller also ends a test shortly before the end of the travel.
+A test begins at rest. If there are stops, a forward test begins at the lower and a reverse test
+near the upper one, as if the driver had moved it back between tests. The driver also ends a test
+shortly before the end of the travel.
 """
 
 import math
@@ -29,12 +29,10 @@ from sim.physics.replay import cool_down
 __all__ = ["move_gains_only", "read_sensor", "simulate"]
 
 PAUSE = 1.0  # [s] between two tests, in which the mechanism comes to rest
-FASTEST, SLOWEST = 0.0005, 0.5  # [s] loop periods that make sense
-FEWEST = 10  # [samples] a shorter test has nothing to say
-BETWEEN = (
-    8  # steps of a loop for a sensor that reads between loops: a line from loop to loop is late
-)
-MARGIN = 0.04  # [share of the travel] before a stop at which someone ends the test
+FASTEST, SLOWEST = 0.0005, 0.5  # [s] limits of the loop period
+FEWEST = 10  # [samples] of a test
+STEPS_PER_LOOP = 8  # recorded steps of a loop, for a sensor that measures between loops
+MARGIN = 0.04  # [share of the travel] distance to a stop at which a test ends
 
 
 def simulate(
@@ -49,19 +47,19 @@ def simulate(
     """Run the tests of a routine one after another.
 
     Args:
-        mechanism: what is tested.
-        routine: which voltages.
-        rng: the source of noise and jitter; the same state gives the same log.
-        period: [s] of the robot program's loop.
-        duty_cycle: the program asks for a share of the battery, ``set(volts / 12)``, and nothing
-            makes up for what the battery has; without, for a voltage.
-        electrical: record one motor's current and the battery's voltage, too.
+        mechanism: the mechanism.
+        routine: the tests.
+        rng: random generator of noise and jitter; the same state gives the same log.
+        period: [s] loop period of the robot program.
+        duty_cycle: whether the program commands a duty cycle, ``set(volts / 12)``, without voltage
+            compensation, instead of a voltage.
+        electrical: whether to record the current of one motor and the battery voltage, too.
 
     Returns:
-        The log, in its team's unit, with the voltage that reached the motors.
+        The log, with the voltage at the motors.
 
     Raises:
-        BadRequest: a period no robot has, or a test that is over before it has moved.
+        BadRequest: a period out of range, or a test that is too short.
 
     Examples:
         >>> from sim.bench.mechanisms import MECHANISMS
@@ -79,17 +77,17 @@ def simulate(
         time = _loop_times(mechanism, routine, test, period=period, rng=rng)
         voltage = np.array([routine.command_voltage(test, t) for t in time.tolist()])
         cut = cut or _is_cut(state)
-        state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as the log says
-        begun, moves = _at_rest(state, _begin(mechanism, test, last)), model
+        state.clock = float(start + time[0] - runs[0].time[0]) if runs else 0.0  # as in the log
+        begin, active = _at_rest(state, _begin(mechanism, test, last)), model
         time, voltage = _divide_loops(time, voltage, parts)
-        track, state = _move(moves, time, voltage, begun=begun, wires=wires)
+        track, state = _move(active, time, voltage, begin=begin, wires=wires)
         if wheels_slip(mechanism, track):
-            moves, gripped = (model + slips, gripped) if slips else (model, True)
-            track, state = _move(moves, time, voltage, begun=begun, wires=wires)
+            active, gripped = (model + slips, gripped) if slips else (model, True)
+            track, state = _move(active, time, voltage, begin=begin, wires=wires)
         end = (_end(track.take_every(parts), mechanism, test=test) - 1) * parts + 1
         time, voltage = time[:end], voltage[:end]
-        if end < track.position.size and state.memory.any():  # what was ended warms no motor
-            track, state = _move(moves, time, voltage, begun=begun, wires=wires)
+        if end < track.position.size and state.memory.any():  # without heating after the end
+            track, state = _move(active, time, voltage, begin=begin, wires=wires)
         loops, seen = time[::parts], track.truncate(end)
         run = _record_run(mechanism, test, time, seen, loops=loops, rng=rng, electrical=electrical)
         runs.append(replace(run, time=start + loops))
@@ -100,26 +98,26 @@ def simulate(
 
 
 def _at_rest(state: State, position: float) -> State:
-    """The state at rest somewhere, with what a motor remembers."""
+    """The state at rest at a position [m or rad], with the memory of effects."""
     return replace(_copy_state(state), body=State.cold_at(position).body)
 
 
 def _move(
-    model: Model, time: Array, voltage: Array, *, begun: State, wires: Array
+    model: Model, time: Array, voltage: Array, *, begin: State, wires: Array
 ) -> tuple[Track, State]:
-    """The motion from a state, which stays as it is, and the state after it."""
-    state = _copy_state(begun)
+    """The motion from a state, which is not changed, and the state after it."""
+    state = _copy_state(begin)
     track = simulate_run(model, time=time, voltage=voltage, state=state, wires=wires)
     return track, state
 
 
 def _copy_state(state: State) -> State:
-    """The same state, which may go on by itself."""
+    """An independent copy of a state."""
     return replace(state, body=state.body.copy(), memory=state.memory.copy())
 
 
 def _is_cut(state: State) -> bool:
-    """Whether the robot controller has taken the motors off."""
+    """Whether the robot controller has disabled the motors in a brownout."""
     return bool(state.body[OFF_UNTIL] > 0.0)
 
 
@@ -138,12 +136,12 @@ def _record_run(
 
 
 def _steps_per_loop(mechanism: Mechanism) -> int:
-    """How many steps of a loop are simulated for what the sensor reads."""
-    return BETWEEN if mechanism.sensor.latency or mechanism.sensor.frame else 1
+    """Number of recorded steps per loop, for the sensor model."""
+    return STEPS_PER_LOOP if mechanism.sensor.latency or mechanism.sensor.frame else 1
 
 
 def _divide_loops(time: Array, voltage: Array, parts: int) -> tuple[Array, Array]:
-    """Times of equal parts of each loop, and the voltages that are held through them."""
+    """Times of equal parts of each loop, and the voltages, which are held in a loop."""
     if parts == 1:
         return time, voltage
     share = np.arange(parts) / parts
@@ -153,6 +151,7 @@ def _divide_loops(time: Array, voltage: Array, parts: int) -> tuple[Array, Array
 
 
 def _check_period(period: float) -> None:
+    """Refuse a loop period out of range."""
     if not FASTEST <= period <= SLOWEST:
         raise BadRequest(
             f"a period of {period:g} s",
@@ -161,7 +160,7 @@ def _check_period(period: float) -> None:
 
 
 def _doubts(mechanism: Mechanism, *, cut: bool, gripped: bool) -> Iterator[Doubt]:
-    """What is odd about a log: motors that were cut off, and slip that was left out."""
+    """Warnings about a simulated log: a brownout, and wheel slip that was left out."""
     if gripped:
         yield Doubt(
             "slip-left-out",
@@ -214,7 +213,7 @@ def move_gains_only(
 def _loop_times(
     mechanism: Mechanism, routine: Routine, test: str, *, period: float, rng: np.random.Generator
 ) -> Array:
-    """[s] when a test drives: loops from the second on, each a little early or late."""
+    """[s] times of the loops with a voltage, from the second on, with jitter."""
     timeout, jitter = routine.find_longest_duration(test), mechanism.sensor.jitter
     count = math.floor(timeout / period + 1e-9) - LOOPS_BEFORE_DRIVE + 1
     if count < FEWEST:
@@ -227,7 +226,7 @@ def _loop_times(
 
 
 def _begin(mechanism: Mechanism, test: str, last: float) -> float:
-    """[m or rad] where a test begins: at its end of the travel, or where the last one ended."""
+    """[m or rad] position at which a test begins: a stop, or the end of the last test."""
     if mechanism.stops is None:
         return last
     low, high = mechanism.stops
@@ -235,10 +234,10 @@ def _begin(mechanism: Mechanism, test: str, last: float) -> float:
 
 
 def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
-    """How many samples there are before someone ends the test.
+    """Number of samples until the end of the test.
 
     Raises:
-        BadRequest: too few to see it move.
+        BadRequest: there are too few.
     """
     end = int(track.position.size)
     if mechanism.travel is not None:
@@ -253,7 +252,7 @@ def _end(track: Track, mechanism: Mechanism, *, test: str) -> int:
 
 
 def _beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool_]:
-    """(n,) where it has come to the end of its travel."""
+    """(n,) whether it has reached an end of its travel."""
     if mechanism.stops is None:
         travel = math.inf if mechanism.travel is None else mechanism.travel
         return np.asarray(np.abs(track.position - track.position[0]) > travel)
@@ -262,5 +261,5 @@ def _beyond(track: Track, mechanism: Mechanism, *, test: str) -> NDArray[np.bool
     far, near = (track.position > high - margin), (track.position < low + margin)
     if test.endswith("reverse"):
         far, near = near, far
-    left = np.maximum.accumulate(~near)  # back where it began, after it had left
+    left = np.maximum.accumulate(~near)  # an end near the start counts after leaving it
     return np.asarray(far | (near & left))

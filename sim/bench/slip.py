@@ -1,7 +1,7 @@
-"""Wheels that slip on the floor: when they do, and the effect that then moves the mechanism.
+"""Wheel slip of a mechanism: whether it slips, and the effect with which it is then simulated.
 
-``sim/physics/effects/wheel_slip.py`` is the physics. A mechanism's ``grip`` is an acceleration of
-its load; the share ``spin`` of the inertia belongs to wheels and rotors.
+The physics is in ``sim/physics/effects/wheel_slip.py``. A mechanism's ``grip`` is an acceleration
+of its load; ``spin`` is the inertia of wheels and rotors as a share of the load.
 """
 
 import math
@@ -21,11 +21,11 @@ def wheels_slip(mechanism: Mechanism, track: Track) -> bool:
     """Whether the wheels slip in a motion, because it needs more than the traction limit.
 
     Args:
-        mechanism: what moves.
-        track: its motion as if the wheels could not slip.
+        mechanism: the mechanism.
+        track: its simulated motion without slip.
     """
     if mechanism.grip is None or any(part.effect == SLIP.name for part in mechanism.hidden):
-        return False  # hidden slip is in the motion already
+        return False  # the motion includes hidden slip
     gains = mechanism.gains
     way = np.sign(np.where(track.velocity == 0.0, track.applied, track.velocity))
     push = np.abs(track.applied - gains["kV"] * track.velocity - gains["kS"] * way)
@@ -40,7 +40,7 @@ def compute_slip_voltage(mechanism: Mechanism) -> float:
 
 
 def make_slip_effect(mechanism: Mechanism) -> Part | None:
-    """The wheel-slip effect of a mechanism; None if no wheels slip or a hidden effect bars it."""
+    """The wheel-slip effect of a mechanism; None if it cannot slip, or has a hidden joint."""
     hidden = [EFFECTS[part.effect] for part in mechanism.hidden]
     if mechanism.grip is None or not are_compatible([*hidden, SLIP]):
         return None

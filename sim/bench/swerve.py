@@ -1,15 +1,15 @@
-"""A square swerve drive: the mechanism that it is going straight, and the one it is turning.
+"""A square swerve drive as two mechanisms: going straight, and turning on the spot.
 
     straight:  V = kS + kV·v + kA·v'            turning:  V = kS' + kV·R·ω + kA'·ω'
 
     R = trackwidth/√2        kA = c·(m + m_w)        kA' = c·(J + m_w·R²)/R
 
-with c [V/N] the volts that a newton at the floor takes, m_w = n·J_w/r² the mass that wheels and
-rotors of inertia J_w are worth, and R the distance of a wheel from the middle. The modules stand in
-the corners and push across the diagonal, so R is the lever. While the robot turns, each wheel also
-turns on its own spot of carpet: that scrub [N·m] is added to friction.
+with c [V/N] the voltage per force at the floor, m_w = n·J_w/r² the equivalent mass of wheels and
+rotors of inertia J_w, and R the distance of a wheel from the center. The modules are at the corners
+and push at a right angle to the diagonal, so R is the lever arm. While the robot turns, each wheel
+also pivots on the carpet: this scrub [N·m] is added to friction.
 
-The floor holds µ·m·g in all, so the wheels slip at v' = µ·g and at ω' = (µ·m·g·R - scrub)/J.
+The largest traction is µ·m·g, so the wheels slip at v' = µ·g and at ω' = (µ·m·g·R - scrub)/J.
 """
 
 import math
@@ -21,27 +21,27 @@ from sim.physics.motors import Motor, find_motor
 GRAVITY = 9.81  # [m/s²]
 WHEELS = Sensor(resolution=2.3e-5, velocity_noise=0.0075, noise_speed=0.05, jitter=0.0004)
 GYRO = Sensor(resolution=1e-4, velocity_noise=0.01, noise_speed=0.05, jitter=0.0004)
-"""What reads it going straight and turning. The gyro's figures are assumed: a hundredth of a
-degree, and half a degree per second while the robot shakes."""
+"""The sensors going straight and turning. The gyro's figures are assumed: a hundredth of a degree,
+and half a degree per second in motion."""
 
 
 @dataclass(frozen=True)
 class SwerveDrive:
-    """A square swerve drive, as built.
+    """A square swerve drive.
 
     Args:
-        motor: which one drives each module.
-        ratio: motor turns per turn of a wheel.
-        wheel_radius: [m].
-        trackwidth: [m] between two neighboring wheels.
+        motor: the drive motor of each module.
+        ratio: [1] motor turns per turn of a wheel.
+        wheel_radius: [m] radius of a wheel.
+        trackwidth: [m] distance of two neighboring wheels.
         mass: [kg] of the robot with battery and bumpers.
         inertia: [kg·m²] of the robot about its vertical axis.
-        wheel_inertia: [kg·m²] of one wheel, its gears and rotor, as felt at the wheel.
+        wheel_inertia: [kg·m²] of one wheel with its gears and rotor, at the wheel.
         friction: [V] kS going straight.
-        drag: share by which kV exceeds the motor's own.
-        scrub: [N·m] by which the carpet brakes a robot that turns on the spot.
-        grip: coefficient of friction between wheels and carpet.
-        modules: how many.
+        drag: [1] share by which kV exceeds that of the motor.
+        scrub: [N·m] friction torque of the carpet on a robot that turns on the spot.
+        grip: [1] coefficient of friction between wheels and carpet.
+        modules: number of modules.
         stator: [A] limit of a motor's current.
     """
 
@@ -61,7 +61,7 @@ class SwerveDrive:
 
     @property
     def lever_arm(self) -> float:
-        """[m] lever arm of a wheel's force about the middle of the robot."""
+        """[m] lever arm of a wheel's force about the center of the robot."""
         return self.trackwidth / math.sqrt(2.0)
 
     @property
@@ -78,7 +78,7 @@ class SwerveDrive:
     def slip_current(self) -> float:
         """[A] current of one motor, against a wall, at which the wheels begin to slip.
 
-        Friction in the gears takes a part of it: kS is the voltage at which it begins to move.
+        It includes the current of the gears' friction, kS over the motor's resistance.
         """
         torque = self.traction_limit * self.wheel_radius / (self.modules * self.ratio)
         return torque / self.motor.torque_constant + self.friction / self.motor.resistance
@@ -146,5 +146,5 @@ SWERVE = SwerveDrive(
     friction=0.20,
     grip=1.2,
 )
-"""Four NEO at 6.12:1 on 4 inch wheels, a full-weight robot. It slips only above 7 V, so that
-WPILib's own step still tells its kA; one with four Kraken X60 slips above 2.3 V."""
+"""Four NEO at 6.12:1 on 4 inch wheels, a full-weight robot. It slips only above 7 V, so WPILib's
+default step determines its kA; one with four Kraken X60 slips above 2.3 V."""

@@ -1,7 +1,7 @@
-"""The logs that the tests of a swerve drive leave: four modules, a gyro, a spin, a push at a wall.
+"""Simulated logs of a swerve drive's tests: four modules, a gyro, a spin, a push at a wall.
 
-Straight ahead the carpet couples the modules: all wheels have the speed of the robot and the same
-voltage, so that logs of modules differ only by their sensors and by the size of their wheels.
+Going straight, all wheels have the speed of the robot and the same voltage, so the logs of the
+modules differ only by the noise of their sensors and the radius of their wheels.
 """
 
 import math
@@ -24,13 +24,13 @@ from sim.io.formats.wpilog.signals import SignalGroup, write_signals
 MODULES = ("front-left", "front-right", "back-left", "back-right")
 RATE, VOLTS = "Rotational_Rate", "Phoenix6/TalonFX-{}/MotorVoltage"
 YAW, YAW_RATE = "Phoenix6/Pigeon2-1/Yaw", "Phoenix6/Pigeon2-1/AngularVelocityZWorld"
-"""What CTRE's logger calls the rate asked for, the voltage of a drive motor, and the gyro."""
+"""Names in CTRE's logger: the commanded rate, the voltage of a drive motor, and the gyro."""
 
-LOOP = 0.02  # [s] of the robot program
+LOOP = 0.02  # [s] loop period of the robot program
 RAMP, AFTER = 0.5, 1.0  # [V/s] of a push at a wall, [s] from the slip to its end
-KINETIC = 0.9  # [share of the static friction] that wheels which slip still hold
+KINETIC = 0.9  # [share of the static friction] friction of slipping wheels
 AMPERES = 0.5  # [A] noise of a measured current
-DRIFT = 2e-4  # [share] of its way by which a gyro, or a wheel on carpet, is off
+DRIFT = 2e-4  # [share of the distance] error of a gyro, or of a wheel on carpet
 
 
 def record_modules(
@@ -40,21 +40,21 @@ def record_modules(
     rng: np.random.Generator,
     radii: Mapping[str, float] | None = None,
 ) -> dict[str, Log]:
-    """The log of each module of a straight drive, in meters by a new wheel's radius.
+    """The log of each module going straight, in meters by the radius of a new wheel.
 
     Args:
-        drive: what is tested.
-        routine: which voltages.
-        rng: the source of noise and jitter.
-        radii: module -> [m] the radius that its wheel really has; the others' is the drive's own.
+        drive: the swerve drive.
+        routine: the tests.
+        rng: random generator of noise and jitter.
+        radii: module -> [m] true radius of its wheel, if it is not that of the drive.
 
     Raises:
-        BadRequest: ``radii`` names a module that there is not.
+        BadRequest: ``radii`` has an unknown module.
     """
     worn = dict(radii or {})
-    if strange := sorted(worn.keys() - set(MODULES)):
+    if unknown := sorted(worn.keys() - set(MODULES)):
         raise BadRequest(
-            f"there is no module {strange[0]!r}", advice=f"Choose one of: {', '.join(MODULES)}."
+            f"there is no module {unknown[0]!r}", advice=f"Choose one of: {', '.join(MODULES)}."
         )
     exact = Sensor(1e-9, 0.0, WHEELS.noise_speed, WHEELS.jitter)
     log = simulate(replace(drive.translation, sensor=exact), routine, rng=rng)
@@ -72,7 +72,7 @@ def record_modules(
 
 
 def write_modules(logs: Mapping[str, Log], path: Path) -> None:
-    """Write the logs of some modules as one WPILOG, as a SysIdRoutine with as many motors does.
+    """Write the logs of some modules as one WPILOG, like a SysIdRoutine with several motors.
 
     Args:
         logs: module -> its log; all of the same tests at the same times.
@@ -100,15 +100,15 @@ def write_modules(logs: Mapping[str, Log], path: Path) -> None:
 
 
 def write_rotation(log: Log, path: Path, *, volts_per_rate: float) -> None:
-    """Write a log of turning on the spot as CTRE's program and logger do.
+    """Write a log of turning on the spot like CTRE's program and logger.
 
-    The routine asks for a rate [rad/s], and the logger has the voltage that the modules made of it.
-    The gyro reads degrees.
+    The routine commands a rate [rad/s], and the logger has the voltage of the modules. The gyro
+    reads degrees.
 
     Args:
-        log: of turning, with the voltage of the drive motors.
+        log: log of turning, with the voltage of the drive motors.
         path: the file, ending in .wpilog.
-        volts_per_rate: [V·s/rad] by which the modules turn a rate into a voltage.
+        volts_per_rate: [V·s/rad] voltage of the modules per commanded rate.
 
     Raises:
         BadRequest: the file cannot be written.
@@ -125,7 +125,7 @@ def write_rotation(log: Log, path: Path, *, volts_per_rate: float) -> None:
 
 
 def _tests(time: Array, test: str) -> list[tuple[float, str]]:
-    """When a test begins, and when none runs any more."""
+    """[s] times and test states: the test at its start, ``none`` after its end."""
     return [(float(time[0]), test), (float(time[-1]) + LOOP, "none")]
 
 
@@ -134,8 +134,8 @@ class Spin:
     """Readings of gyro and motors after a slow spin on the spot.
 
     Args:
-        turned: [rad] by the robot, as the gyro has it.
-        motor_turns: [rot] by the drive motor of each module.
+        turned: [rad] angle of the robot from the gyro.
+        motor_turns: module -> [rot] turns of its drive motor.
     """
 
     turned: float
@@ -149,13 +149,13 @@ def record_spin(
     rng: np.random.Generator,
     radii: Mapping[str, float] | None = None,
 ) -> Spin:
-    """Spin slowly, so that nothing slips, and read the gyro and the drive motors.
+    """Simulate a slow spin without slip, with readings of the gyro and the drive motors.
 
     Args:
-        drive: what spins.
-        turns: [rot] of the robot.
-        rng: the source of what the gyro and the carpet are off by.
-        radii: module -> [m] the radius that its wheel really has; the others' is the drive's own.
+        drive: the swerve drive.
+        turns: [rot] turns of the robot.
+        rng: random generator of the errors of gyro and wheels.
+        radii: module -> [m] true radius of its wheel, if it is not that of the drive.
     """
     worn = dict(radii or {})
     angle = 2.0 * math.pi * turns
@@ -173,9 +173,9 @@ class WallPush:
 
     Args:
         time: (n,) [s].
-        voltage: (n,) [V].
-        current: (n,) [A] of one drive motor's stator.
-        velocity: (n,) [m/s] of its wheel.
+        voltage: (n,) [V] of one drive motor.
+        current: (n,) [A] stator current of that motor.
+        velocity: (n,) [m/s] speed of its wheel.
     """
 
     time: Array
@@ -185,14 +185,15 @@ class WallPush:
 
 
 def record_wall_push(drive: SwerveDrive, *, rng: np.random.Generator) -> WallPush:
-    """Push at a wall until the wheels slip, and a little longer.
+    """Simulate a push at a wall until the wheels slip, and a little longer.
 
-    Until then nothing turns, and the current is voltage over resistance. Then the floor holds a
-    tenth less, as rubber that slides does, and the wheels take the speed that the rest allows.
+    Until the slip nothing turns, and the current is voltage over resistance. Then the traction is a
+    tenth less, because kinetic friction is lower than static, and the wheels have their
+    steady-state speed.
 
     Args:
-        drive: what pushes; its bumper stands at the wall.
-        rng: the source of noise.
+        drive: the swerve drive, with its bumper at the wall.
+        rng: random generator of the noise.
     """
     motor, gains = drive.motor, drive.translation.gains
     volts_per_newton = gains["kA"] / (drive.mass + drive.wheel_mass)
@@ -205,5 +206,5 @@ def record_wall_push(drive: SwerveDrive, *, rng: np.random.Generator) -> WallPus
     emf = motor.back_emf * drive.ratio / drive.wheel_radius * velocity
     noise = AMPERES * rng.standard_normal(time.size)
     current = np.abs((voltage - emf) / motor.resistance + noise)
-    shakes = WHEELS.velocity_noise * rng.standard_normal(time.size)
-    return WallPush(time, voltage, current, np.where(loose, velocity + shakes, 0.0))
+    noise_v = WHEELS.velocity_noise * rng.standard_normal(time.size)
+    return WallPush(time, voltage, current, np.where(loose, velocity + noise_v, 0.0))

@@ -16,13 +16,13 @@ def verify_dataset(
     """The differences between a dataset and its key, a line each; empty if there are none.
 
     Args:
-        folder: of the dataset.
-        jobs: what the spec asks for today.
-        key: where its key is.
-        secret: what the key is sealed with.
+        folder: folder of the dataset.
+        jobs: jobs of the current spec.
+        key: path of the key.
+        secret: secret with which the key is sealed.
 
     Raises:
-        BadRequest: there is no key, or its seal is broken, or a file cannot be read.
+        BadRequest: there is no key, its seal is broken, or a file cannot be read.
     """
     entries = read_key(key, secret=secret)
     if not entries:
@@ -32,16 +32,16 @@ def verify_dataset(
             advice="Run sysid dataset again until it has finished, or name the key with --key.",
         )
     files = index_by_file(entries)
-    asked = {file: job.fingerprint for job in jobs for file in job.files}
+    planned = {file: job.fingerprint for job in jobs for file in job.files}
     try:
         return (
             *_changed(folder, {file: entry["files"][file] for file, entry in files.items()}),
             *(f"in no key: {file}" for file in list_unknown_logs(folder, known=files)),
-            *(f"not made yet: {file}" for file in asked if file not in files),
+            *(f"not made yet: {file}" for file in planned if file not in files),
             *(
                 f"of another spec: {file}"
                 for file, entry in files.items()
-                if asked.get(file) != entry["plan"]
+                if planned.get(file) != entry["plan"]
             ),
         )
     except OSError as error:
@@ -51,6 +51,7 @@ def verify_dataset(
 
 
 def _changed(folder: Path, hashes: dict[str, str]) -> Iterator[str]:
+    """A line for each file that is missing or has another digest."""
     for file, made in hashes.items():
         found = compute_file_digest(folder / file)
         if found != made:

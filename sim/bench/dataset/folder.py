@@ -11,7 +11,7 @@ from sim.bench.dataset.key import Entry
 from sim.bench.dataset.plan import LogJob
 from sim.core.errors import BadRequest
 
-MOMENT = 946_684_800  # [s] 2000-01-01: when a file was made would tell how long it took, and why
+MODIFIED = 946_684_800  # [s] 2000-01-01: real times would show how long each log took
 
 
 @dataclass(frozen=True)
@@ -19,10 +19,10 @@ class FolderSurvey:
     """Which files of a planned dataset are in its folder already.
 
     Args:
-        kept: the entries of logs that are finished.
-        todo: the jobs that are not.
-        foreign: files that stand where others shall, and are not what the plan makes.
-        stale: entries of finished files that the plan no longer has.
+        kept: entries of the finished logs.
+        todo: jobs of the other logs.
+        foreign: files with the name of a planned one, but another content.
+        stale: entries of finished files that are no longer planned.
     """
 
     kept: tuple[Entry, ...]
@@ -35,12 +35,12 @@ def survey_folder(folder: Path, jobs: Sequence[LogJob], *, known: Iterable[Entry
     """Compare a folder with the files of a planned dataset.
 
     Args:
-        folder: of the dataset; need not exist.
-        jobs: the plan.
+        folder: folder of the dataset; need not exist.
+        jobs: the planned jobs.
         known: entries of logs that were finished earlier.
 
     Raises:
-        BadRequest: it is no folder, or cannot be read.
+        BadRequest: it is not a folder, or cannot be read.
     """
     entries = {entry["plan"]: entry for entry in known}
     kept, todo, foreign = [], [], []
@@ -74,7 +74,7 @@ def compute_file_digest(path: Path) -> str:
     """SHA-256 of a file; empty if there is none.
 
     Raises:
-        OSError: it is there, but cannot be read.
+        OSError: it exists, but cannot be read.
     """
     try:
         with path.open("rb") as stream:
@@ -99,7 +99,7 @@ class DatasetFolder:
     """The folder that a dataset is written to; each file is written atomically.
 
     Args:
-        folder: of the dataset; made when the first file comes.
+        folder: folder of the dataset; created if needed.
         mine: files in it that may be replaced; None if all may.
     """
 
@@ -109,23 +109,26 @@ class DatasetFolder:
         self._made: list[Path] = []
 
     def create(self) -> None:
-        """Make the folder.
+        """Create the folder.
 
         Raises:
-            BadRequest: it cannot be made.
+            BadRequest: it cannot be created.
         """
-        self._folder(self.folder)
+        self._create_folder(self.folder)
 
     def write_files(self, contents: Mapping[str, bytes]) -> None:
         """Write the files of one log.
 
+        Args:
+            contents: path in the folder -> bytes of the file.
+
         Raises:
-            BadRequest: the disk is full, for example, or a file has come there meanwhile.
+            BadRequest: the disk is full, for example, or another program wrote such a file.
         """
         for file, content in contents.items():
             path = self.folder / file
             part = path.with_name(f".{path.name}.part")
-            self._folder(path.parent)
+            self._create_folder(path.parent)
             if self.mine is not None and file not in self.mine and path.exists():
                 raise BadRequest(
                     "another program wrote this file in the meantime",
@@ -134,21 +137,22 @@ class DatasetFolder:
                 )
             try:
                 part.write_bytes(content)
-                os.utime(part, (MOMENT, MOMENT))
+                os.utime(part, (MODIFIED, MODIFIED))
                 part.replace(path)
             except OSError as error:
                 raise _cannot(error, path) from None
             finally:
-                with suppress(OSError):  # it is there only if something went wrong
+                with suppress(OSError):  # it exists only after an error
                     part.unlink()
 
     def remove_empty_folders(self) -> None:
-        """Remove the folders that were made here and stayed empty."""
+        """Remove the folders that were created here and are empty."""
         for folder in reversed(self._made):
-            with suppress(OSError):  # there is a file in it
+            with suppress(OSError):  # it is not empty
                 folder.rmdir()
 
-    def _folder(self, folder: Path) -> None:
+    def _create_folder(self, folder: Path) -> None:
+        """Create a folder and its parents, and remember which were missing."""
         missing = []
         try:
             while not folder.exists():
@@ -163,6 +167,7 @@ class DatasetFolder:
 
 
 def _cannot(error: OSError, path: Path) -> BadRequest:
+    """The error for a path that cannot be written."""
     return BadRequest(
         f"cannot be written ({error.strerror or error})",
         where=str(path),

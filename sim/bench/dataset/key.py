@@ -1,7 +1,7 @@
 """The answer key of a dataset, sealed against unnoticed changes.
 
-While logs are being made, what is known of each finished one stands in a journal beside the key,
-a sealed line a log, so that a run that was killed can go on. The journal ends as the key.
+While logs are being made, the entry of each finished log is a sealed line of a journal beside the
+key, so that an interrupted run can be continued. At the end the journal becomes the key.
 """
 
 import errno
@@ -19,8 +19,8 @@ from sim.core.errors import BadRequest
 from sim.support.atomic_file import write_pieces_atomically
 
 ENDING = ".key.json"
-JOURNAL = ".part"  # a journal's name is the key's with this behind it
-PRIVATE = 0o600  # for its owner only, where the system recognizes such a thing
+JOURNAL = ".part"  # suffix of a journal's name, after the key's
+PRIVATE = 0o600  # for its owner only, if the system supports it
 SEAL = "seal"
 
 Entry = Mapping[str, Any]
@@ -28,12 +28,12 @@ Entry = Mapping[str, Any]
 
 def choose_key_path(folder: Path) -> Path:
     """The default path of a dataset's key: beside its folder, not in it."""
-    folder = Path(os.path.abspath(folder))  # noqa: PTH100 - as it is called, not where it leads
+    folder = Path(os.path.abspath(folder))  # noqa: PTH100 - without following links
     return folder.with_name(f"{folder.name or 'dataset'}{ENDING}")
 
 
 def index_by_file(entries: Iterable[Entry]) -> dict[str, Entry]:
-    """Map of each file to its entry in the key."""
+    """File -> its entry in the key."""
     return {file: entry for entry in entries for file in entry["files"]}
 
 
@@ -74,13 +74,13 @@ def write_key(path: Path, journal: "Journal", *, dataset: str, secret: Secret) -
     One entry at a time is in memory, so a dataset may have any number of logs.
 
     Args:
-        path: of the key.
-        journal: what is known of each log.
-        dataset: its name.
-        secret: what the key is sealed with.
+        path: path of the key.
+        journal: journal with the entry of each log.
+        dataset: name of the dataset.
+        secret: secret with which the key is sealed.
 
     Returns:
-        How many logs the key has.
+        Number of logs in the key.
 
     Raises:
         OSError: it cannot be written.
@@ -99,7 +99,7 @@ def write_key(path: Path, journal: "Journal", *, dataset: str, secret: Secret) -
 
 
 def _plain_pieces(head: Mapping[str, str], entries: Iterable[Entry]) -> Iterator[bytes]:
-    """What is sealed, in pieces: the one form of the whole content, its keys in order."""
+    """The content that is sealed, in pieces: canonical JSON with sorted keys."""
     names = sorted((*head, "logs"))
     for number, name in enumerate(names):
         yield b"{" if number == 0 else b","
@@ -114,7 +114,7 @@ def _plain_pieces(head: Mapping[str, str], entries: Iterable[Entry]) -> Iterator
 
 
 def _text_pieces(head: Mapping[str, str], entries: Iterable[Entry], seal: str) -> Iterator[bytes]:
-    """The file in pieces: JSON that a person can read, the seal at its end."""
+    """The file in pieces: indented JSON with the seal at its end."""
     opening = json.dumps(head, ensure_ascii=False, indent=1).removesuffix("\n}")
     yield f'{opening},\n "logs": ['.encode()
     for index, entry in enumerate(entries):
@@ -127,8 +127,8 @@ class Journal:
     """A journal of finished logs, from which the key is written at the end.
 
     Args:
-        key: where the key will be.
-        secret: what each line is sealed with.
+        key: path of the key.
+        secret: secret with which each line is sealed.
     """
 
     def __init__(self, key: Path, *, secret: Secret) -> None:
@@ -169,7 +169,7 @@ class Journal:
         """Read the entries at some offsets, one after another.
 
         Raises:
-            OSError: it cannot be read, or was changed meanwhile.
+            OSError: it cannot be read, or was changed in the meantime.
         """
         with self.path.open("rb") as stream:
             for begin, length in places:
@@ -180,7 +180,7 @@ class Journal:
                 yield entry
 
     def _entry(self, line: bytes) -> Entry | None:
-        """What a line says; None if it is torn or not sealed with this secret."""
+        """The entry in a line; None if it is incomplete or not sealed with this secret."""
         seal, _, content = line.partition(b" ")
         if not hmac.compare_digest(seal, self.secret.seal(content).encode()):
             return None
@@ -188,7 +188,7 @@ class Journal:
         return entry
 
     def start(self, entries: Iterable[Entry]) -> None:
-        """Start the journal anew with entries that are known already.
+        """Start a new journal with entries that are known already.
 
         Raises:
             OSError: it cannot be written.
@@ -199,7 +199,7 @@ class Journal:
                 stream.writelines(map(self._line, entries))
             part.replace(self.path)
         finally:
-            with suppress(OSError):  # it is there only if something went wrong
+            with suppress(OSError):  # it exists only after an error
                 part.unlink()
         self._stream = self.path.open("ab")
 
@@ -207,14 +207,14 @@ class Journal:
         """Append the entry of one more log.
 
         Raises:
-            OSError: the disk is full, for example; then nothing of it stays.
+            OSError: the disk is full, for example; then the journal is as before.
         """
         before = self._stream.tell()
         try:
             self._stream.write(self._line(entry))
             self._stream.flush()
         except OSError:
-            with suppress(OSError):  # it fails again at what is still to be written
+            with suppress(OSError):  # it fails again with the rest of the buffer
                 self._stream.close()
             os.truncate(self.path, before)
             raise
@@ -227,11 +227,12 @@ class Journal:
                 self.remove()
 
     def remove(self) -> None:
-        """Delete the journal, whose entries are in the key by now."""
-        with suppress(OSError):  # one that stays is passed over, or read again: both are right
+        """Delete the journal, whose entries are in the key now."""
+        with suppress(OSError):  # a journal that remains does no harm
             self.path.unlink()
 
     def _line(self, entry: Entry) -> bytes:
+        """The sealed line of an entry."""
         content = json.dumps(entry, ensure_ascii=False, allow_nan=False).encode()
         return self.secret.seal(content).encode() + b" " + content + b"\n"
 
@@ -242,6 +243,6 @@ _ENCODE: Callable[[Any], str] = json.JSONEncoder(
 ).encode
 
 
-def _plain(content: Any) -> bytes:  # noqa: ANN401 - whatever JSON can hold
-    """The one form in which a content is sealed."""
+def _plain(content: Any) -> bytes:  # noqa: ANN401 - any JSON value
+    """A content as canonical JSON, which is sealed."""
     return _ENCODE(content).encode()

@@ -25,11 +25,11 @@ class LogSettings:
     """Settings with which the tests of a log are run.
 
     Args:
-        routine: the voltages.
-        tests: those that the log holds.
-        period: [s] of the robot program's loop.
-        duty_cycle: the program sets a share of the battery, not a voltage.
-        electrical: it also logs the current and the battery's voltage.
+        routine: the commanded voltages.
+        tests: the tests in the log.
+        period: [s] loop period of the robot program.
+        duty_cycle: whether the program commands a duty cycle instead of a voltage.
+        electrical: whether the log has motor current and battery voltage, too.
     """
 
     routine: Routine = field(default_factory=Routine)
@@ -44,9 +44,9 @@ class HiddenEffectChoice:
     """An effect to hide, or one of several.
 
     Args:
-        names: of which one is drawn.
-        size: 1 is what an ordinary robot has.
-        chance: share of the logs that get it.
+        names: names of effects, of which one is drawn.
+        size: [1] 1 is ordinary.
+        chance: [1] share of the logs with the effect.
     """
 
     names: tuple[str, ...]
@@ -56,14 +56,14 @@ class HiddenEffectChoice:
 
 @dataclass(frozen=True)
 class FaultChoice:
-    """A fault to spoil a log with, or one of several.
+    """A fault to damage a log with, or one of several.
 
     Args:
-        names: of which one is drawn.
-        severity: 1 is an ordinary bad day.
-        tests: of which one is drawn; empty leaves it to the fault.
-        at: [s] since the test's first sample; None leaves it to the fault.
-        chance: share of the logs that get it.
+        names: names of faults, of which one is drawn.
+        severity: [1] 1 is ordinary.
+        tests: tests, of which one is drawn; empty lets the fault choose.
+        at: [s] since the test's first sample; None lets the fault choose.
+        chance: [1] share of the logs with the fault.
     """
 
     names: tuple[str, ...]
@@ -78,13 +78,13 @@ class LogTable:
     """Logs of one kind.
 
     Args:
-        where: its place in the spec, for refusals.
-        mechanisms: each gets its own logs.
-        count: logs of each mechanism, for each student if there are any.
-        drawn: each log's mechanism is another one like the catalogue's.
-        settings: how the tests are run.
-        effects: hidden in this order.
-        faults: made in this order.
+        where: place in the spec, for messages.
+        mechanisms: names of mechanisms, each with logs of its own.
+        count: number of logs of each mechanism, for each student if there are any.
+        drawn: whether each log has a random variant of the mechanism.
+        settings: settings of the tests.
+        effects: effects, hidden in this order.
+        faults: faults, made in this order.
     """
 
     where: str
@@ -97,7 +97,11 @@ class LogTable:
 
 
 def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
-    """The settings under ``routine``, each as in the default unless it is there."""
+    """The settings under ``routine``; one that is missing is taken from the default.
+
+    Raises:
+        BadRequest: a key is unknown, or its value is wrong.
+    """
     if "routine" not in table:
         return default
     found = TomlTable(table.content["routine"], where=f"{table.where}, routine", known=ROUTINE)
@@ -128,7 +132,11 @@ def read_settings(table: TomlTable, *, default: LogSettings) -> LogSettings:
 
 
 def read_logs(table: TomlTable, *, default: LogSettings) -> LogTable:
-    """Read and check one ``[[logs]]`` table."""
+    """Read and check one ``[[logs]]`` table.
+
+    Raises:
+        BadRequest: a key is unknown, its value is wrong, or an effect or fault is impossible.
+    """
     settings = read_settings(table, default=default)
     mechanisms = table.read_choices("mechanisms", MECHANISMS)
     effects = table.read_tables("effects", name="logs.effects", known=EFFECT)
@@ -139,8 +147,8 @@ def read_logs(table: TomlTable, *, default: LogSettings) -> LogTable:
         count=table.read_integer("count", default=1, least=1, most=MOST_LOGS),
         drawn=table.read_flag("drawn", default=True),
         settings=settings,
-        effects=tuple(_hiding(one, mechanisms=mechanisms) for one in effects),
-        faults=tuple(_spoiling(one, settings=settings, mechanisms=mechanisms) for one in faults),
+        effects=tuple(_read_effect(one, mechanisms=mechanisms) for one in effects),
+        faults=tuple(_read_fault(one, settings=settings, mechanisms=mechanisms) for one in faults),
     )
     named = [name for one in found.effects for name in one.names]
     for name in named:
@@ -152,8 +160,8 @@ def read_logs(table: TomlTable, *, default: LogSettings) -> LogTable:
     return found
 
 
-def _hiding(table: TomlTable, *, mechanisms: tuple[str, ...]) -> HiddenEffectChoice:
-    """One ``[[logs.effects]]``, tried on every mechanism at both ends of its size."""
+def _read_effect(table: TomlTable, *, mechanisms: tuple[str, ...]) -> HiddenEffectChoice:
+    """Read one ``[[logs.effects]]`` table, and try it on each mechanism at both sizes."""
     found = HiddenEffectChoice(
         names=table.read_choices("name", EFFECTS),
         size=table.read_range("size", default=1.0),
@@ -171,10 +179,10 @@ def _hiding(table: TomlTable, *, mechanisms: tuple[str, ...]) -> HiddenEffectCho
     return found
 
 
-def _spoiling(
+def _read_fault(
     table: TomlTable, *, settings: LogSettings, mechanisms: tuple[str, ...]
 ) -> FaultChoice:
-    """One ``[[logs.faults]]``."""
+    """Read one ``[[logs.faults]]`` table."""
     found = FaultChoice(
         names=table.read_choices("name", FAULTS),
         severity=table.read_range("severity", default=1.0, least=0.0, most=MOST),
@@ -199,11 +207,11 @@ def _spoiling(
 
 
 def _mistakes(
-    fault: Fault, asked: FaultChoice, *, tests: tuple[str, ...]
+    fault: Fault, choice: FaultChoice, *, tests: tuple[str, ...]
 ) -> Iterator[tuple[str, str]]:
-    """What is impossible about where a fault shall strike, and what to do about it."""
+    """Problem and advice for each impossible test or time of a fault."""
     possible = tuple(test for test in tests if test.rpartition("-")[0] in fault.kinds)
-    for test in asked.tests:
+    for test in choice.tests:
         if test not in tests:
             yield f"the routine does not run a test {test!r}", suggest_word(test, tests)
         elif test not in possible:
@@ -213,5 +221,5 @@ def _mistakes(
             )
     if not possible:
         yield f"{fault.name} strikes in none of the tests", f"Run one of: {', '.join(fault.kinds)}."
-    if fault.whole and asked.at is not None:
+    if fault.whole and choice.at is not None:
         yield f"{fault.name} damages a whole test, so the key at has no use here", "Leave out at."

@@ -1,6 +1,6 @@
 """Make one job: the bytes of its files and their ground truth, on any process or machine.
 
-What comes back is plain data: machines need not share a disk, and one process alone writes.
+The result is plain data: machines need not share a disk, and only one process writes files.
 """
 
 import tempfile
@@ -21,9 +21,9 @@ from sim.inspect.contaminate import contaminate
 from sim.inspect.fault import DamagedLog, LogInterval
 from sim.io import write
 
-ALONE = threading.Lock()  # a worker of a cluster has many threads, and the engine is loaded once
-ATTEMPTS = 20  # at finding a moment where a fault can strike
-DIGITS = {  # after the point, of what is in SI; finer than any encoder or converter
+LOCK = threading.Lock()  # a worker of a cluster has many threads, but one processor
+ATTEMPTS = 20  # to find a time at which a fault is possible
+DIGITS = {  # decimals of each signal in SI; finer than any encoder or converter
     "time": 6,
     "voltage": 6,
     "position": 9,
@@ -38,9 +38,9 @@ class MadeLog:
     """A log that was made: its files and its ground truth.
 
     Args:
-        job: the job that it was made for.
+        job: its job.
         contents: path of a file in the dataset's folder -> its bytes.
-        truth: about them, as it stands in the key.
+        truth: ground truth for the key.
     """
 
     job: LogJob
@@ -50,7 +50,13 @@ class MadeLog:
 
 @dataclass(frozen=True)
 class FailedLog:
-    """A log that cannot be made: its error as plain data, which any process can pass on."""
+    """A log that cannot be made, with the error as plain data.
+
+    Args:
+        job: its job.
+        what: the problem.
+        advice: what to do.
+    """
 
     job: LogJob
     what: str
@@ -59,25 +65,26 @@ class FailedLog:
 
 def make_log(job: LogJob) -> MadeLog | FailedLog:
     """Make a log; the threads of a process take turns, as they share its one processor."""
-    with ALONE:
-        return _made(job)
+    with LOCK:
+        return _make_log(job)
 
 
-def _made(job: LogJob) -> MadeLog | FailedLog:
+def _make_log(job: LogJob) -> MadeLog | FailedLog:
+    """Make a log, or describe why it cannot be made."""
     try:
-        built = _built(job)
-        asked = job.settings
+        built = _build_mechanism(job)
+        settings = job.settings
         log = simulate(
             built,
-            asked.routine,
+            settings.routine,
             rng=job.make_random_stream(RECORD),
-            period=asked.period,
-            duty_cycle=asked.duty_cycle,
-            electrical=asked.electrical,
+            period=settings.period,
+            duty_cycle=settings.duty_cycle,
+            electrical=settings.electrical,
         )
-        kept = tuple(run for run in log.runs if run.test in asked.tests)
-        log, where = _spoil(_recorded(replace(log, runs=kept)), job)
-        log = _recorded(log)
+        kept = tuple(run for run in log.runs if run.test in settings.tests)
+        log, where = _spoil(_round_log(replace(log, runs=kept)), job)
+        log = _round_log(log)
         return MadeLog(job, _contents(log, job), _truth(built, job, log=log, where=where))
     except Refusal as refusal:
         what = f"{refusal.where}: {refusal.what}" if refusal.where else refusal.what
@@ -90,8 +97,8 @@ def _made(job: LogJob) -> MadeLog | FailedLog:
         )
 
 
-def _built(job: LogJob) -> Mechanism:
-    """The mechanism, drawn and with its effects hidden."""
+def _build_mechanism(job: LogJob) -> Mechanism:
+    """The mechanism of a job, with its hidden effects."""
     built = MECHANISMS[job.mechanism]
     if job.drawn:
         built = built.draw(job.make_random_stream(MECHANISM))
@@ -100,36 +107,37 @@ def _built(job: LogJob) -> Mechanism:
     return built
 
 
-def _recorded(log: Log) -> Log:
-    """The log to as many digits as a recorder keeps.
+def _round_log(log: Log) -> Log:
+    """The log, rounded to ``DIGITS``.
 
-    Another processor, or another version of NumPy, computes a sine or a logarithm that differs in
-    the sixteenth digit. Without this, the same secret would give other bytes there.
+    On another processor, or with another version of NumPy, a sine or a logarithm may differ in the
+    sixteenth digit. Without rounding, the same secret would give different bytes there.
     """
-    return replace(log, runs=tuple(replace(run, **_rounded(run)) for run in log.runs))
+    return replace(log, runs=tuple(replace(run, **_round_signals(run)) for run in log.runs))
 
 
-def _rounded(run: Run) -> dict[str, Any]:
+def _round_signals(run: Run) -> dict[str, Any]:
+    """Signal -> its rounded values."""
     signals = {name: getattr(run, name) for name in DIGITS}
     return {
-        name: values.round(DIGITS[name]) + 0.0  # so that there is one zero, not -0.0 besides
+        name: values.round(DIGITS[name]) + 0.0  # -0.0 becomes 0.0
         for name, values in signals.items()
         if values is not None
     }
 
 
 def _spoil(log: Log, job: LogJob) -> tuple[Log, list[tuple[LogInterval, ...]]]:
-    """The log with all its faults, and where each of them is."""
+    """The log with all its faults, and the intervals of each."""
     where = []
     for number, strike in enumerate(job.strikes):
-        spoilt = _struck(log, strike, job, number)
+        spoilt = _add_fault(log, strike, job, number)
         log = spoilt.log
         where.append(spoilt.where)
     return log, where
 
 
-def _struck(log: Log, strike: PlannedFault, job: LogJob, number: int) -> DamagedLog:
-    """The log with one more fault; where chance chose a moment that cannot be, it chooses again."""
+def _add_fault(log: Log, strike: PlannedFault, job: LogJob, number: int) -> DamagedLog:
+    """The log with one more fault; an impossible random time is drawn again."""
     attempt = 0
     while True:
         rng = job.make_random_stream(DAMAGE, number, attempt)
@@ -149,7 +157,7 @@ def _struck(log: Log, strike: PlannedFault, job: LogJob, number: int) -> Damaged
 
 
 def _contents(log: Log, job: LogJob) -> dict[str, bytes]:
-    """The log as files."""
+    """Path in the dataset's folder -> bytes of the log's file."""
     with tempfile.TemporaryDirectory(prefix="sysid-") as folder:
         contents = {}
         for file in job.files:
@@ -162,9 +170,11 @@ def _contents(log: Log, job: LogJob) -> dict[str, bytes]:
 def _truth(
     built: Mechanism, job: LogJob, *, log: Log, where: list[tuple[LogInterval, ...]]
 ) -> dict[str, object]:
-    """What is true of a log, as it stands in the key."""
+    """The ground truth of a log, for the key."""
     per = find_unit(built.units)
-    sizes = {one.effect: one.size for one in job.effects}  # none for what every such one has
+    sizes = {
+        one.effect: one.size for one in job.effects
+    }  # an effect of every such mechanism has no size
     return {
         "student": job.student,
         "mechanism": built.name,
@@ -184,7 +194,7 @@ def _truth(
             {
                 "fault": strike.fault,
                 "severity": strike.severity,
-                "where": [_stretch(one, log) for one in found],
+                "where": [_describe_interval(one, log) for one in found],
             }
             for strike, found in zip(job.strikes, where, strict=True)
         ],
@@ -194,15 +204,15 @@ def _truth(
 
 
 def _flat(settings: dict[str, Any]) -> dict[str, Any]:
-    """The settings as they stand in a spec, the routine's own numbers beside the others."""
+    """The settings as in a spec, those of the routine on the same level as the others."""
     routine = settings.pop("routine")
-    del routine["kinds"]  # the tests say it
+    del routine["kinds"]  # follows from the tests
     return {**routine, **settings, "tests": list(settings["tests"])}
 
 
-def _stretch(found: LogInterval, log: Log) -> dict[str, object]:
-    """A damaged part, in the log as it ended up: a later fault may remove a run, or rename it."""
-    number = None if found.run is None else _run_at((found.start + found.end) / 2.0, log)
+def _describe_interval(found: LogInterval, log: Log) -> dict[str, object]:
+    """A damaged interval in the final log, in which a later fault may remove or rename its run."""
+    number = None if found.run is None else _find_run((found.start + found.end) / 2.0, log)
     return {
         "run": number,
         "test": found.test if number is None else log.runs[number].test,
@@ -211,8 +221,8 @@ def _stretch(found: LogInterval, log: Log) -> dict[str, object]:
     }
 
 
-def _run_at(time: float, log: Log) -> int | None:
-    """The run that holds a time [s]; None if it is in none."""
+def _find_run(time: float, log: Log) -> int | None:
+    """Index of the run that contains a time [s]; None if there is none."""
     for number, run in enumerate(log.runs):
         if run.time[0] <= time <= run.time[-1]:
             return number

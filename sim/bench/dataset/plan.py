@@ -1,8 +1,8 @@
 """Turn a spec into jobs: one log each, with all random choices and a seed for the rest.
 
-A job needs nothing but itself, so it gives the same bytes on any process of any machine, whatever
-else is made and in whatever order. Logs are numbered in an order that the secret decides: a number
-says nothing about what was done to a log.
+A job contains everything it needs, so it gives the same bytes on any process of any machine, in any
+order. The secret determines the order in which logs are numbered, so a number does not show which
+faults or effects a log has.
 """
 
 import hashlib
@@ -19,12 +19,17 @@ from sim.bench.dataset.spec import Spec
 from sim.bench.dataset.student import make_folder_name
 from sim.bench.dataset.table import NumberRange
 
-EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # streams of chance, apart from one another
+EFFECT, FAULT, MECHANISM, RECORD, DAMAGE = range(5)  # independent random streams of a job
 
 
 @dataclass(frozen=True)
 class HiddenEffect:
-    """An effect that is hidden in a log's mechanism, and its size."""
+    """An effect that is hidden in a log's mechanism.
+
+    Args:
+        effect: name of the effect.
+        size: [1] 1 is ordinary.
+    """
 
     effect: str
     size: float
@@ -32,13 +37,14 @@ class HiddenEffect:
 
 @dataclass(frozen=True)
 class PlannedFault:
-    """A fault that strikes a log.
+    """A fault of a log.
 
     Args:
-        fault: its name.
-        severity: 1 is an ordinary bad day.
-        test: where it strikes; None leaves it to the fault.
-        at: [s] since the test's first sample, drawn when it is made; None leaves it to the fault.
+        fault: name of the fault.
+        severity: [1] 1 is ordinary.
+        test: name of the damaged test; None lets the fault choose.
+        at: [s] since the test's first sample, drawn when the log is made; None lets the fault
+            choose.
     """
 
     fault: str
@@ -52,16 +58,16 @@ class LogJob:
     """One log to make.
 
     Args:
-        name: path of its files in the dataset's folder, without the ending.
-        where: its place in the spec, for refusals.
-        student: whose; empty if nobody's.
-        mechanism: its name in the catalogue.
-        drawn: the mechanism is another one like the catalogue's.
-        settings: how the tests are run.
-        effects: hidden in this order.
-        strikes: made in this order.
-        formats: it is written in each of these.
-        seed: of all that chance still has to decide.
+        name: path of its files in the dataset's folder, without suffix.
+        where: place in the spec, for messages.
+        student: name of the student; empty if there is none.
+        mechanism: name of the mechanism.
+        drawn: whether it is a random variant of that mechanism.
+        settings: settings of the tests.
+        effects: effects, hidden in this order.
+        strikes: faults, made in this order.
+        formats: formats in which it is written.
+        seed: seed of its random streams.
     """
 
     name: str
@@ -88,12 +94,12 @@ class LogJob:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     def make_random_stream(self, *which: int) -> np.random.Generator:
-        """An independent random generator for each purpose: a new fault changes nothing else."""
+        """The random generator of a purpose, independent of those of other purposes."""
         return make_random_stream(self.seed, *which)
 
 
 def make_random_stream(seed: int, *which: int) -> np.random.Generator:
-    """One of the independent random generators of a seed."""
+    """One of the independent random generators of a seed, chosen by the numbers ``which``."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=which)))
 
 
@@ -102,16 +108,16 @@ def plan_jobs(spec: Spec, secret: Secret) -> tuple[LogJob, ...]:
 
     Args:
         spec: the specification.
-        secret: what it is drawn from.
+        secret: secret from which the seeds are derived.
     """
     return tuple(
         job
         for student in spec.students or ("",)
-        for job in _numbered(list(_seeds(spec, secret, student)), spec, student)
+        for job in _number_jobs(list(_list_seeds(spec, secret, student)), spec, student)
     )
 
 
-def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, LogTable, str]]:
+def _list_seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, LogTable, str]]:
     """Seed, place in the spec and mechanism of each log of a student."""
     for block, logs in enumerate(spec.logs, start=1):
         for mechanism in logs.mechanisms:
@@ -127,7 +133,9 @@ def _seeds(spec: Spec, secret: Secret, student: str) -> Iterator[tuple[int, LogT
                 yield seed, logs, mechanism
 
 
-def _numbered(found: list[tuple[int, LogTable, str]], spec: Spec, student: str) -> Iterator[LogJob]:
+def _number_jobs(
+    found: list[tuple[int, LogTable, str]], spec: Spec, student: str
+) -> Iterator[LogJob]:
     """Jobs, shuffled by their seeds and numbered."""
     folder = f"{make_folder_name(student)}/" if student else ""
     digits = max(2, len(str(len(found))))
@@ -147,15 +155,17 @@ def _numbered(found: list[tuple[int, LogTable, str]], spec: Spec, student: str) 
         )
 
 
-def _effects(asked: tuple[HiddenEffectChoice, ...], seed: int) -> Iterator[HiddenEffect]:
-    for number, one in enumerate(asked):
+def _effects(choices: tuple[HiddenEffectChoice, ...], seed: int) -> Iterator[HiddenEffect]:
+    """Draw the hidden effects of a log."""
+    for number, one in enumerate(choices):
         rng = make_random_stream(seed, EFFECT, number)
         if rng.random() < one.chance:
             yield HiddenEffect(_one_of(one.names, rng), one.size.draw(rng))
 
 
-def _strikes(asked: tuple[FaultChoice, ...], seed: int) -> Iterator[PlannedFault]:
-    for number, one in enumerate(asked):
+def _strikes(choices: tuple[FaultChoice, ...], seed: int) -> Iterator[PlannedFault]:
+    """Draw the faults of a log."""
+    for number, one in enumerate(choices):
         rng = make_random_stream(seed, FAULT, number)
         if rng.random() < one.chance:
             yield PlannedFault(

@@ -1,6 +1,6 @@
 """The students of a dataset: a list in the spec, or a column of a CSV file.
 
-A roster is read as spreadsheets, Canvas and Gradescope write it.
+CSV files of spreadsheets, Canvas and Gradescope can be read.
 """
 
 import csv
@@ -13,20 +13,20 @@ from sim.bench.dataset.student import check_student_name, normalize_name
 from sim.bench.dataset.table import TomlTable
 from sim.core.errors import BadRequest, Refusal
 
-COLUMN = "student"  # [header of a CSV file] unless the spec names another
+COLUMN = "student"  # header of the column, unless the spec names another
 EXAMPLE = "roster.csv"
 NO_STUDENT = {"points possible", "student, test"}  # rows of Canvas's gradebook: points, a tester
 
 
 @dataclass(frozen=True)
 class Roster:
-    """A table of people.
+    """A table of students.
 
     Args:
-        path: where it was read.
+        path: path of the file.
         header: names of the columns, as written.
-        rows: number of the line, and its cells; empty lines, and rows of Canvas's that are
-            no student's, are left out.
+        rows: line number and cells of each row; empty lines, and rows of Canvas without a student,
+            are left out.
     """
 
     path: Path
@@ -45,8 +45,8 @@ def read_roster(path: Path, *, advice: str) -> Roster:
     """Read a roster.
 
     Args:
-        path: of a CSV file in UTF-8.
-        advice: what to do if it cannot be read.
+        path: path of a CSV file in UTF-8.
+        advice: advice if it cannot be read.
 
     Raises:
         BadRequest: it cannot be read, or a row has more cells than the first line.
@@ -61,7 +61,7 @@ def read_roster(path: Path, *, advice: str) -> Roster:
     table = csv.reader(io.StringIO(text, newline=""), delimiter=_delimiter(text))
     header = tuple(next(table, []))
     every = ((table.line_num, tuple(row)) for row in table)
-    rows = tuple(row for row in every if _names_somebody(row[1]))
+    rows = tuple(row for row in every if _has_student(row[1]))
     for number, row in rows:
         if any(cell.strip() for cell in row[len(header) :]):
             raise BadRequest(
@@ -72,26 +72,27 @@ def read_roster(path: Path, *, advice: str) -> Roster:
     return Roster(path, header, rows)
 
 
-def _names_somebody(row: Sequence[str]) -> bool:
+def _has_student(row: Sequence[str]) -> bool:
+    """Whether a row is not empty, and not one of Canvas's rows without a student."""
     canvas = any(cell.strip().casefold() in NO_STUDENT for cell in row)
     return any(cell.strip() for cell in row) and not canvas
 
 
 def _delimiter(text: str) -> str:
-    """What stands between the cells; a spreadsheet of half of Europe writes a semicolon."""
+    """The delimiter of the cells; spreadsheets in some languages write a semicolon."""
     first = text.partition("\n")[0]
     return max(",;\t", key=first.count)
 
 
 def read_students(table: TomlTable, *, folder: Path) -> tuple[str, ...]:
-    """The students, in their own order; empty if the spec has none.
+    """The names of the students, in the order of the spec or file; empty if the spec has none.
 
     Args:
-        table: the spec's top.
-        folder: where the spec lies.
+        table: top table of the spec.
+        folder: folder of the spec.
 
     Raises:
-        BadRequest: no such file or column, a name that is none, or one that occurs twice.
+        BadRequest: no such file or column, an invalid name, or one that occurs twice.
     """
     given = table.content.get("students")
     if given is None:
@@ -124,13 +125,13 @@ def _cells(path: Path, *, column: str) -> Iterable[tuple[str, str]]:
 
 
 def make_distinct_names(found: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-    """The names as they are shown, checked to be different people.
+    """The names as they are displayed, checked to be different.
 
     Args:
         found: place and text of each name.
 
     Raises:
-        BadRequest: a name that is none, or one that occurs twice.
+        BadRequest: an invalid name, or one that occurs twice.
     """
     names: dict[str, str] = {}
     for where, text in found:

@@ -14,7 +14,7 @@ from sim.bench.dataset.secret import Secret
 from sim.core.errors import BadRequest
 from sim.support.printable import list_first
 
-LISTED = 3  # [files] that a refusal names
+LISTED = 3  # files in a message, at most
 Maker = Callable[[Sequence[LogJob]], Iterator[MadeLog | FailedLog]]
 
 
@@ -23,8 +23,8 @@ class DatasetPlace:
     """The folder of a dataset, and the file of its key.
 
     Args:
-        folder: for the files.
-        key: for the truth.
+        folder: folder of the log files.
+        key: path of the key with the ground truth.
     """
 
     folder: Path
@@ -34,11 +34,11 @@ class DatasetPlace:
         """Refuse a folder of data that would also contain its key, spec or secret.
 
         Args:
-            spec: the file that says what is done to the logs.
-            secret: the file that all is drawn from.
+            spec: path of the spec.
+            secret: path of the secret, if there is one.
 
         Raises:
-            BadRequest: the key, the spec or the secret lies in the folder of the data.
+            BadRequest: the key, the spec or the secret is in the folder of the data.
         """
         folder = self.folder.resolve()
         for name, path in (("key", self.key), ("spec", spec), ("secret", secret)):
@@ -55,19 +55,19 @@ class DatasetPlace:
 def check_folder(
     place: DatasetPlace, jobs: Sequence[LogJob], *, secret: Secret, overwrite: bool
 ) -> FolderSurvey:
-    """Survey the folder of a dataset; refuse if it holds anything else.
+    """Survey the folder of a dataset; refuse files that would be replaced.
 
     Args:
-        place: where the dataset goes.
-        jobs: the plan.
-        secret: what the key is sealed with.
-        overwrite: replace what is not this dataset's.
+        place: folder and key of the dataset.
+        jobs: the planned jobs.
+        secret: secret with which the key is sealed.
+        overwrite: whether files of other datasets may be replaced.
 
     Raises:
-        BadRequest: files, or a key, of something else are there.
+        BadRequest: there are files, or a key, of another dataset.
     """
     try:
-        with _needing(place.key):
+        with _refuse_key_errors(place.key):
             known = [
                 *read_key(place.key, secret=secret),
                 *Journal(place.key, secret=secret).read(),
@@ -105,10 +105,10 @@ def rehearse_jobs(jobs: Sequence[LogJob]) -> None:
     fullest: dict[tuple[str, str], LogJob] = {}
     for job in jobs:
         kind = (job.where, job.mechanism)
-        if kind not in fullest or _parts(job) > _parts(fullest[kind]):
+        if kind not in fullest or _count_parts(job) > _count_parts(fullest[kind]):
             fullest[kind] = job
     for job in fullest.values():
-        _sound(make_log(job))
+        _require_made(make_log(job))
 
 
 def finish_dataset(
@@ -124,48 +124,52 @@ def finish_dataset(
     """Make the logs that are missing, and write the key.
 
     Args:
-        place: where the dataset goes.
-        found: what is there.
-        maker: makes jobs.
-        dataset: its name.
-        secret: what the key is sealed with.
-        overwrite: replace what is not this dataset's.
-        say: called after each log; what it raises stops the run, with all files whole.
+        place: folder and key of the dataset.
+        found: survey of the folder.
+        maker: makes the logs of jobs, in any order.
+        dataset: name of the dataset.
+        secret: secret with which the key is sealed.
+        overwrite: whether files of other datasets may be replaced.
+        say: called after each log; an exception from it stops the run, with all files complete.
 
     Raises:
-        BadRequest: a log cannot be made, or a file not be written.
+        BadRequest: a log cannot be made, or a file cannot be written.
     """
     journal = Journal(place.key, secret=secret)
     left = len(found.todo)
-    shelf = DatasetFolder(
+    target = DatasetFolder(
         place.folder, mine=None if overwrite else _files(found.todo, place.folder)
     )
     try:
-        shelf.create()
-        with _needing(place.key):
+        target.create()
+        with _refuse_key_errors(place.key):
             journal.start(found.kept)
         for result in maker(found.todo):
-            made = _sound(result)
+            made = _require_made(result)
             entry = _entry(made)
-            with _needing(place.key):
+            with _refuse_key_errors(place.key):
                 journal.add(entry)
-            shelf.write_files(made.contents)
+            target.write_files(made.contents)
             left -= 1
             say()
         if left:
             raise RuntimeError(f"{len(found.todo)} logs to make, and {left} did not come back")
-        with _needing(place.key):
+        with _refuse_key_errors(place.key):
             count = write_key(place.key, journal, dataset=dataset, secret=secret)
         if count != len(found.kept) + len(found.todo):
             raise RuntimeError(f"{count} logs in the key, and that is not all")
     finally:
         journal.close()
-        shelf.remove_empty_folders()
+        target.remove_empty_folders()
     journal.remove()
 
 
-def _sound(result: MadeLog | FailedLog) -> MadeLog:
-    """What was made, or a refusal with the place in the spec."""
+def _require_made(result: MadeLog | FailedLog) -> MadeLog:
+    """The log, if it was made.
+
+    Raises:
+        BadRequest: it was not; the message has the place in the spec.
+    """
     if isinstance(result, FailedLog):
         raise BadRequest(
             result.what, where=f"{result.job.where} ({result.job.name})", advice=result.advice
@@ -174,23 +178,24 @@ def _sound(result: MadeLog | FailedLog) -> MadeLog:
 
 
 def _entry(made: MadeLog) -> Entry:
-    """What the key says of a log."""
+    """The key's entry of a log."""
     hashes = {file: hashlib.sha256(content).hexdigest() for file, content in made.contents.items()}
     return {"files": hashes, **made.truth, "plan": made.job.fingerprint}
 
 
 def _files(jobs: Sequence[LogJob], folder: Path) -> list[str]:
-    """Files of unfinished logs that are there: half of a log that was being finished."""
+    """Existing files of unfinished logs, from an interrupted run."""
     return [file for job in jobs for file in job.files if (folder / file).exists()]
 
 
-def _parts(job: LogJob) -> int:
+def _count_parts(job: LogJob) -> int:
+    """Number of hidden effects and faults of a log."""
     return len(job.effects) + len(job.strikes)
 
 
 @contextmanager
-def _needing(key: Path) -> Iterator[None]:
-    """Refuse in one line if the key, or the journal beside it, cannot be had."""
+def _refuse_key_errors(key: Path) -> Iterator[None]:
+    """Turn an OSError about the key or its journal into a BadRequest."""
     try:
         yield
     except OSError as error:

@@ -2,8 +2,8 @@
 
     seed = HMAC-SHA256(secret, [dataset, student, which log])
 
-A secret keeps others from drawing the same data. A seed in the spec does not: whoever has the spec
-has the truth, and can seal another one.
+A secret prevents others from making the same data. A seed in the spec does not: with the spec,
+anyone can compute the ground truth and seal another key.
 """
 
 import hashlib
@@ -20,20 +20,20 @@ from sim.bench.dataset.spec import ENDING, Spec
 from sim.bench.dataset.student import normalize_name
 from sim.core.errors import BadRequest
 
-VARIABLE = "SYSID_SECRET"  # of the environment; holds the secret itself
-FEWEST = 16  # [characters] a shorter secret could be found by trying
-TABLE = re.compile(rb"[\r\n,;\t]")  # a secret is one line; a roster or a log has one of these
-SIZE = 32  # [bytes] of a new one
+VARIABLE = "SYSID_SECRET"  # environment variable with the secret itself
+FEWEST = 16  # [characters] a shorter secret could be guessed
+TABLE = re.compile(rb"[\r\n,;\t]")  # a roster or a log has one of these, a secret does not
+SIZE = 32  # [bytes] of a new secret
 
 
 @dataclass(frozen=True)
 class Secret:
-    """The secret that random choices are drawn from and keys are sealed with.
+    """The secret from which seeds are derived and with which keys are sealed.
 
     Args:
         value: the secret itself.
-        hidden: whether it is one; false for a seed that stands in the spec.
-        new: the file it has yet to be kept in, if it was made just now.
+        hidden: whether it is secret; False for a seed in the spec.
+        new: file in which a new secret is to be saved; None if it is not new.
     """
 
     value: bytes
@@ -41,29 +41,30 @@ class Secret:
     new: Path | None = None
 
     def __repr__(self) -> str:
-        """Without the value: a message may hold this."""
+        """Without the value, because it may appear in a message."""
         return f"Secret(hidden={self.hidden}, new={self.new})"
 
     def derive_seed(self, *which: str | int) -> int:
-        """The seed of one random choice."""
+        """The seed for the names and numbers ``which``."""
         return int.from_bytes(self._code("seed", json.dumps(which).encode()), "big")
 
     def seal(self, content: bytes) -> str:
-        """The seal (HMAC) of a content, which only the holder of the secret can compute."""
+        """The seal (HMAC) of a content, which can only be computed with the secret."""
         return self._code("seal", content).hex()
 
     def seal_pieces(self, pieces: Iterable[bytes]) -> str:
-        """The seal of a content that comes in pieces and is never whole in memory."""
-        code = hmac.new(self._own("seal"), digestmod=hashlib.sha256)
+        """The seal of a content in pieces, so that it need not fit in memory."""
+        code = hmac.new(self._derive_key("seal"), digestmod=hashlib.sha256)
         for piece in pieces:
             code.update(piece)
         return code.hexdigest()
 
     def _code(self, purpose: str, content: bytes) -> bytes:
-        return hmac.digest(self._own(purpose), content, hashlib.sha256)
+        """The HMAC of a content for a purpose."""
+        return hmac.digest(self._derive_key(purpose), content, hashlib.sha256)
 
-    def _own(self, purpose: str) -> bytes:
-        """A secret of its own for each purpose."""
+    def _derive_key(self, purpose: str) -> bytes:
+        """The HMAC key of a purpose."""
         return hmac.digest(self.value, f"sysid dataset {purpose}".encode(), hashlib.sha256)
 
     def save(self) -> None:
@@ -92,12 +93,12 @@ def derive_log_seed(
     """The seed of one log; it does not change when students or further logs are added.
 
     Args:
-        secret: what all is drawn from.
-        dataset: its name.
-        student: whose log, empty if nobody's.
-        block: which ``[[logs]]`` of the spec, from 1.
-        mechanism: its name.
-        number: which log of that mechanism, from 1.
+        secret: the secret.
+        dataset: name of the dataset.
+        student: name of the student; empty if there is none.
+        block: number of the ``[[logs]]`` table in the spec, from 1.
+        mechanism: name of the mechanism.
+        number: number of the log of that mechanism, from 1.
     """
     return secret.derive_seed(
         dataset, normalize_name(student) if student else "", block, mechanism, number
@@ -109,10 +110,10 @@ def find_secret(spec: Spec, *, make: bool) -> Secret:
 
     Args:
         spec: the spec.
-        make: whether to make a new one where its file is not there yet.
+        make: whether to make a new secret if its file does not exist.
 
     Raises:
-        BadRequest: there is none, it is too short, or file and environment contradict each other.
+        BadRequest: there is none, it is too short, or file and environment differ.
     """
     if spec.seed is not None:
         return Secret(f"sysid dataset of seed {spec.seed}".encode(), hidden=False)

@@ -1,6 +1,6 @@
 """The spec of a dataset: an instructor's TOML file, read and checked as a whole.
 
-``example.toml`` beside this file is one with every key explained.
+``example.toml`` in this folder explains every key.
 """
 
 import tomllib
@@ -13,7 +13,7 @@ from sim.bench.dataset.table import TomlTable
 from sim.core.errors import BadRequest
 
 FORMATS = ("wpilog", "csv")
-ENDING = ".secret"  # of the name of a file with a secret
+ENDING = ".secret"  # suffix of a file with a secret
 LARGEST_SEED = 2**63 - 1  # TOML's largest whole number
 TOP = ("name", "seed", "secret", "students", "formats", "routine", "logs")
 
@@ -23,13 +23,13 @@ class Spec:
     """The specification of a dataset.
 
     Args:
-        where: the file, as given.
-        name: of the dataset; another name gives other data.
-        seed: what all is drawn from where nothing is secret.
-        secret: the file with the secret that all is drawn from.
-        students: each gets logs of their own; empty if the logs are nobody's.
-        formats: each log is written in each of these.
-        logs: what to make.
+        where: path of the file, as given.
+        name: name of the dataset; another name gives other data.
+        seed: seed of all random choices, if nothing is secret.
+        secret: file with the secret from which all seeds are derived.
+        students: names of the students, each with logs of their own; may be empty.
+        formats: formats in which each log is written.
+        logs: tables of logs.
     """
 
     where: str
@@ -42,14 +42,14 @@ class Spec:
 
 
 def read_spec(path: Path) -> Spec:
-    """Read a spec and check everything that can be known before a log is made.
+    """Read a spec and check it, as far as possible without making a log.
 
     Raises:
-        BadRequest: it cannot be read, or asks for what is not there; the message names the key.
+        BadRequest: it cannot be read, or a value is wrong; the message names the key.
     """
-    top = TomlTable(_parsed(path), where=str(path), known=TOP)
+    top = TomlTable(_parse_toml(path), where=str(path), known=TOP)
     name = top.read_text("name", example="week3")
-    if len(name) > 64 or not name.isprintable():  # noqa: PLR2004 - as long as a student's name
+    if len(name) > 64 or not name.isprintable():  # noqa: PLR2004 - the limit of a student's name
         top.refuse_value("name", advice="Give a name of 1 to 64 characters.")
     settings = read_settings(top, default=LogSettings())
     logs = tuple(
@@ -75,8 +75,8 @@ def read_spec(path: Path) -> Spec:
     return spec
 
 
-def _parsed(path: Path) -> object:
-    """What TOML says."""
+def _parse_toml(path: Path) -> object:
+    """The content of a TOML file."""
     try:
         return tomllib.loads(path.read_bytes().decode("utf-8-sig"))
     except FileNotFoundError:
@@ -98,7 +98,7 @@ def _parsed(path: Path) -> object:
 
 
 def _secret(top: TomlTable, *, folder: Path) -> Path | None:
-    """The file with the secret. What is named is never repeated: it might be the secret itself."""
+    """The file with the secret. Messages do not repeat its name, which might be the secret."""
     if "secret" not in top:
         return None
     if "seed" in top:

@@ -6,17 +6,17 @@ import unicodedata
 
 from sim.core.errors import BadRequest
 
-LONGEST = 64  # [characters] a student's name; it also names a folder
-LEGIBLE = 32  # [characters] of it that are kept in a folder's name where some have to change
-RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?")  # Windows has no such folders
+LONGEST = 64  # [characters] of a student's name, which also names a folder
+LEGIBLE = 32  # [characters] of a name in a folder's name with a digest
+RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?")  # no folder names on Windows
 PLAIN = re.compile(r"[\w@+-][\w@+. -]*(?<![. ])")
 
 
 def check_student_name(text: str) -> str:
-    """A student's name as it is shown; raises if it cannot be a name.
+    """A student's name as it is displayed.
 
     Raises:
-        BadRequest: it is empty, too long, not printable, or holds a path separator.
+        BadRequest: it is empty, too long, not printable, or contains a path separator.
     """
     name = unicodedata.normalize("NFC", text).strip()
     advice = f"Give a name of 1 to {LONGEST} characters, such as: ann"
@@ -34,12 +34,20 @@ def check_student_name(text: str) -> str:
 
 
 def normalize_name(student: str) -> str:
-    """A name in the form by which people are told apart: Ann and ann are one person."""
+    """A name in the form that is compared: Ann and ann are the same student.
+
+    Raises:
+        BadRequest: as ``check_student_name``.
+    """
     return check_student_name(student).casefold()
 
 
 def make_folder_name(student: str) -> str:
-    """A folder's name that every system accepts, different for different students."""
+    """A folder's name that is valid on every system, different for different students.
+
+    Raises:
+        BadRequest: as ``check_student_name``.
+    """
     name = normalize_name(student)
     if name.isascii() and PLAIN.fullmatch(name) and not RESERVED.fullmatch(name):
         return name

@@ -14,16 +14,16 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-SHOWN = 40  # [characters] of a wrong value that a refusal repeats
+SHOWN = 40  # [characters] of a wrong value in a message, at most
 
 
 @dataclass(frozen=True)
 class NumberRange:
-    """A number that is fixed, or drawn evenly between two.
+    """A number that is fixed, or drawn uniformly from a range.
 
     Args:
-        least: the smallest.
-        most: the largest; the same if it is fixed.
+        least: lower limit.
+        most: upper limit; equal to the lower one if the number is fixed.
     """
 
     least: float
@@ -35,15 +35,17 @@ class NumberRange:
 
 
 class TomlTable:
-    """A table with the keys it may have.
+    """A TOML table whose keys are checked.
+
+    Its methods raise BadRequest if a value is missing or wrong.
 
     Args:
-        content: as TOML holds it.
-        where: the file and the table's place in it, for refusals.
-        known: every key it may have.
+        content: the parsed table.
+        where: file and place of the table, for messages.
+        known: all keys that it may have.
 
     Raises:
-        BadRequest: it has another key; the refusal names the nearest that is known.
+        BadRequest: it has another key; the message names the most similar known one.
     """
 
     def __init__(self, content: object, *, where: str, known: Sequence[str]) -> None:
@@ -62,19 +64,19 @@ class TomlTable:
         return key in self.content
 
     def refuse(self, what: str, *, advice: str) -> NoReturn:
-        """Refuse this table."""
+        """Raise BadRequest with the place of this table."""
         raise BadRequest(what, where=self.where, advice=advice)
 
     def refuse_value(self, key: str, *, advice: str) -> NoReturn:
-        """Refuse the value of a key."""
+        """Raise BadRequest about the value of a key."""
         self.refuse(f"{key} is {_shown(self.content[key])}", advice=advice)
 
     def read_text(self, key: str, *, example: str) -> str:
         """Read a text that is not empty.
 
         Args:
-            key: that is read.
-            example: a valid value, shown in the message of a refusal.
+            key: the key.
+            example: a valid value for the message of a refusal.
         """
         if key not in self:
             self.refuse(f"{key} is missing", advice=f"Add, for example: {key} = {_shown(example)}")
@@ -84,7 +86,7 @@ class TomlTable:
         return value.strip()
 
     def read_texts(self, key: str, *, example: str) -> tuple[str, ...]:
-        """One text, or several in a list."""
+        """Read one text, or several in a list, always as a tuple."""
         value = self.content.get(key)
         if not isinstance(value, list):
             return (self.read_text(key, example=example),)
@@ -105,14 +107,14 @@ class TomlTable:
         return chosen
 
     def read_flag(self, key: str, *, default: bool) -> bool:
-        """True or false."""
+        """Read true or false."""
         value = self.content.get(key, default)
         if not isinstance(value, bool):
             self.refuse_value(key, advice="Give true or false, without quotes.")
         return value
 
     def read_integer(self, key: str, *, least: int, most: int, default: int | None = None) -> int:
-        """A whole number within limits."""
+        """Read an integer within limits."""
         advice = f"Give a whole number from {least} to {most}."
         if key not in self and default is None:
             self.refuse(f"{key} is missing", advice=advice)
@@ -124,7 +126,7 @@ class TomlTable:
     def read_number(
         self, key: str, *, default: float, above: float = -math.inf, most: float = math.inf
     ) -> float:
-        """A number above one limit and up to another."""
+        """Read a number above one limit and up to another."""
         value = _number(self.content.get(key, default))
         if value is None or not above < value <= most:
             self.refuse_value(key, advice=f"Give a number{_limits(above, most)}.")
@@ -133,7 +135,7 @@ class TomlTable:
     def read_range(
         self, key: str, *, default: float, least: float = -math.inf, most: float = math.inf
     ) -> NumberRange:
-        """A number, or a list of the least and the most it may be."""
+        """Read a number, or a list of the limits of a range."""
         value = self.content.get(key, default)
         ends = [_number(end) for end in (value if isinstance(value, list) else [value, value])]
         advice = (
@@ -148,12 +150,12 @@ class TomlTable:
         return NumberRange(*numbers)
 
     def read_tables(self, key: str, *, name: str, known: Sequence[str]) -> tuple["TomlTable", ...]:
-        """The tables of a list of tables.
+        """Read a list of tables.
 
         Args:
-            key: whose value they are.
-            name: as it stands in the file, between the double brackets.
-            known: the keys that each may have.
+            key: the key.
+            name: name between the double brackets in the file.
+            known: all keys that each table may have.
         """
         value = self.content.get(key, [])
         if not isinstance(value, list):
@@ -173,7 +175,7 @@ def suggest_word(word: str, options: Sequence[str]) -> str:
 
 
 def _number(value: object) -> float | None:
-    """A finite number, or None; true and false are no numbers."""
+    """A value as a finite number; None if it is not one, or true or false."""
     if not isinstance(value, int | float) or isinstance(value, bool):
         return None
     try:
@@ -184,13 +186,13 @@ def _number(value: object) -> float | None:
 
 
 def _limits(above: float, most: float) -> str:
-    """The limits a number has, in words."""
+    """The limits of a number, in words."""
     low = f" above {above:g}" if math.isfinite(above) else ""
     high = f"{',' if low else ''} at most {most:g}" if math.isfinite(most) else ""
     return low + high
 
 
 def _shown(value: object) -> str:
-    """A value as it stands in the file, cut where it is long."""
+    """A value as JSON, shortened if it is long."""
     text = json.dumps(value, ensure_ascii=False, default=str)
     return text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"

@@ -1,4 +1,4 @@
-"""The mechanisms the bench can build, one file each."""
+"""The catalogue of simulated mechanisms, one file each."""
 
 import sys
 from typing import cast

@@ -1,7 +1,7 @@
 """A single-jointed arm: one NEO at 60:1 lifts 4 kg at half a meter.
 
-Frictionless theory: kV 1.191 V·s/rad, kA 0.077 V·s²/rad, kG 1.51 V, a timescale of 65 ms. A point
-of mass m at L has gravity over inertia g/L = 19.6 per second squared, and so has kG/kA.
+Frictionless theory: kV 1.191 V·s/rad, kA 0.077 V·s²/rad, kG 1.51 V, a timescale of 65 ms. For a
+point mass at distance L, kG/kA is g/L = 19.6 rad/s².
 """
 
 from sim.bench.mechanism import Mechanism, Sensor

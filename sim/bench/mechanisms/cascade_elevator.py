@@ -4,7 +4,7 @@ The rope pulls the stage, and the stage pulls the carriage at twice its own spee
 carriage the drum therefore has twice its radius. The stage moves half as far and half as fast. Its
 work against gravity adds half its mass to the weight; its kinetic energy adds a quarter of its
 mass to the inertia. The weight is that of 16 kg and the inertia is 14 kg, so kG/kA is 11.2 m/s². It
-is up to 2 g where the stage is much heavier than the carriage.
+approaches 2 g if the stage is much heavier than the carriage.
 
 Frictionless theory: kV 3.575 V·s/m, kA 0.179 V·s²/m, kG 2.01 V, a timescale of 50 ms.
 """
@@ -13,7 +13,7 @@ from sim.bench.mechanism import Mechanism, Sensor
 from sim.physics.motors import find_motor
 
 DRUM = 0.0222  # [m] radius
-CARRIAGE, STAGE = 12.0, 8.0  # [kg] what goes up at full speed, and at half of it
+CARRIAGE, STAGE = 12.0, 8.0  # [kg] moved at full speed, and at half of it
 WEIGHT, INERTIA = CARRIAGE + STAGE / 2.0, CARRIAGE + STAGE / 4.0  # [kg] in meters of the carriage
 
 MECHANISM = Mechanism(

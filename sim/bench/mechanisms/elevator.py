@@ -1,7 +1,7 @@
 """An elevator: two NEO at 5:1 on a drum of 22.2 mm lift 20 kg.
 
 Frictionless theory: kV 4.469 V·s/m, kA 0.205 V·s²/m, kG 2.01 V, a timescale of 46 ms. kG/kA is g
-where nothing but the carriage is accelerated, and less where rotors are, too.
+without the inertia of rotors, and less with it.
 """
 
 from sim.bench.mechanism import Mechanism, Sensor

@@ -1,7 +1,7 @@
 """An intake: one NEO Vortex at 3:1 spins rollers and belts of 0.0013 kg·m².
 
 Frictionless theory: kV 0.313 V·s/rot, kA 0.0090 V·s²/rot, a timescale of 29 ms: hardly
-longer than one loop of the robot program, so kA is the hard one here.
+longer than one loop of the robot program, so kA is hard to identify.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""The same swerve drive turning on the spot: 5.8 kg·m², modules 0.41 m from the middle.
+"""The same swerve drive turning on the spot: 5.8 kg·m², modules 0.41 m from the center.
 
 Frictionless theory: kV 0.98 V·s/rad, kA 0.135 V·s²/rad, a timescale of 138 ms; rotors add a tenth.
 """

@@ -1,4 +1,4 @@
-"""A turret: one Kraken X44 at 45:1 turns 0.8 kg·m² through a little more than a turn.
+"""A turret: one Kraken X44 at 45:1 on 0.8 kg·m², with a little more than one turn of travel.
 
 Frictionless theory: kV 0.659 V·s/rad, kA 0.052 V·s²/rad, a timescale of 78 ms.
 """
