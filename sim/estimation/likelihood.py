@@ -44,7 +44,7 @@ STEP = 1e-3  # [of a value's size] step of a derivative
 COARSE_STEP = 0.02  # [of it] the same where the simulation is not smooth in the parameter
 LAG_STEP = 0.02  # [of its standard deviation] step of the derivative by a run's own lag
 LARGEST = 1e100  # [1] innovation whose square is still a number
-SHORTEST = 0.02  # [sample periods] a shorter kA/kV cannot be seen, and needs too fine steps
+SHORTEST = 0.02  # [sample periods] a shorter kA/kV cannot be measurements, and needs too fine steps
 PARALLEL = 10_000  # [samples] of a log from which on simulations run in parallel
 
 
@@ -143,15 +143,15 @@ class PredictionErrorProblem:
     @cached_property
     def batch(self) -> RunBatch:
         """The runs as contiguous arrays for the engine."""
-        seen = [record.measurements for record in self.records]
+        measurements = [record.measurements for record in self.records]
         return RunBatch(
             self.run_edges.astype(np.float64),
-            np.concatenate([one.time for one in seen], dtype=np.float64),
-            np.concatenate([one.voltage for one in seen], dtype=np.float64),
-            np.concatenate([one.voltage_slide for one in seen], dtype=np.float64),
+            np.concatenate([one.time for one in measurements], dtype=np.float64),
+            np.concatenate([one.voltage for one in measurements], dtype=np.float64),
+            np.concatenate([one.voltage_slide for one in measurements], dtype=np.float64),
             np.ascontiguousarray(self.measured, dtype=np.float64),
-            np.array([one.position for one in seen], dtype=np.float64),
-            np.array([one.velocity for one in seen], dtype=np.float64),
+            np.array([one.position for one in measurements], dtype=np.float64),
+            np.array([one.velocity for one in measurements], dtype=np.float64),
             np.array([record.low for record in self.records], dtype=np.float64),
             np.array([record.high for record in self.records], dtype=np.float64),
             np.array([record.clock for record in self.records], dtype=np.float64),
@@ -227,8 +227,8 @@ class PredictionErrorProblem:
     @cached_property
     def velocity_floor(self) -> float:
         """[unit/s] root mean square of the velocity's noise, at the speeds that were recorded."""
-        seen = [record.measurements for record in self.records]
-        return max(compute_noise_at_speed(seen, self.noise), self.noise.velocity)
+        measurements = [record.measurements for record in self.records]
+        return max(compute_noise_at_speed(measurements, self.noise), self.noise.velocity)
 
     @cached_property
     def start_sd(self) -> float:

@@ -8,7 +8,7 @@ model, from third differences, which are almost zero for a smooth motion:
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,45 +111,51 @@ def measure_runs(
             for run, one in zip(runs, fresh, strict=True)
         )
 
-    seen = measure()
-    noise = estimate_noise(seen) if seen and rest_by_position else None
+    measurements = measure()
+    noise = estimate_noise(measurements) if measurements and rest_by_position else None
     speed = MOVING * top
     if noise is None or _rest_noise(runs, speed=speed, noise=noise) <= NOISY * speed:
-        return seen
+        return measurements
     return measure(noise)
 
 
-def merge_stale_samples(seen: RunMeasurements) -> RunMeasurements:
+def merge_stale_samples(measurements: RunMeasurements) -> RunMeasurements:
     """A copy without the samples at which no reading is fresh.
 
     A logger that is faster than its sensor repeats readings; simulating them adds no information.
     The voltage of removed samples is averaged; a sample at which it jumps is kept.
     """
-    kept = np.asarray(~np.isnan(seen.measured).all(axis=1))
+    kept = np.asarray(~np.isnan(measurements.measured).all(axis=1))
     kept[0] = kept[-1] = True
-    kept[1:] |= np.abs(np.diff(seen.voltage)) > JUMP
+    kept[1:] |= np.abs(np.diff(measurements.voltage)) > JUMP
     if kept.all():
-        return seen
-    lasts = np.diff(seen.time, append=seen.time[-1])
+        return measurements
+    lasts = np.diff(measurements.time, append=measurements.time[-1])
     first = np.flatnonzero(kept)
     share = np.add.reduceat(lasts, first)
     span = np.where(share > 0.0, share, 1.0)
-    slide = np.add.reduceat(seen.voltage_slide, first)
-    mean = seen.voltage + 0.5 * seen.voltage_slide
+    slide = np.add.reduceat(measurements.voltage_slide, first)
+    mean = measurements.voltage + 0.5 * measurements.voltage_slide
     volts = np.add.reduceat(mean * lasts, first) / span - 0.5 * slide
-    error = np.sqrt(np.add.reduceat((seen.voltage_error * lasts) ** 2, first)) / span
-    return RunMeasurements(
-        seen.time[kept], np.where(share > 0.0, volts, seen.voltage[kept]), slide, error,
-        np.ascontiguousarray(seen.measured[kept]), seen.moving[kept], seen.informative[kept],
-        seen.at_rest[kept], seen.position, seen.velocity,
-    )  # fmt: skip
+    error = np.sqrt(np.add.reduceat((measurements.voltage_error * lasts) ** 2, first)) / span
+    return replace(
+        measurements,
+        time=measurements.time[kept],
+        voltage=np.where(share > 0.0, volts, measurements.voltage[kept]),
+        voltage_slide=slide,
+        voltage_error=error,
+        measured=np.ascontiguousarray(measurements.measured[kept]),
+        moving=measurements.moving[kept],
+        informative=measurements.informative[kept],
+        at_rest=measurements.at_rest[kept],
+    )
 
 
-def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
+def estimate_noise(measurements: tuple[RunMeasurements, ...]) -> SensorNoise:
     """Standard deviations of the fresh samples while the mechanism moves, over all runs."""
     thirds: list[list[Array]] = [[], []]
     fresh: list[list[Array]] = [[], []]
-    for run in seen:
+    for run in measurements:
         for column in (0, 1):
             there = run.moving & ~np.isnan(run.measured[:, column])
             values = run.measured[there, column]
@@ -162,12 +168,14 @@ def estimate_noise(seen: tuple[RunMeasurements, ...]) -> SensorNoise:
         spread = ROBUST * float(np.median(np.abs(every))) / math.sqrt(THIRD)
         least = _smallest_step(values) / math.sqrt(12.0)  # the standard deviation of rounding
         sizes.append(max(spread, least, 1e-12))
-    columns = [np.concatenate([run.measured[:, column] for run in seen]) for column in (0, 1)]
+    columns = [
+        np.concatenate([run.measured[:, column] for run in measurements]) for column in (0, 1)
+    ]
     grain = tuple(DIGITS * float(np.nanmax(one) - np.nanmin(one)) + 1e-12 for one in columns)
     return SensorNoise(sizes[0], sizes[1], (grain[0], grain[1]))
 
 
-def compute_noise_at_speed(seen: Sequence[RunMeasurements], noise: SensorNoise) -> float:
+def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: SensorNoise) -> float:
     """[unit/s] Root mean square of the velocity's noise, where that noise grows with the speed.
 
     A velocity that a device computes from the time between two edges of an encoder is off by a
@@ -175,11 +183,11 @@ def compute_noise_at_speed(seen: Sequence[RunMeasurements], noise: SensorNoise) 
     at least the noise of the slower ones.
 
     Args:
-        seen: the runs.
+        measurements: the runs.
         noise: of all their samples together, returned where the noise does not grow.
     """
     every, speeds = [np.zeros(0)], [np.zeros(0)]
-    for run in seen:
+    for run in measurements:
         there = run.moving & ~np.isnan(run.measured[:, 1])
         velocity = run.measured[there, 1]
         if velocity.size > 3:  # noqa: PLR2004 - fewer have no third difference

@@ -61,12 +61,12 @@ class RunRecord:
     session: int
     memory_group: int
 
-    def exclude_interval(self, aside: ExcludedInterval) -> "RunRecord":
+    def exclude_interval(self, interval: ExcludedInterval) -> "RunRecord":
         """A copy in which the samples of an interval are not used."""
         time = self.measurements.time
-        begins = aside.start <= time[0] + AROUND  # on a stop, which it leaves: the rest is good
-        end = np.inf if aside.to_the_end and not begins else aside.end + AROUND
-        return self._leave_out((time >= aside.start - AROUND) & (time <= end))
+        begins = interval.start <= time[0] + AROUND  # on a stop, which it leaves: the rest is good
+        end = np.inf if interval.to_the_end and not begins else interval.end + AROUND
+        return self._leave_out((time >= interval.start - AROUND) & (time <= end))
 
     def exclude(self) -> "RunRecord":
         """A copy without samples to compare; it is still simulated."""
@@ -102,10 +102,12 @@ def make_run_records(
     found = {}
     for number, run, one in zip(places, runs, measured, strict=True):
         # readings at rest are compared: how a mechanism leaves its rest tells effects apart
-        seen = replace(_start_at_rest(one, top=top), at_rest=np.zeros_like(one.at_rest))
+        measurements = replace(_start_at_rest(one, top=top), at_rest=np.zeros_like(one.at_rest))
         memory = session * MOST_RUNS + (0 if together else number)
         clock = since + float(began[number])
-        found[number] = RunRecord(seen, run.test, *_find_stops(seen), clock, session, memory)
+        found[number] = RunRecord(
+            measurements, run.test, *_find_stops(measurements), clock, session, memory
+        )
     for part in aside:
         if part.run in found:
             found[part.run] = found[part.run].exclude_interval(part)
@@ -121,8 +123,8 @@ def make_separate_records(log: Log, measured: Iterable[RunMeasurements]) -> tupl
     """
     runs = [run for run in log.runs if len(run) >= FEWEST]
     return tuple(
-        RunRecord(seen, run.test, -np.inf, np.inf, 0.0, 0, number)
-        for number, (run, seen) in enumerate(zip(runs, measured, strict=True))
+        RunRecord(measurements, run.test, -np.inf, np.inf, 0.0, 0, number)
+        for number, (run, measurements) in enumerate(zip(runs, measured, strict=True))
     )
 
 
@@ -146,17 +148,22 @@ def join_records(log: Log, later: Log) -> Log:
     return replace(log, runs=(*log.runs, *runs))
 
 
-def _start_at_rest(seen: RunMeasurements, *, top: float) -> RunMeasurements:
+def _start_at_rest(measurements: RunMeasurements, *, top: float) -> RunMeasurements:
     """A copy that starts at rest if its position does: a noisy velocity alone cannot show it."""
-    x = seen.measured[:, 0]
+    x = measurements.measured[:, 0]
     fresh = np.flatnonzero(~np.isnan(x))[:2]
     if fresh.size < 2:  # noqa: PLR2004 - two make a rate
-        return seen
-    rate = abs(float((x[fresh[1]] - x[fresh[0]]) / (seen.time[fresh[1]] - seen.time[fresh[0]])))
-    return replace(seen, velocity=0.0) if rate < AT_REST * top else seen
+        return measurements
+    rate = abs(
+        float(
+            (x[fresh[1]] - x[fresh[0]])
+            / (measurements.time[fresh[1]] - measurements.time[fresh[0]])
+        )
+    )
+    return replace(measurements, velocity=0.0) if rate < AT_REST * top else measurements
 
 
-def _find_stops(seen: RunMeasurements) -> tuple[float, float]:
+def _find_stops(measurements: RunMeasurements) -> tuple[float, float]:
     """[unit] Lower and upper stop at the start of a run that began at rest; infinite if none.
 
     Arms and elevators start on a stop and stay there, whatever gravity does, until the voltage
@@ -164,19 +171,19 @@ def _find_stops(seen: RunMeasurements) -> tuple[float, float]:
     first sank, by more than the noise of its position, has its stop where it came to rest. A run
     that later goes beyond its start shows that there is no stop.
     """
-    fresh = ~np.isnan(seen.measured[:, 0])
-    x, time = seen.measured[fresh, 0], seen.time[fresh]
-    if seen.velocity != 0.0 or not x.size:
+    fresh = ~np.isnan(measurements.measured[:, 0])
+    x, time = measurements.measured[fresh, 0], measurements.time[fresh]
+    if measurements.velocity != 0.0 or not x.size:
         return -np.inf, np.inf
     near = SAME_PLACE * float(np.ptp(x))
-    low = x.min() > seen.position - near
-    high = x.max() < seen.position + near
+    low = x.min() > measurements.position - near
+    high = x.max() < measurements.position + near
     if low == high:
         return -np.inf, np.inf
     rough = SANK * _position_roughness(x, time)
     if low:
-        return _lowest_stop(x, seen.position, near=near, rough=rough), np.inf
-    return -np.inf, -_lowest_stop(-x, -seen.position, near=near, rough=rough)
+        return _lowest_stop(x, measurements.position, near=near, rough=rough), np.inf
+    return -np.inf, -_lowest_stop(-x, -measurements.position, near=near, rough=rough)
 
 
 def _lowest_stop(x: Array, begin: float, *, near: float, rough: float) -> float:

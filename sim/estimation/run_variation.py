@@ -110,10 +110,10 @@ def _log_likelihood(runs: list[RunInformation], square: Array) -> Array:
     root = np.sqrt(square)
     information = np.array([run.information for run in runs])
     scores = np.array([run.score for run in runs])
-    shares, ways = np.linalg.eigh(root[:, None, :, None] * information * root[:, None, None, :])
-    shares = np.maximum(shares, 0.0)
-    along = np.einsum("tk,rk,trkj->trj", root, scores, ways)
-    return np.asarray(0.5 * np.sum(along**2 / (1.0 + shares) - np.log1p(shares), axis=(1, 2)))
+    values, vectors = np.linalg.eigh(root[:, None, :, None] * information * root[:, None, None, :])
+    values = np.maximum(values, 0.0)
+    along = np.einsum("tk,rk,trkj->trj", root, scores, vectors)
+    return np.asarray(0.5 * np.sum(along**2 / (1.0 + values) - np.log1p(values), axis=(1, 2)))
 
 
 def _marginal_covariance(runs: list[RunInformation], square: Array, prior: Array) -> Array:
@@ -126,16 +126,16 @@ def _marginal_covariance(runs: list[RunInformation], square: Array, prior: Array
     """
     root, total = np.sqrt(square), np.diag(prior + NO_INFORMATION)
     for run in runs:
-        shares, ways = _along(run, root)
-        inverse = ways / square[:, None]
-        total = total + (inverse * (shares / (1.0 + shares))) @ inverse.T
+        values, vectors = _scaled_eigenvectors(run, root)
+        inverse = vectors / square[:, None]
+        total = total + (inverse * (values / (1.0 + values))) @ inverse.T
     return np.asarray(np.linalg.inv(total))
 
 
-def _along(run: RunInformation, root: Array) -> tuple[Array, Array]:
+def _scaled_eigenvectors(run: RunInformation, root: Array) -> tuple[Array, Array]:
     """Eigenvalues of T^(1/2) G T^(1/2) and (k, k) its eigenvectors times T^(1/2)."""
-    shares, ways = np.linalg.eigh(run.information * np.outer(root, root))
-    return np.maximum(shares, 0.0), root[:, None] * ways
+    values, vectors = np.linalg.eigh(run.information * np.outer(root, root))
+    return np.maximum(values, 0.0), root[:, None] * vectors
 
 
 def _run_information(

@@ -68,17 +68,18 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
     sign, model = make_fit_model(fitted)
     runs = [run for run in log.runs if len(run) >= FEWEST]
     friction = None if fitted.type == "simple" else model.gains["kS"]
-    seen = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
-    if not seen:
+    measured = measure_runs(replace(log, runs=tuple(runs)), friction=friction)
+    if not measured:
         return ()
     tracks = [
         simulate_run(
             model, time=part.time, voltage=sign * part.voltage,
             state=State.cold_at(part.position, part.velocity),
         )
-        for part in seen
+        for part in measured
     ]  # fmt: skip
-    position_noise, velocity_noise = _position_noise(seen, tracks), estimate_noise(seen).velocity
+    position_noise = _position_noise(measured, tracks)
+    velocity_noise = estimate_noise(measured).velocity
     return tuple(
         RunReplay(
             _last_samples(run, part.time.size),
@@ -88,7 +89,7 @@ def replay_fit(found: Fit, log: Log) -> tuple[RunReplay, ...]:
             position_noise,
             velocity_noise,
         )
-        for run, part, track in zip(runs, seen, tracks, strict=True)
+        for run, part, track in zip(runs, measured, tracks, strict=True)
     )
 
 
@@ -126,7 +127,7 @@ def _sensor_lags(found: Fit) -> list[Part]:
     ]
 
 
-def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
+def _position_noise(measured: Sequence[RunMeasurements], tracks: Sequence[Track]) -> float:
     """[m or rad] position noise, from third differences of the residual.
 
     They hardly depend on errors of the model. Those of the position itself would be large wherever
@@ -134,7 +135,7 @@ def _position_noise(seen: Sequence[RunMeasurements], tracks: Sequence[Track]) ->
     """
     thirds = [
         np.diff((run.measured[:, 0] - track.position)[run.moving], 3)
-        for run, track in zip(seen, tracks, strict=True)
+        for run, track in zip(measured, tracks, strict=True)
     ]
     every = np.abs(np.concatenate(thirds))
     every = every[~np.isnan(every)]

@@ -97,22 +97,22 @@ def compute_moment_of_inertia(
     _check(turning, straight, mass=mass, lever=lever)
     turn, go = fit_in_si(turning), fit_in_si(straight)
     in_turns = find_unit(straight.units).angular
-    seen = turn.gains["kV"] / go.gains["kV"]
+    from_speeds = turn.gains["kV"] / go.gains["kV"]
     if in_turns and lever is not None:  # the lever arm gives the meters per rotation
-        go, seen = _scaled(go, seen / lever), lever
-    arm = seen if lever is None else lever
+        go, from_speeds = _scaled(go, from_speeds / lever), lever
+    arm = from_speeds if lever is None else lever
     value = mass * arm * turn.gains["kA"] / go.gains["kA"]
     parts = [one.errors["kA"] / one.gains["kA"] for one in (turn, go)]
     if lever is None or in_turns:
         parts += [one.errors["kV"] / one.gains["kV"] for one in (turn, go)]
     own = sorted(value - share * (mass * arm**2 - value) for share in ROTORS)
-    doubts = () if lever is None else tuple(_lever_doubts(turn, go, seen, lever))
+    doubts = () if lever is None else tuple(_lever_doubts(turn, go, from_speeds, lever))
     return MomentOfInertia(
         value,
         value * math.hypot(*parts),
         (own[0], own[1]),
         arm,
-        None if in_turns else seen,
+        None if in_turns else from_speeds,
         doubts,
     )
 
@@ -168,10 +168,10 @@ def _check(turning: Fit, straight: Fit, *, mass: float, lever: float | None) -> 
             )
 
 
-def _lever_doubts(turn: Fit, go: Fit, seen: float, lever: float) -> list[Doubt]:
+def _lever_doubts(turn: Fit, go: Fit, from_speeds: float, lever: float) -> list[Doubt]:
     """A doubt if the lever arm from the speeds differs from the given one."""
     unsure = SURELY * math.hypot(*(one.errors["kV"] / one.gains["kV"] for one in (turn, go)))
-    share = seen / lever
+    share = from_speeds / lever
     if abs(share - 1.0) <= NEAR + unsure:
         return []
     near = [
@@ -183,8 +183,8 @@ def _lever_doubts(turn: Fit, go: Fit, seen: float, lever: float) -> list[Doubt]:
     return [
         Doubt(
             "lever",
-            f"kV turning / kV straight is the lever: your logs give {seen:.3g} m, but you gave "
-            f"{lever:.3g} m. Probably {cause}.",
+            f"kV turning / kV straight is the lever: your logs give {from_speeds:.3g} m, but you "
+            f"gave {lever:.3g} m. Probably {cause}.",
             grave=True,
         )
     ]
