@@ -28,7 +28,7 @@ class Refusal(Exception):  # noqa: N818 - not an error of the program
         super().__init__(what, where, advice)
 
     def __reduce__(self) -> tuple[object, ...]:
-        """How to pickle it, to send it from one process to another."""
+        """Support for pickling, to send a refusal from one process to another."""
         return _rebuild, (type(self), self.what, self.where, self.advice)
 
     def __str__(self) -> str:

@@ -101,7 +101,7 @@ def clamp_to_physical(gains: Mapping[str, float], *, period: float = 0.0) -> dic
     """The gains, clamped to values from which a simulation can start.
 
     Args:
-        gains: a raw guess.
+        gains: a raw guess, in SI.
         period: [s] time between samples.
     """
     kv = abs(gains["kV"])

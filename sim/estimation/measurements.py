@@ -184,7 +184,7 @@ def compute_noise_at_speed(measurements: Sequence[RunMeasurements], noise: Senso
 
     Args:
         measurements: the runs.
-        noise: of all their samples together, returned where the noise does not grow.
+        noise: noise of all samples together; its velocity is returned if the noise does not grow.
     """
     every, speeds = [np.zeros(0)], [np.zeros(0)]
     for run in measurements:
@@ -268,7 +268,7 @@ def _measure_run(
         top: [unit/s] the log's top speed.
         step: [unit] step of the position sensor.
         friction: as in ``measure_runs``.
-        noise: of the samples, if the position is to decide what is at rest; else None.
+        noise: noise of the samples, if the position decides what is at rest; else None.
     """
     moving = np.abs(run.velocity) > MOVING * top
     least = MOVING * top

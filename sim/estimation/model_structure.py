@@ -58,7 +58,7 @@ class ModelStructure:
 
     @cached_property
     def free_count(self) -> int:
-        """How many parameters the data determine, including those that keep their start values."""
+        """Number of parameters that the data determine, also of those with fixed start values."""
         known = self.parameters
         return sum(1 for name in self.names if name not in known or known[name].counts)
 

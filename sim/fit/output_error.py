@@ -215,7 +215,7 @@ def _add_run_lags(
     every: PredictionErrorProblem,
     period: float,
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """The same with a lag for each run, if the likelihood improves enough."""
+    """Problem, estimate and replay with a lag for each run, or unchanged if it is no better."""
     if _is_incomplete(problem, point, replay):
         return problem, point, replay
     extended, found = fit_run_lags(problem, point, every=every, period=period)
@@ -238,7 +238,7 @@ def _is_incomplete(
 def _add_everyday_effects(
     problem: PredictionErrorProblem, point: Estimate, replay: OpenLoopReplay
 ) -> tuple[PredictionErrorProblem, Estimate, OpenLoopReplay]:
-    """The same with the small effects of every mechanism, if the model is then complete."""
+    """Problem, estimate and replay with small effects, or unchanged if that is not enough."""
     extended, found = fit_everyday_effects(problem, point)
     # if more is missing, or the runs differ, small effects would only imitate that
     if found is point or found.process_noise > TRACKING * problem.noise.velocity**2:

@@ -15,7 +15,7 @@ from sim.core.log import FOUR_TESTS, Array, Log, Run
 
 NOISE_WINDOW = 9  # [samples] SysId's noise floor looks at a moving mean this long
 LONGEST_GAP = 0.5  # [s] a longer step between samples does not count toward the mean period
-MOVED = 0.8  # [share of the peak acceleration] where the velocity is taken to have begun to move
+MOVED = 0.8  # [share of the peak acceleration] at which the velocity begins to rise
 NEAR_TOP = 0.9  # [share of the top speed] up to which a dynamic test determines kA
 MEDIAN_WINDOWS = range(1, 16)  # [samples] that SysId's slider offers
 
@@ -197,9 +197,9 @@ def trim_step(
     start = int(np.argmax(np.abs(rows.voltage) > 0))
     begin = rows.time[start]
     moved = np.abs(rows.position - rows.position[start]) > threshold * rows.period
-    surge = np.sign(rows.velocity) * rows.acceleration
-    peak = int(np.argmax(surge))
-    rising = int(np.argmax(surge > MOVED * surge[peak]))
+    speedup = np.sign(rows.velocity) * rows.acceleration
+    peak = int(np.argmax(speedup))
+    rising = int(np.argmax(speedup > MOVED * speedup[peak]))
     speed = np.abs(rows.velocity[peak:])
     if duration == 0.0:
         near_top = rows.time[peak + int(np.argmax(speed > NEAR_TOP * speed.max()))]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 RUN, SPEED, POSITION = "run", "direction-speed", "direction-position"
 STEPS, REST = "after-steps", "at-rest"
-SIGNALS = ("position", "velocity")  # the columns of what is measured and simulated
+SIGNALS = ("position", "velocity")  # columns of measurements and simulations
 MANY = 99.5  # [noises] from which on all digits before the point are given
 FASTER = {
     "position": ("ahead of the position in the model", "behind the position in the model"),
@@ -14,7 +14,7 @@ FASTER = {
 
 @dataclass(frozen=True)
 class Place:
-    """Where simulation and measurement disagree, in words and numbers.
+    """A bin in which simulation and measurement disagree, in words and numbers.
 
     Args:
         what: ``run``, ``direction-speed``, ``direction-position``, ``after-steps`` or ``at-rest``.

@@ -1,1 +1,1 @@
-"""What can be wrong with a log: faults, made on purpose and found again, and diagnostics."""
+"""Inspect a log: faults, which can be added and detected, and diagnostics."""

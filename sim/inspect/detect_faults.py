@@ -218,7 +218,7 @@ def _evidence_weight(damage: Damage) -> float:
 
 
 def _are_rivals(one: Damage, other: Damage) -> bool:
-    """Whether two damages are different explanations of one moment."""
+    """Whether two damages are different explanations of the same interval."""
     mine, others = FAULTS[one.fault], FAULTS[other.fault]
     if mine is others or mine.about != others.about or mine.whole or others.whole:
         return False

@@ -205,7 +205,7 @@ def _kv_fits(share: float) -> bool:
 
 
 def _place_to_look(kv: float, ka: float) -> str:
-    """What to check, from the shares of the theoretical kV and kA."""
+    """Half a sentence of advice, from the shares of the theoretical kV and kA."""
     if _kv_fits(kv):
         return "kV fits, so look at the load, the number of motors and the voltage logged"
     if LIGHT / DRAG < ka / kv < HEAVY / BELOW:

@@ -140,7 +140,7 @@ def _fit_slip(anomaly: Anomaly, period: float) -> tuple[float, float, int, int]:
 
 
 def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float, float, int, int]:
-    """The same over all spans, for a sudden or a gradual shape."""
+    """The best result of ``_loss`` over all candidate spans of an anomaly."""
     best = (0.0, 0.0, 0, 1)
     for span in anomaly.list_candidate_spans(margin=margin):
         best = max(best, _loss(anomaly, span, fading=fading))
@@ -152,7 +152,10 @@ def _search_spans(anomaly: Anomaly, *, fading: bool, margin: int) -> tuple[float
 def _loss(
     anomaly: Anomaly, span: tuple[int, int], *, fading: bool
 ) -> tuple[float, float, int, int]:
-    """The same for one span."""
+    """Share explained, share of the speed lost, and the span.
+
+    ``fading`` is a loss that grows and fades; otherwise it is constant over the span.
+    """
     first, last = span
     shape = np.zeros(anomaly.residual.size)
     shape[first:last] = anomaly.expected[first:last]

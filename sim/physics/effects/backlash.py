@@ -51,8 +51,8 @@ def ordinary_parameters(scale: Scale, size: float) -> Mapping[str, float]:
 def find_start_values(residual: VoltageResidual) -> Iterator[Mapping[str, float]]:
     """Start values: some milliseconds at top speed, with several shares of kA in the motor."""
     for share in (LIGHT, HEAVY):
-        for moment in TIMES:
-            slack = moment * max(residual.top_speed, 1e-6)
+        for time in TIMES:
+            slack = time * max(residual.top_speed, 1e-6)
             yield {"slack": slack, "share": share, "damping": BOUNCE, "motor_friction": 0.25}
 
 

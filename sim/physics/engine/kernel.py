@@ -141,7 +141,7 @@ def _compile_text(text: str) -> Any:  # noqa: ANN401 - Numba has no types
 
 
 def _compile_file(text: str, kept: Path) -> Any:  # noqa: ANN401 - Numba has no types
-    """The same, from a source file, so that Numba can use its own cache."""
+    """The compiled ``move`` from a source file, so that Numba can use its own cache."""
     name = kept.stem
     try:
         path = _write_source(kept.parent / f"{name}.py", text)

@@ -2,7 +2,7 @@
 
 While they push each other, the exact solution (``two_body_modes.py``) includes the spring between
 them, so one step of any length will do. A step in which a body changes direction, or teeth meet or
-part, is halved until that moment is found.
+part, is halved until that time is found.
 
 Plain functions of numbers: ``compose.py`` compiles them together with the effects'.
 """
@@ -218,7 +218,7 @@ def step_through_contacts(
 ) -> float:  # fmt: skip
     """One step of two bodies whose teeth meet or part, in smaller steps.
 
-    It is divided at the moment at which the teeth meet or part, and into several while they bounce.
+    It is divided where the teeth meet or part, and into several while they bounce.
     """
     play = backlash_gap(on, p)
     if play == 0.0:

@@ -84,11 +84,11 @@ def make_table(tables: Array, at: int, dt: float, level: int) -> int:
     step = at + FIRST + level * (1 + TABLE)
     if abs(tables[step] - dt) < SAME_STEP:
         return step + 1
-    moment, doublings = dt / (1 << level), 0
-    while moment * tables[at + RATE] > SHORT and doublings < MOST:
-        moment *= 0.5
+    span, doublings = dt / (1 << level), 0
+    while span * tables[at + RATE] > SHORT and doublings < MOST:
+        span *= 0.5
         doublings += 1
-    sum_series(tables, at + POWERS, moment, step + 1)
+    sum_series(tables, at + POWERS, span, step + 1)
     for _ in range(doublings):
         make_doubled_table(tables, step + 1, step + 1)
     tables[step] = dt
@@ -105,7 +105,7 @@ def make_table_from_half(tables: Array, at: int, dt: float, level: int) -> int:
     return step + 1
 
 
-def sum_series(tables: Array, powers: int, moment: float, to: int) -> None:
+def sum_series(tables: Array, powers: int, span: float, to: int) -> None:
     """Compute the transition table of a short time from the terms of its power series."""
     last = powers + TERMS * TABLE
     for i in range(TABLE):
@@ -113,7 +113,7 @@ def sum_series(tables: Array, powers: int, moment: float, to: int) -> None:
     for term in range(TERMS):
         here = last - (term + 1) * TABLE
         for i in range(TABLE):
-            tables[to + i] = tables[to + i] * moment + tables[here + i]
+            tables[to + i] = tables[to + i] * span + tables[here + i]
 
 
 def make_doubled_table(tables: Array, at: int, to: int) -> None:
