@@ -99,7 +99,7 @@ SEARCH_SHARE = 0.5
 refitted without each of its effects, which takes up to a third of the limit on long logs of real
 robots. Of 37 logs that took longest, a share of 0.7 explains one more."""
 
-MOST_EFFECTS = 6
+MOST_EFFECTS = 4
 """Most effects that are added to a model, everyday ones included: with more, any log can be
 explained."""
 
