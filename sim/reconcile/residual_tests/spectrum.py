@@ -1,9 +1,9 @@
 """Periodic residuals: the largest peak in the spectrum of the disturbance.
 
-    power(f) = Σ |Σ w·exp(-2πi·f·t)|²/(n·mean(w²))        w how much of a push each innovation has
+    power(f) = Σ |Σ w·exp(-2πi·f·t)|²/(n·mean(w²))        w disturbance estimated at each sample
 
-summed over the runs. Of noise the power of a run is exponential, that of several a gamma deviate.
-What q takes for pushes at random is small in each innovation, and yet a line in their spectrum.
+summed over the runs. The power of noise is an exponential deviate in each run, so the sum is a
+gamma deviate. A weak periodic force is small in each innovation, but a clear line in the spectrum.
 """
 
 import math
@@ -18,8 +18,8 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.reconcile.residual_tests.repeatability import estimate_disturbance
 from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW
 
-FEWEST_TURNS = 2.0  # that a run has to last: of fewer, friction of its own makes one
-FASTEST = 0.5 / SHORTEST_WINDOW  # [Hz] faster is a joint that swings, or a wave along the way
+FEWEST_TURNS = 2.0  # periods that a run has to last: friction can look like one slow period
+FASTEST = 0.5 / SHORTEST_WINDOW  # [Hz] above: vibration of a joint, or a force along the position
 
 
 @dataclass(frozen=True)
@@ -27,8 +27,8 @@ class SpectralPeak:
     """A periodic residual.
 
     Args:
-        size: [1] -ln of the probability that noise has as large a peak at this frequency; how many
-            frequencies were looked at is not counted in.
+        size: [1] -ln of the probability that noise has as large a peak at this frequency, not
+            corrected for the number of frequencies.
         rate: [Hz] the frequency.
     """
 
@@ -41,23 +41,23 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
 
     Args:
         problem: the measurements.
-        point: what is believed.
+        point: the estimate whose residuals are tested.
     """
     runs = list(_disturbances_by_run(problem, point))
-    squares = sum(float(push @ push) for _, push in runs)
+    squares = sum(float(values @ values) for _, values in runs)
     if not squares > 0.0:
         return SpectralPeak()
-    mean = squares / sum(push.size for _, push in runs)
-    lasts = [float(np.ptp(time)) for time, _ in runs]
-    longest = max(lasts)
+    mean = squares / sum(values.size for _, values in runs)
+    durations = [float(np.ptp(time)) for time, _ in runs]
+    longest = max(durations)
     rates: Array = np.arange(FEWEST_TURNS / longest, FASTEST, 0.5 / longest)
     power, count = np.zeros(rates.size), np.zeros(rates.size)
-    for (time, push), lasting in zip(runs, lasts, strict=True):
-        slow = int(np.searchsorted(rates * lasting, FEWEST_TURNS))
-        for place in range(slow, rates.size):  # all waves at once would need gigabytes
+    for (time, values), duration in zip(runs, durations, strict=True):
+        slowest = int(np.searchsorted(rates * duration, FEWEST_TURNS))
+        for place in range(slowest, rates.size):  # all waves at once would need gigabytes
             wave = np.exp(-2j * np.pi * rates[place] * time)
-            power[place] += abs(wave @ push) ** 2 / (push.size * mean)
-        count[slow:] += 1.0
+            power[place] += abs(wave @ values) ** 2 / (values.size * mean)
+        count[slowest:] += 1.0
     sizes = (_surprisal(p, int(n)) for p, n in zip(power.tolist(), count.tolist(), strict=True))
     found = (SpectralPeak(size, rate) for size, rate in zip(sizes, rates.tolist(), strict=True))
     return max(found, key=lambda one: one.size, default=SpectralPeak())
@@ -66,22 +66,19 @@ def find_spectral_peak(problem: PredictionErrorProblem, point: Estimate) -> Spec
 def _disturbances_by_run(
     problem: PredictionErrorProblem, point: Estimate
 ) -> Iterator[tuple[Array, Array]]:
-    """Of each run that is long enough: times, and pushes less their mean."""
-    every, told = (
-        estimate_disturbance(problem, point),
-        np.asarray(~problem.ignored_readings.all(axis=1)),
-    )
-    for record, (first, last) in zip(
-        problem.records, pairwise(problem.run_edges.tolist()), strict=True
-    ):
-        mine = told[first:last]
-        push = every[first:last][mine]
-        if push.size >= FEWEST_SAMPLES:
-            yield record.measurements.time[mine], push - np.mean(push)
+    """Per run that is long enough: [s] times, and disturbances minus their mean."""
+    disturbance = estimate_disturbance(problem, point)
+    used = np.asarray(~problem.ignored_readings.all(axis=1))
+    edges = pairwise(problem.run_edges.tolist())
+    for record, (first, last) in zip(problem.records, edges, strict=True):
+        rows = used[first:last]
+        values = disturbance[first:last][rows]
+        if values.size >= FEWEST_SAMPLES:
+            yield record.measurements.time[rows], values - np.mean(values)
 
 
 def _surprisal(power: float, count: int) -> float:
-    """-log of the chance that so many exponential deviates sum up to as much (Erlang's tail)."""
+    """-ln of the probability that ``count`` exponential deviates sum to more (Erlang tail)."""
     if not (power > 0.0 and count):
         return 0.0
     terms = [k * math.log(power) - math.lgamma(k + 1.0) for k in range(count)]

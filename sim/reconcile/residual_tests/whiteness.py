@@ -1,7 +1,7 @@
 """Whiteness test: the least likely window of innovations.
 
-A window of innovations that is far from nothing, measured by how far all such windows are: a force
-at one place, a push at one moment, a voltage that was not there.
+The sum of the innovations in a window is compared with that of all windows of the same length. A
+large one shows a force at one position, a push, or a wrong voltage reading.
 """
 
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ from sim.estimation.measurements import ROBUST
 from sim.estimation.run_records import RunRecord
 from sim.reconcile.thresholds import FEWEST_SAMPLES, SHORTEST_WINDOW, STEP_VOLTAGE
 
-SOON = 2.0 * SHORTEST_WINDOW  # [s] after a step, in which everything is fast
+AFTER_STEP = 2.0 * SHORTEST_WINDOW  # [s] in which residuals are larger after a voltage step
 
 
 @dataclass(frozen=True)
@@ -24,10 +24,10 @@ class WorstWindow:
     """The window of innovations that is least likely.
 
     Args:
-        size: [robust standard deviations of all windows as long].
-        record: which run.
+        size: [robust standard deviations] of the windows of the same length.
+        record: index of the run.
         start: [s] on the run's clock.
-        end: [s].
+        end: [s] on the run's clock.
     """
 
     size: float
@@ -37,13 +37,13 @@ class WorstWindow:
 
 
 NO_WINDOW = WorstWindow(0.0, 0, 0.0, 0.0)
-"""None at all."""
+"""No window: no run is long enough."""
 
 
 def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> WorstWindow:
     """Find the least likely window of innovations.
 
-    What pushes moves position and velocity the same way: where both say so, they count together.
+    A force changes position and velocity in the same direction: windows where both do are combined.
     """
     white = _remove_clock_errors(problem, point)
     moments = []
@@ -52,8 +52,8 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
         position, velocity = (_window_sizes(problem, white[:, column], count) for column in (0, 1))
         for record, one in position.items():
             other = velocity[record]
-            together = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
-            size = np.max([np.abs(one), np.abs(other), together], axis=0)
+            combined = np.where(one * other > 0.0, np.hypot(one, other), 0.0)
+            size = np.max([np.abs(one), np.abs(other), combined], axis=0)
             place = int(np.argmax(size))
             time = problem.records[record].measurements.time
             end = min(place + count, time.size - 1)
@@ -64,14 +64,14 @@ def find_worst_window(problem: PredictionErrorProblem, point: Estimate) -> Worst
 
 
 def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> dict[int, Array]:
-    """Run -> (windows,) their sums, in robust standard deviations; 0 where samples are missing."""
+    """Run -> (windows,) sums in robust standard deviations; 0 where samples are missing."""
     sums = dict(_window_sums(problem, white, count))
     every = np.concatenate([*sums.values(), np.zeros(0)])
     every = every[~np.isnan(every)]
     if every.size < FEWEST_SAMPLES:
         return {record: np.zeros(one.size) for record, one in sums.items()}
     spread = ROBUST * float(np.median(np.abs(every - np.median(every))))
-    spread = max(spread, count**0.5)  # of independent innovations
+    spread = max(spread, count**0.5)  # standard deviation of a sum of independent innovations
     return {
         record: np.nan_to_num(one) / (spread * _ordinary_size(problem.records[record])[: one.size])
         for record, one in sums.items()
@@ -79,48 +79,45 @@ def _window_sizes(problem: PredictionErrorProblem, white: Array, count: int) -> 
 
 
 def _remove_clock_errors(problem: PredictionErrorProblem, point: Estimate) -> Array:
-    """(n, 2) white innovations, less what a clock of each run's own makes of them.
+    """(n, 2) whitened innovations, corrected for a time shift of each run by up to half a sample.
 
-    A step comes a part of a sample late, another part in each run: that is of clocks, not of
-    physics.
+    The voltage of a step is logged up to a sample early or late, which is not physics.
     """
     later = point.nuisance.add_lag(np.full(len(problem.records), 0.5 * problem.period))
     model = point.structure.model(point.values)
-    more = problem.predict_errors(model, later, point.kalman_filter)
+    shifted = problem.predict_errors(model, later, point.kalman_filter)
     white = point.innovations @ point.whitening.T
-    change = np.nan_to_num(more - point.innovations) @ point.whitening.T
+    change = np.nan_to_num(shifted - point.innovations) @ point.whitening.T
     for first, last in pairwise(problem.run_edges.tolist()):
-        column, rest = change[first:last].ravel(), white[first:last].ravel()
-        along = float(column @ column)
-        share = -float(column @ rest) / along if along > 0.0 else 0.0
+        column, residual = change[first:last].ravel(), white[first:last].ravel()
+        square = float(column @ column)
+        share = -float(column @ residual) / square if square > 0.0 else 0.0
         white[first:last] += min(max(share, -1.0), 1.0) * change[first:last]
     return np.asarray(white)
 
 
 def _ordinary_size(record: RunRecord) -> Array:
-    """(n,) ordinary size of a window that begins there, relative to windows elsewhere.
+    """(n,) [1] ordinary size of a window that begins at a sample, relative to other windows.
 
-    Soon after a step of the voltage everything is fast: what happens between two samples, as a
-    battery that gives way and recovers, adds up to twice as much.
+    It is 2 soon after a voltage step, where effects between two samples, like a short sag of the
+    battery, double the sums.
     """
     time = record.measurements.time
     jumps = time[np.abs(np.diff(record.measurements.voltage, prepend=0.0)) > STEP_VOLTAGE]
     last = np.searchsorted(jumps, time, side="right") - 1
     since = time - np.concatenate((jumps, [-np.inf]))[last]
-    return np.where(since <= SOON, 2.0, 1.0)
+    return np.where(since <= AFTER_STEP, 2.0, 1.0)
 
 
 def _window_sums(
     problem: PredictionErrorProblem, white: Array, count: int
 ) -> Iterator[tuple[int, Array]]:
-    """Each run, and (windows,) sums of ``count`` innovations; nan where some are not compared."""
-    for record, (first, last) in enumerate(
-        zip(problem.run_edges[:-1], problem.run_edges[1:], strict=True)
-    ):
-        mine, compared = white[first:last], problem.informative[first:last]
-        if mine.size <= count:
+    """Per run, its index and (windows,) sums of ``count`` innovations; nan if not all compared."""
+    for record, (first, last) in enumerate(pairwise(problem.run_edges.tolist())):
+        values, compared = white[first:last], problem.informative[first:last]
+        if values.size <= count:
             continue
-        total = np.concatenate(([0.0], np.cumsum(mine)))
+        total = np.concatenate(([0.0], np.cumsum(values)))
         counts = np.concatenate(([0], np.cumsum(compared)))
         sums = total[count:] - total[:-count]
         sums[counts[count:] - counts[:-count] < count] = np.nan
