@@ -6,15 +6,16 @@ from dataclasses import dataclass, field
 from sim.estimation.run_records import ExcludedInterval
 from sim.reconcile.thresholds import DAMAGED
 
-FOR_GOOD = ("hard-stop",)
-"""Faults after which a run tells nothing more: it leans on a stop."""
+STOP_FAULTS = ("hard-stop",)
+"""Faults after which the rest of a run is useless: the mechanism leans on a stop."""
 
-OF_THE_RECORD = ("encoder-slip", "voltage-dropout", "stuck-sensor", "sign-flip")
+RECORD_FAULTS = ("encoder-slip", "voltage-dropout", "stuck-sensor", "sign-flip")
 """Other faults whose intervals are excluded before anything is fitted. The remaining faults look
 like missing physics (a soft joint oscillates as a slipping wheel does), and the fit decides."""
 
-WHOLE = ("sign-flip",)
-"""Faults of a whole run. Two such runs are no fault: voltage and motion do not belong together."""
+WHOLE_RUN_FAULTS = ("sign-flip",)
+"""Faults of a whole run. They are ignored if two runs of a log have one: its voltage and motion do
+not belong together then."""
 
 
 @dataclass(frozen=True)
@@ -22,12 +23,12 @@ class DamagedInterval:
     """An interval of a run that a fault has damaged, as an inspection reports it.
 
     Args:
-        run: which one, from 0; None concerns the whole log.
+        run: its index, from 0; None concerns the whole log.
         start: [s] on the run's own clock.
         end: [s].
-        fault: its name.
+        fault: name of the fault.
         confidence: [1] 0 to 1.
-        sentence: what was seen.
+        sentence: what the inspection found.
         advice: what to do.
     """
 
@@ -46,7 +47,7 @@ class DamageDecision:
 
     Args:
         excluded: log name -> intervals that are excluded.
-        reported: what is reported as a finding, one of each fault.
+        reported: the surest interval of each fault, which is reported as a finding.
     """
 
     excluded: Mapping[str, tuple[ExcludedInterval, ...]] = field(default_factory=dict)
@@ -56,19 +57,20 @@ class DamageDecision:
 def judge_damage(damages: Mapping[str, Sequence[DamagedInterval]]) -> DamageDecision:
     """Decide about the damage that an inspection found in each log.
 
-    An interval is excluded if it is surely damaged, or a stop, after which a run tells nothing
-    anyway.
+    An interval is excluded if it is at a hard stop, or if its fault is one of ``RECORD_FAULTS``
+    with a confidence of at least ``DAMAGED``.
     """
     excluded: dict[str, list[ExcludedInterval]] = {}
     found: dict[str, DamagedInterval] = {}
     for name, every in damages.items():
-        turned = {one.run for one in every if one.fault in WHOLE}
+        flipped = {one.run for one in every if one.fault in WHOLE_RUN_FAULTS}
         for one in every:
-            damaged = one.fault in OF_THE_RECORD and one.confidence >= DAMAGED
-            if not (damaged or one.fault in FOR_GOOD) or (one.fault in WHOLE and len(turned) > 1):
+            stopped = one.fault in STOP_FAULTS
+            damaged = one.fault in RECORD_FAULTS and one.confidence >= DAMAGED
+            if not (damaged or stopped) or (one.fault in WHOLE_RUN_FAULTS and len(flipped) > 1):
                 continue
             if one.run is not None:
-                interval = ExcludedInterval(one.run, one.start, one.end, one.fault in FOR_GOOD)
+                interval = ExcludedInterval(one.run, one.start, one.end, stopped)
                 excluded.setdefault(name, []).append(interval)
             best = found.get(one.fault)
             if name != "held_out" and (best is None or one.confidence > best.confidence):

@@ -22,7 +22,7 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
 
     Args:
         recordings: the logs.
-        travel: [owner's unit] from stop to stop, if known.
+        travel: [log's unit] from stop to stop, if known.
 
     Raises:
         BadRequest: units or gains that do not fit together, or positions beyond the travel.
@@ -68,9 +68,9 @@ def _check_size(log: Log) -> None:
     count = sum(map(len, long))
     if len(long) >= FEWEST_RUNS and count >= FEWEST_RUNS * FEWEST_SAMPLES:
         return
-    told = f"{len(long)} run{'s' * (len(long) != 1)} with {count} samples cannot show"
+    few = f"{len(long)} run{'s' * (len(long) != 1)} with {count} samples cannot show"
     raise NotIdentifiable(
-        f"{told if long else 'runs of three samples or fewer do not show'} what a model lacks",
+        f"{few if long else 'runs of three samples or fewer do not show'} what a model lacks",
         where=log.source,
         advice="Record the four SysId tests, and repeat them with another step.",
     )
@@ -85,8 +85,8 @@ def _check_voltage(log: Log) -> None:
         )
 
 
-def _check_direction(log: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - as above
-    """Refuse a mechanism that goes backward, and does so as a mechanism would."""
+def _check_direction(log: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - field's word
+    """Refuse a log whose motion follows the voltage only with the opposite sign."""
     backward = {name: -value for name, value in guess.items()}
     runs = tuple(replace(run, voltage=-run.voltage) for run in log.runs)
     if _follows_voltage(replace(log, runs=runs), backward, type=type):
@@ -119,21 +119,21 @@ def _check_moves(log: Log, *, than: float) -> None:
 
 
 def _top_speed(log: Log) -> float:
-    """[m/s or rad/s] the fastest but for single samples."""
+    """[m/s or rad/s] top speed of the fastest run that is long enough."""
     return max((run.top_speed for run in log.runs if len(run) >= FEWEST), default=0.0)
 
 
-def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - as above
-    seen = _base_residual(other, guess, type=type)
-    square = float(seen.velocity @ seen.velocity)
+def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) -> None:  # noqa: A002 - field's word
+    residual = _base_residual(other, guess, type=type)
+    square = float(residual.velocity @ residual.velocity)
     if square == 0.0:
         raise NotIdentifiable(
             "no run is long enough to be compared",
             where=other.source,
             advice="Use a log with the four tests, recorded with another step.",
         )
-    costs = guess["kV"] + float(seen.missing @ seen.velocity) / square
-    factor = costs / guess["kV"]
+    kv = guess["kV"] + float(residual.missing @ residual.velocity) / square
+    factor = kv / guess["kV"]
     if not 1.0 / OTHER_UNITS < factor < OTHER_UNITS:
         raise BadRequest(
             _describe_difference(factor, log.source or "the first log"),
@@ -143,32 +143,32 @@ def _check_same(log: Log, other: Log, guess: Mapping[str, float], *, type: str) 
 
 
 def _describe_difference(factor: float, first: str) -> str:
-    """How a log's voltages are not those of another."""
+    """How the voltages of a log differ from those of the first one at the same speed."""
     if factor < -1.0 / OTHER_UNITS:
         return f"it goes the other way than {first} at the same voltage"
     times = f"{factor:.2g} times" if factor > 0.0 else "none of"
     return f"a speed takes {times} the voltage that it takes in {first}"
 
 
-def _follows_voltage(log: Log, guess: Mapping[str, float], *, type: str) -> bool:  # noqa: A002 - as above
-    """Whether its voltages are those of a mechanism, whatever else may be missing."""
-    seen = _base_residual(log, guess, type=type)
+def _follows_voltage(log: Log, guess: Mapping[str, float], *, type: str) -> bool:  # noqa: A002 - field's word
+    """Whether physical gains explain most of the voltage of a log."""
+    residual = _base_residual(log, guess, type=type)
     if guess["kV"] <= 0.0 or guess["kA"] <= 0.0 or guess["kS"] < 0.0:
         return False
-    missed, whole = float(seen.missing @ seen.missing), float(seen.voltage @ seen.voltage)
-    return missed < LOST**2 * whole
+    missing, voltage = residual.missing, residual.voltage
+    return float(missing @ missing) < LOST**2 * float(voltage @ voltage)
 
 
-def _base_residual(log: Log, guess: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - as above
+def _base_residual(log: Log, guess: Mapping[str, float], *, type: str) -> VoltageResidual:  # noqa: A002 - field's word
     return compute_voltage_residual(log, dict(ModelStructure(type).model(guess).gains), type=type)
 
 
 def _check_travel(log: Log, travel: float, unit: Unit) -> None:
     spans = [run.position for run in log.runs if len(run)]
-    way = float(max(map(np.max, spans)) - min(map(np.min, spans))) / unit.si
-    if not travel > 0.0 or way > OTHER_UNITS * travel:
+    span = float(max(map(np.max, spans)) - min(map(np.min, spans))) / unit.si
+    if not travel > 0.0 or span > OTHER_UNITS * travel:
         raise BadRequest(
-            f"positions span {way:.3g} {unit.symbol}, and the travel is {travel:g}",
+            f"positions span {span:.3g} {unit.symbol}, and the travel is {travel:g}",
             where=log.source,
             advice="Give the distance from stop to stop, in the log's units, or leave it out.",
         )

@@ -18,24 +18,26 @@ def map_residuals(
     """The binned residuals of a simulation; None if it diverged or nothing is compared.
 
     Args:
-        log: that is shown.
-        tracks: a run of it that has enough samples -> (n, 2) simulated position and velocity, SI.
-        compared: the same runs -> (n,) which of their samples count; empty: all of them.
+        log: the measured runs.
+        tracks: for each run with at least ``FEWEST`` samples, (n, 2) simulated position and
+            velocity [SI].
+        compared: for each of these runs, (n,) which samples count; empty: all of them.
         floor: [unit/s] noise of the velocity.
     """
     runs = tuple(run for run in log.runs if len(run) >= FEWEST)
-    seen = measure_runs(replace(log, runs=runs), friction=None, rest_by_position=False)
+    measurements = measure_runs(replace(log, runs=runs), friction=None, rest_by_position=False)
     counts = compared or [np.ones(len(run), dtype=bool) for run in runs]
-    left = [_run_residuals(*one) for one in zip(runs, seen, tracks, counts, strict=True)]
-    if not (floor > 0.0 and any(one.compared.any() for one in left)):
+    rows = zip(runs, measurements, tracks, counts, strict=True)
+    residuals = [_run_residuals(*one) for one in rows]
+    if not (floor > 0.0 and any(one.compared.any() for one in residuals)):
         return None
-    return map_gap(left, noise=replace(estimate_noise(seen), velocity=floor))
+    return map_gap(residuals, noise=replace(estimate_noise(measurements), velocity=floor))
 
 
 def _run_residuals(
-    run: Run, seen: RunMeasurements, track: Array, counts: NDArray[np.bool_]
+    run: Run, measurements: RunMeasurements, track: Array, counts: NDArray[np.bool_]
 ) -> Residuals:
-    """What it leaves of a run's fresh samples."""
-    missed = seen.measured - track
-    missed[~counts | ~np.isfinite(track).all(axis=1)] = np.nan
-    return Residuals(run.test, run.time, run.voltage, np.nan_to_num(track), missed)
+    """The residuals of a run; nan where no sample counts or the simulation diverged."""
+    errors = measurements.measured - track
+    errors[~counts | ~np.isfinite(track).all(axis=1)] = np.nan
+    return Residuals(run.test, run.time, run.voltage, np.nan_to_num(track), errors)

@@ -4,7 +4,7 @@ STEPS = 8
 """Levenberg-Marquardt steps of a search."""
 
 ROUNDS = 3
-"""Times that a search is repeated as long as its result still changes."""
+"""Most repetitions of a search whose result still changes."""
 
 HALVINGS = 5
 """Halvings of the step by which the onset of an effect is refined."""

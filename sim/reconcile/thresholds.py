@@ -12,24 +12,24 @@ LEAST_SCORE = 20.0
 one, because some twenty candidates are tried in each round."""
 
 LEAST_SCORE_UNSEEN = 60.0
-"""Least score of an effect that hardly narrows the gap. Small everyday effects (a little battery
-sag, a little more friction at the start) together reach half of it in the disguise of another
-effect, and a wrong name does more harm than none."""
+"""Least score of an effect that hardly narrows the gap. Several small everyday effects (a little
+battery sag, a little more friction at the start) can look like another effect with half of this
+score, and a wrong name does more harm than none."""
 
 LEAST_SCORE_ONCE = 130.0
-"""Least score of an effect that begins at a moment, and by how much it must beat an effect that
-lasts. It may act in a single run, so other runs cannot confirm it, and a snag or a push resembles
-it. On 430 logs false ones reached 106, but for four of 142 to 344; true ones reached 245 and more,
-but for seven that hardly show in their log. As much is asked of an effect that widens the gap,
-before it is tried together with another one, and told as what would fit far better."""
+"""Least score of an effect with an onset, and by how much it must beat an effect without one. It
+may act in a single run, so other runs cannot confirm it, and a snag or a push resembles it. On 430
+logs false ones reached 106, but for four of 142 to 344; true ones reached 245 and more, but for
+seven that hardly show in their log. An effect that widens the gap also needs this score before it
+is tried together with another one, or mentioned."""
 
 EQUAL_SCORE = 10.0
 """Difference of scores below which two effects explain a log equally well: odds below 150 to one.
 The other effect is then reported as a possible explanation, too."""
 
 COMPARABLE = 0.5
-"""Share of the best score, or of a gap, from which another one is comparable: an effect of everyday
-size is then added first, and an effect that closes more of the gap may begin another path."""
+"""Share of the best score from which an everyday effect is added first; its square is enough for an
+alternative path. Also the share of the gap that may remain in an explained log."""
 
 # Gaps: velocity errors on runs to which the model was not fitted.
 
@@ -39,8 +39,8 @@ become wider: refitting a model changes a gap by as much."""
 
 MAJOR = 0.87
 """Ratio of the gap with an effect to the gap without it below which the effect is major. Everyday
-effects (50 mV of Stribeck friction, 8 % of battery sag, 4 ms of delay) narrow it by up to a tenth.
-"""
+effects (50 mV of Stribeck friction, 8 % of battery sag, 4 ms of delay) narrow it by up to a
+tenth."""
 
 MAJOR_UNEXPLAINED = 0.6
 """The same ratio where the last model leaves more than noise. An unknown effect resembles many
@@ -52,23 +52,22 @@ and a velocity that a device averages has hardly any noise. Of 216 logs from whi
 was learnt, 12 have less noise, and none has less than two thirds of it."""
 
 VISIBLE_FLOORS, VISIBLE_SPEED = 2.5, 0.03
-"""Noise floors, and share of the top speed, beyond which a person sees that a simulation misses the
-log. Beyond both, the log is not explained, whatever was named."""
+"""Noise floors, and share of the top speed, beyond which a plot shows that a simulation misses the
+log. Beyond both, the log is not explained, whatever was found."""
 
 LOST = 0.4
-"""Share of the motion that a model may miss. A model that misses more has not understood the log,
-and its effects are no findings. The last models of 128 logs with hidden effects miss at most an
-eighth."""
+"""Share of the motion that a model may miss. A model that misses more is wrong, and its effects are
+no findings. The last models of 128 logs with hidden effects miss at most an eighth."""
 
 # Findings.
 
 LEAST_PROBABILITY = 0.5
-"""Least probability of a finding. Each finding is told with its probability. If only those above
-5/6 were told, a quarter of the right names of the logs it was learnt on would be lost."""
+"""Least probability of a finding. Each finding is reported with its probability. With a limit of
+5/6, a quarter of the right findings of the logs it was learnt on would be lost."""
 
 PROBABLE = 0.83
-"""Probability below which a finding is told with "probably": a wrong name costs a user as much as
-five effects that are not named."""
+"""Probability below which a finding is reported with "probably": a wrong name costs a user as much
+as five effects that are not named."""
 
 FARTHEST = 3.0
 """Largest logarithm, to both sides, of the ratios from which a probability is computed: a gap that
@@ -88,9 +87,9 @@ SOONEST, LATEST = 2.0, 0.5
 least begins between the two, something else happened at that moment."""
 
 SURE_FAULT = 0.75
-"""Confidence from which a fault of the log is told before all effects. A mechanism that seems to
-lean on a stop (confidence 0.7) may be a chain or an arm that gives. Either way those samples are
-left out of the fit."""
+"""Confidence from which a fault of the log is reported before all effects. A mechanism that seems
+to lean on a stop (confidence 0.7) may be a chain or an arm that bends. Either way those samples are
+excluded from the fit."""
 
 # The search.
 
@@ -104,9 +103,9 @@ MOST_EFFECTS = 4
 explained."""
 
 UNDRIVEN = 100.0
-"""Time scale kA/kV [s] of a lost base model beyond which the voltage drives nothing in it, so that
-no effect is tried. Shuffled voltages lead to a day and more, a hidden voltage limit to five seconds
-at most, a heavy flywheel to one second."""
+"""Time scale kA/kV [s] above which the voltage does not drive a base model that misses more than
+``LOST``, so that no effect is tried. Shuffled voltages lead to a day and more, a hidden voltage
+limit to five seconds at most, a heavy flywheel to one second."""
 
 MOST_WANDERING = 0.1
 """Largest random acceleration of a model, in top speeds per √s: it changes the speed by a tenth of
@@ -115,25 +114,25 @@ the top speed within a second. With more, it would explain a smooth log without 
 # Residual tests of what the last model leaves.
 
 UNLIKELY_WINDOW = 7.0
-"""Robust standard deviations of the largest windowed innovation beyond which a moment is not
+"""Robust standard deviations of the largest windowed innovation beyond which its window is not
 explained. Among some thousand windows, normal noise stays below 5. Of the 128 given logs, complete
 ones reach 6.2 at most, and those with an unknown effect 7.4 and more, unless another test finds it.
 Of 134 complete logs of other seeds, two go beyond 7."""
 
 REPEATED = 6.0
-"""Standard deviations of chance by which runs in the same direction miss alike beyond which physics
-is missing. The last models of 42 complete logs reach 3.6 at most. Of logs with a bump, a brake or a
-band of friction, two of three go beyond 6."""
+"""Standard deviations of chance of the residuals that runs share, beyond which physics is missing.
+The last models of 42 complete logs reach 3.6 at most. Of logs with a bump, a brake or a band of
+friction, two of three go beyond 6."""
 
 PERIODIC = 100.0
-"""-ln of the probability that noise has such a peak at one frequency, beyond which something
-swings. On 210 logs, last models reach 80 at most where nothing swings, and 150 and more where
+"""-ln of the probability that noise has such a peak at one frequency, beyond which the residual is
+periodic. On 210 logs, last models reach 80 at most where nothing oscillates, and 150 and more where
 something does."""
 
 # Limits for logs and runs.
 
 FEWEST_SAMPLES = 20
-"""Fewest samples of a run from which a spread or a rhythm is estimated. A log needs two runs of as
+"""Fewest samples of a run from which a spread or a period is estimated. A log needs two runs of as
 many: with fewer, every effect of the catalogue fits."""
 
 STANDSTILL = 0.02
@@ -141,13 +140,13 @@ STANDSTILL = 0.02
 its speed, which says nothing about a model."""
 
 CELLS = 24
-"""Parts into which the time of a run, the way, or all speeds are divided. With more, a part holds
-too few samples to stand out of the noise; with fewer, a bump of some centimeters is averaged away.
-"""
+"""Bins into which the time of a run, the positions, or the speeds are divided. With more, a bin
+holds too few samples to stand out of the noise; with fewer, a bump of some centimeters is averaged
+away."""
 
 SHORTEST_WINDOW = 0.1
-"""[s] A disturbance that is over sooner is noise or a clock's. Windows of one, two and four times
-this length are searched; a rhythm of which half a turn is shorter is a vibration."""
+"""[s] A shorter disturbance is noise or a timing error. Windows of one, two and four times this
+length are searched; an oscillation of which half a period is shorter is a vibration."""
 
 OTHER_UNITS = 1.8
 """[1] Ratio of the volts per speed of two logs beyond which their units or mechanisms differ.
