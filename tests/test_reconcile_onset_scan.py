@@ -165,11 +165,11 @@ def test_its_moment_is_where_the_innovations_change(dynamic, shared, after, last
         problem, problem.evaluate(ModelStructure("simple"), GAINS, begun, problem.noise.velocity**2)
     )
 
-    kept = make_joint_jacobian(problem, point)
-    tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], kept=kept))
+    jacobian = make_joint_jacobian(problem, point)
+    tried = list(scan_onsets(problem, point, EFFECTS["inertia-change"], jacobian=jacobian))
 
     likeliest = max(
-        rate_starts(problem, point, point.structure + "inertia-change", tried, kept=kept),
+        rate_starts(problem, point, point.structure + "inertia-change", tried, jacobian=jacobian),
         key=lambda one: one[0],
     )[1].values
     found = {name: likeliest[f"inertia-change.{name}"] for name in values}
@@ -187,7 +187,7 @@ def test_what_would_leave_the_whole_log_is_no_moment():
 
     tried = list(
         scan_onsets(
-            problem, point, EFFECTS["inertia-change"], kept=make_joint_jacobian(problem, point)
+            problem, point, EFFECTS["inertia-change"], jacobian=make_joint_jacobian(problem, point)
         )
     )
 

@@ -82,7 +82,7 @@ def test_a_start_that_is_far_too_large_is_halved():
     }  # fmt: skip
 
     begun = rate_starts(
-        problem, point, base + "compliance", [far], kept=make_joint_jacobian(problem, point)
+        problem, point, base + "compliance", [far], jacobian=make_joint_jacobian(problem, point)
     )
 
     gained, at_once = begun[0]
@@ -123,7 +123,7 @@ def test_a_start_that_goes_the_wrong_way_or_too_far_is_turned(part):
         point,
         base + name,
         [{f"{name}.lean": part * truth}],
-        kept=make_joint_jacobian(problem, point),
+        jacobian=make_joint_jacobian(problem, point),
     )
 
     _, best = max(begun, key=lambda one: one[0])
@@ -141,7 +141,7 @@ def test_what_cannot_be_negative_is_not_turned():
     more = [{"drag.drag": size * built.hidden[0].parameters["drag"]} for size in (0.05, 4.0)]
 
     begun = rate_starts(
-        problem, point, base + "drag", more, kept=make_joint_jacobian(problem, point)
+        problem, point, base + "drag", more, jacobian=make_joint_jacobian(problem, point)
     )
 
     assert all(one.values["drag.drag"] >= 0.0 for _, one in begun)

@@ -118,7 +118,7 @@ def test_it_is_told_where_and_by_how_much(alike, units, said):
     done = [SelectionRound.make_base(score_estimate(problem, point), gap)]
 
     verdict, remainder, remains = reach_verdict(
-        [], done, problem, residuals=ResidualSummary(repeated=alike), per=find_unit(units)
+        [], done, problem, residuals=ResidualSummary(repeated=alike), unit=find_unit(units)
     )
 
     assert (verdict, remainder) == ("nothing-missing", True)  # the gap is that of the noise

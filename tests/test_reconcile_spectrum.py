@@ -110,7 +110,7 @@ def remains_of(left):
     problem, point = based(session(seed=6), GAINS)
     gap = Gap(problem.noise.velocity, problem.noise.position)
     done = [SelectionRound.make_base(score_estimate(problem, point), gap)]
-    return reach_verdict([], done, problem, residuals=left, per=find_unit("meters"))
+    return reach_verdict([], done, problem, residuals=left, unit=find_unit("meters"))
 
 
 def test_it_is_told_how_often():

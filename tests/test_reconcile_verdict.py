@@ -87,7 +87,7 @@ def rounds(problem, *gaps, values=GAINS, structure=None):
 )
 def test_what_leaves_most_of_the_gap_is_no_explanation(problem, gaps, findings, verdict, remains):
     said = reach_verdict(
-        findings, rounds(problem, *gaps), problem, residuals=ResidualSummary(), per=METERS
+        findings, rounds(problem, *gaps), problem, residuals=ResidualSummary(), unit=METERS
     )
 
     assert said[:2] == (verdict, remains)
@@ -115,7 +115,7 @@ def test_what_would_be_far_likelier_and_is_not_admitted_is_told(
     )
     done = [replace(done[0], candidates=(other,))]
 
-    said = reach_verdict([], done, problem, residuals=ResidualSummary(), per=METERS)
+    said = reach_verdict([], done, problem, residuals=ResidualSummary(), unit=METERS)
 
     assert said[:2] == (verdict, remainder)
     assert ("compliance" in said[2]) is (remainder and gap < 10.0)
@@ -137,7 +137,7 @@ def test_an_effect_beside_its_simpler_sister_may_be_any_force_along_the_way(
     findings = [replace(DRAG, effect=name) for name in names]
 
     verdict, remainder, remains = reach_verdict(
-        findings, rounds(problem, 40.0, 1.1), problem, residuals=ResidualSummary(), per=METERS
+        findings, rounds(problem, 40.0, 1.1), problem, residuals=ResidualSummary(), unit=METERS
     )
 
     assert (verdict, remainder) == ("explained", doubted)
@@ -176,7 +176,7 @@ def find_effects(problem, done, *, residuals):
         without=without,
         held_out=False,
         residuals=residuals,
-        per=METERS,
+        unit=METERS,
     )[0]
 
 
@@ -246,7 +246,7 @@ def test_no_effect_is_named_with_which_the_shown_log_is_missed_by_more(
 
     found, _ = make_findings(
         problem, done, [], chapters, without={"drag": shown * end}, held_out=held_out,
-        residuals=ResidualSummary(), per=METERS,
+        residuals=ResidualSummary(), unit=METERS,
     )  # fmt: skip
 
     assert [one.size for one in found] == [size] * (size is not None)
@@ -369,8 +369,8 @@ def test_a_time_limit_is_told_where_another_effect_could_be_major(problem, gap, 
         rounds(problem, gap / noises),
         problem,
         residuals=ResidualSummary(),
-        cut=20.0,
-        per=METERS,
+        exceeded_limit=20.0,
+        unit=METERS,
     )
 
     assert remainder is told

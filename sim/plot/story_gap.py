@@ -151,7 +151,7 @@ def _nothing(columns: int, rows: int) -> Patch:
 
 
 def _ticks(cells: BinnedResiduals, *, per: Unit) -> tuple[list[float], list[str]]:
-    """Where the edges of columns are, in the owner's unit."""
+    """Where the edges of columns are, in the log's unit."""
     count = cells.edges.shape[1]
     if cells.what == RUN:
         return [-0.5, count / 2.0 - 1.0, count - 1.5], ["begins", "", "ends"]

@@ -2,12 +2,12 @@
 
     story = reconcile(log, validation=other, held_out=third, type="arm")
 
-Damage to the record is set aside first. Then the base model is fitted, every effect of the
-catalogue is tried on top of it, one that narrows the gap on runs it was not fitted to is added, and
-everything is refitted, until none does. The held-out log is only ever shown.
+Damaged intervals are excluded first, and the base model is fitted. Forward selection tries every
+effect of the catalogue on top of it, adds the likeliest that does not widen the gap on runs it was
+not fitted to, refits all parameters, and repeats. Backward elimination then removes effects that
+have become needless. The held-out log decides nothing: the gap is shown on it.
 
-After the prediction-error method (Kristensen, Madsen and Jørgensen 2004) with a catalogue of
-physical effects in place of a regression's library.
+After the prediction-error method (Kristensen, Madsen and Jørgensen 2004).
 """
 
 import math
@@ -16,7 +16,6 @@ from collections.abc import Callable, Mapping, Sequence
 
 from sim.core.errors import BadRequest, NotIdentifiable
 from sim.core.log import Log
-from sim.core.units import Unit
 from sim.core.vocabulary import TYPES
 from sim.estimation.initial_guess import clamp_to_physical
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
@@ -67,10 +66,10 @@ def reconcile(
         held_out: runs on which the gap is shown, used for nothing else; None shows the validation,
             or the log itself.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
-        travel: [owner's unit] from stop to stop, if known.
+        travel: [log's unit] from stop to stop, if known.
         damages: ``log``, ``validation``, ``held_out`` -> what an inspection found there.
-        time_limit: [s] of processor time after which the best model so far is taken, and the
-            verdict says so. The search ends at ``SEARCH_SHARE`` of it; the findings take the rest.
+        time_limit: [s] of processor time. The search ends at ``SEARCH_SHARE`` of it, with the best
+            model so far, and the verdict says so; the refits for the findings take the rest.
         progress: called with a step's description and the share done [1].
 
     Raises:
@@ -91,7 +90,7 @@ def reconcile(
     """
     if type not in TYPES:
         raise BadRequest(f"unknown type {type!r}", advice=f"Choose one of: {', '.join(TYPES)}.")
-    load_engine()  # the first time it is compiled, which is no part of the search
+    load_engine()  # compiled on first use, which is not counted as search time
     deadline = time.process_time() + SEARCH_SHARE * time_limit
     damage = judge_damage(damages or {})
     recordings = Recordings(log, validation, held_out, type=type, damage=damage)
@@ -102,42 +101,41 @@ def reconcile(
     progress("base model", 0.05)
     base = _fit_base_model(problem, recordings)
     data = SelectionData(recordings.fitted_runs, problem, folds, progress, deadline)
-    done = select_effects(data, base)
-    cut = time_limit if data.out_of_time() else math.inf  # the refits that follow do not count
-    done = remove_needless_effects(data, done)
+    rounds = select_effects(data, base)
+    exceeded = time_limit if data.out_of_time() else math.inf  # before the refits that follow
+    rounds = remove_needless_effects(data, rounds)
     progress("what remains", 0.9)
-    return _make_story(problem, done, shown, damage.reported, cut=cut, per=recordings.unit)
+    return _make_story(problem, rounds, shown, recordings, exceeded_limit=exceeded)
 
 
 def _make_story(
     problem: PredictionErrorProblem,
-    done: Sequence[SelectionRound],
+    rounds: Sequence[SelectionRound],
     shown: HeldOutLog,
-    faults: tuple[DamagedInterval, ...],
+    recordings: Recordings,
     *,
-    cut: float,
-    per: Unit,
+    exceeded_limit: float,
 ) -> Story:
-    """The story of a selection, shown on the held-out log.
+    """The story of a selection.
 
     Args:
         problem: the measurements.
-        done: the base and the rounds.
+        rounds: the base model and the selection rounds.
         shown: the log that the gap is shown on.
-        faults: what an inspection found.
-        cut: [s] time limit that ended the search; inf if it came to its own end.
-        per: the owner's unit.
+        recordings: all logs.
+        exceeded_limit: [s] time limit that ended the search; inf if none did.
     """
-    chapters = shown.chapters(done)
-    seen = shown.notes(chapters[-1], done[-1].gap.velocity)
-    residuals = ResidualSummary.summarize(problem, done[-1].candidate.estimate)
+    unit = recordings.unit
+    chapters = shown.chapters(rounds)
+    log_notes = shown.notes(chapters[-1], rounds[-1].gap.velocity)
+    residuals = ResidualSummary.summarize(problem, rounds[-1].candidate.estimate)
     findings, judged = make_findings(
-        problem, done, faults, chapters, without=shown.measure_gaps_without(done),
-        held_out=shown.held_out, residuals=residuals, per=per,
+        problem, rounds, recordings.damage.reported, chapters, held_out=shown.held_out,
+        without=shown.measure_gaps_without(rounds), residuals=residuals, unit=unit,
     )  # fmt: skip
-    chapters = chapters[: len(select_reported_rounds(done, findings))]
+    chapters = chapters[: len(select_reported_rounds(rounds, findings))]
     verdict, remainder, remains = reach_verdict(
-        findings, done, problem, residuals=residuals, cut=cut, per=per
+        findings, rounds, problem, residuals=residuals, exceeded_limit=exceeded_limit, unit=unit
     )
     return Story(
         verdict=verdict, findings=findings, remainder=remainder, remains=remains,
@@ -145,7 +143,7 @@ def _make_story(
         gap_before=chapters[0].gap, gap_after=chapters[-1].gap,
         where=shown.find_gap_places(chapters[0]),
         chapters=chapters, shown=shown.log, how=shown.usage,
-        notes=(*list_remarks(problem, done, findings, judged, residuals), *seen),
+        notes=(*list_remarks(problem, rounds, findings, judged, residuals), *log_notes),
         compared=shown.compared_samples,
         judged=judged,
     )  # fmt: skip
@@ -155,7 +153,7 @@ def _make_folds(problem: PredictionErrorProblem, recordings: Recordings) -> tupl
     """The folds that have samples to fit and to predict.
 
     Raises:
-        NotIdentifiable: there are none.
+        NotIdentifiable: no fold has both.
     """
     folds = select_usable_folds(problem, make_folds([one.session for one in problem.records]))
     if not folds:
@@ -170,12 +168,12 @@ def _make_folds(problem: PredictionErrorProblem, recordings: Recordings) -> tupl
 def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> Estimate:
     """The best estimate without effects.
 
-    It is searched from two values of kA: the guess, and that of a slow mechanism. Where a limit of
-    the voltage or a late velocity hides how the mechanism accelerates, the guess may be negative,
-    and a search from almost no inertia ends at a local minimum.
+    It is searched from two start values of kA: the guess, and that of a slow mechanism. A voltage
+    limit or a delayed velocity can make the guess negative, and a search from the almost zero
+    inertia to which that is clamped ends at a local minimum.
 
     Raises:
-        NotIdentifiable: no gains follow the log.
+        NotIdentifiable: the simulation diverges with all gains that were tried.
     """
     guess = clamp_to_physical(recordings.initial_gains)
     structure = ModelStructure(recordings.type)
@@ -183,8 +181,8 @@ def _fit_base_model(problem: PredictionErrorProblem, recordings: Recordings) -> 
 
     def search(ka: float) -> Estimate:
         values = {name: {**guess, "kA": ka}[name] for name in structure.names}
-        begin = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
-        found = levenberg_marquardt(problem, begin, steps=STEPS, enough=1.0)
+        start = problem.evaluate(structure, values, nuisance, problem.noise.velocity**2)
+        found = levenberg_marquardt(problem, start, steps=STEPS, enough=1.0)
         return minimize_fully(problem, scan_process_noise(problem, found))
 
     starts = (guess["kA"], SLOW * guess["kV"])

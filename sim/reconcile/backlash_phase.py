@@ -1,7 +1,7 @@
 """Estimates where in its backlash each run started.
 
-Teeth in contact push at once; others first cross the backlash. Where a run starts depends on the
-motion before it, which is not recorded.
+If the gear teeth touch, the motor pushes at once; if not, it first crosses the backlash. Where a
+run starts depends on the motion before it, which is not recorded.
 """
 
 import math
@@ -12,31 +12,31 @@ from sim.core.log import Array
 from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.run_nuisance import RunNuisance
 
-PLACES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [1] of half the play
-FINER = 0.2  # [1] to both sides of the place that was the best one
+FIRST_PHASES = (-1.0, -0.5, 0.0, 0.5, 1.0)  # [half the free play]
+PHASE_STEP = 0.2  # [half the free play] to both sides of a phase that is refined
 
 
 def estimate_backlash_phase(
-    problem: PredictionErrorProblem, point: Estimate, *, aside: bool = False
+    problem: PredictionErrorProblem, point: Estimate, *, ends_only: bool = False
 ) -> Estimate:
     """The estimate with the likeliest backlash phase of each run.
 
     Args:
         problem: the measurements.
-        point: with free play or without.
-        aside: only the two sides are tried, for a quick look.
+        point: the estimate, which is returned unchanged if its model has no backlash.
+        ends_only: whether to try only the two ends of the backlash first, which is faster.
     """
     if not point.structure.has_backlash or not math.isfinite(point.cost):
         return point
     old = point.nuisance
     before = old.backlash_phase
     if not old.has_backlash_phase:
-        places = PLACES[:: len(PLACES) - 1] if aside else PLACES
-        others = [np.full(before.size, place) for place in places]
+        phases = FIRST_PHASES[:: len(FIRST_PHASES) - 1] if ends_only else FIRST_PHASES
+        others = [np.full(before.size, phase) for phase in phases]
     else:
         others = [
             np.where(np.isnan(before), math.copysign(1.0, by), np.clip(before + by, -1.0, 1.0))
-            for by in (-FINER, FINER)
+            for by in (-PHASE_STEP, PHASE_STEP)
         ]
     model = point.structure.model(point.values)
     costs = [_costs_by_run(problem, point, point.innovations, old)]
@@ -54,8 +54,8 @@ def estimate_backlash_phase(
 
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The estimate with half the backlash, and the phase of each run estimated anew."""
-    slacks = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
-    values = {**point.values, **slacks}
+    halves = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
+    values = {**point.values, **halves}
     return estimate_backlash_phase(
         problem,
         problem.evaluate(

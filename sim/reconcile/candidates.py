@@ -1,9 +1,10 @@
 """Candidate effects: each effect of the catalogue on top of a model, ranked by BIC.
 
-Start values of each come from what the log shows (``Effect.start_values``) and are simulated once.
-The most promising are searched for a few steps, the best of these to the end. Joints show only
-after changes of the voltage, so their starts are first tried on the step tests. If the model has
-large process noise, which hides any model error, they are tried from a model with less.
+Start values of each come from the log (``Effect.start_values``) and are simulated once. The most
+promising are optimized for a few steps, the best of these to a local minimum. Joints (backlash,
+compliance) show only after changes of the voltage, so their starts are first tried on the step
+tests. If the model has large process noise, which hides any model error, a model with less of it is
+the starting point.
 """
 
 import math
@@ -19,7 +20,7 @@ from sim.physics.voltage_residual import VoltageResidual
 from sim.reconcile.local_minimum import (
     AGITATED,
     CALM,
-    Begun,
+    RatedStart,
     minimize,
     minimize_fully,
     rate_starts,
@@ -28,27 +29,21 @@ from sim.reconcile.onset_scan import refine_onset, scan_onsets
 from sim.reconcile.thresholds import LEAST_SCORE
 from sim.reconcile.two_body_starts import TwoBodyStarts
 
-TRIED, KEPT = 8, 4  # candidates that go downhill a little, and to the end
-A_LITTLE = 2  # steps
-FURTHER = 6  # steps from each start of a joint, before starts are compared
-FRICTION_SHARES = (
-    0.0,
-    0.3,
-    0.6,
-    1.0,
-)  # [1] of the friction at the motor, from which a joint is searched
+TRIED, KEPT = 8, 4  # candidates that are optimized for a few steps, and to a local minimum
+FEW_STEPS = 2  # Levenberg-Marquardt steps before candidates are compared
+FURTHER = 6  # the same from a start of a joint
+FRICTION_SHARES = (0.0, 0.3, 0.6, 1.0)  # [1] of friction at the motor: start values of a joint
 NEAR_FRICTION = 0.15  # [1] shares of friction that differ by less lead to one minimum
-THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] times a threshold, tried beside it
-TRIED_CALM = 3  # more, where a large q hides what the base model lacks
+THRESHOLD_SHARES = (0.93, 0.96, 0.98, 1.02, 1.04, 1.07)  # [1] of a threshold that are tried, too
+TRIED_CALM = 3  # candidates that are also tried with less process noise
 INCOMPATIBLE: dict[str, tuple[str, ...]] = {
     "elevator": ("constant-load", "gravity-cosine", "wheel-slip"),
     "arm": ("gravity-cosine", "wheel-slip"),
 }
-"""Base type -> the effects that it has already, or cannot have: an elevator turns about nothing."""
-
+"""Base type -> effects that it has already, or cannot have: an elevator has no pivot."""
 
 Seeds = Mapping[str, Mapping[str, float]]
-"""Effect -> its parameters, as ``effect.parameter``."""
+"""Effect -> values of ``effect.parameter`` that earlier rounds found for it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +51,8 @@ class Candidate:
     """An effect, the estimate with it, and its BIC.
 
     Args:
-        effect: its name; empty for the point itself.
-        estimate: the best with it.
+        effect: its name; empty for the base model.
+        estimate: the optimized parameters of the model with it.
         bic: [of -2 log L] Bayesian information criterion of the estimate, integrated over the
             friction of each run; the smaller, the better.
     """
@@ -69,10 +64,10 @@ class Candidate:
 
 def score_estimate(problem: PredictionErrorProblem, point: Estimate, effect: str = "") -> Candidate:
     """An estimate with its BIC: -2 log L + k·ln N (Schwarz, 1978)."""
-    values = point.structure.free_count * math.log(max(problem.sample_count, 2))
+    penalty = point.structure.free_count * math.log(max(problem.sample_count, 2))
     sd = get_friction_sd(point.values)
-    own = compute_laplace_correction(sd, problem.compute_friction_jacobian(point))
-    return Candidate(effect, point, point.cost + own + values)
+    integral = compute_laplace_correction(sd, problem.compute_friction_jacobian(point))
+    return Candidate(effect, point, point.cost + integral + penalty)
 
 
 def rank_candidates(
@@ -84,59 +79,59 @@ def rank_candidates(
 
     Args:
         problem: the measurements.
-        point: the best without them.
-        residual: voltage residual of the whole log under the base gains of the point.
+        point: the estimate without them.
+        residual: voltage residual of the whole log under the base gains of the estimate.
         only: names to choose from; None is the whole catalogue.
-        seeds: an effect's parameters as found before something else was added: where two effects
-            are in a log, what one of them hides at first is hardly found anew beside the other.
+        seeds: additional start values from earlier rounds. After another effect was added, a search
+            from the effect's usual start values may no longer find them.
         stop: whether there is no time for another candidate.
     """
     seeds = seeds or {}
     had = (*point.structure.effects, *INCOMPATIBLE.get(point.structure.type, ()))
     names = [name for name in (EFFECTS if only is None else only) if name not in had]
-    here_already = [EFFECTS[name] for name in point.structure.effects]
-    names = [name for name in names if are_compatible([*here_already, EFFECTS[name]])]
+    present = [EFFECTS[name] for name in point.structure.effects]
+    names = [name for name in names if are_compatible([*present, EFFECTS[name]])]
     effects = [EFFECTS[name] for name in names]
     calmer = _find_calmer_estimate(problem, point)
-    here = effects if calmer is None else [one for one in effects if not one.is_joint]
-    begun = _best_starts(problem, point, here, residual, seeds)[:TRIED]
-    gone = [
+    usual = effects if calmer is None else [one for one in effects if not one.is_joint]
+    rated = _best_starts(problem, point, usual, residual, seeds)[:TRIED]
+    descended = [
         descend_candidate(problem, refine_onset(problem, one))
-        for starts in begun
+        for starts in rated
         for _, one in starts
         if not stop()
     ]
-    best = _best_of_each_effect(gone)[:KEPT]
+    best = _best_of_each_effect(descended)[:KEPT]
     if calmer is not None:
-        begun = _best_starts(problem, calmer, effects, residual, seeds, heavy=True)
-        joints = [one for one in begun[TRIED_CALM:] if _ends_in_two_bodies(one[0][1])]
-        begun = [*begun[:TRIED_CALM], *joints]
+        rated = _best_starts(problem, calmer, effects, residual, seeds, heavy=True)
+        joints = [one for one in rated[TRIED_CALM:] if _ends_with_joint(one[0][1])]
+        rated = [*rated[:TRIED_CALM], *joints]
         calm = [
-            descend_candidate(problem, one) for starts in begun for _, one in starts if not stop()
+            descend_candidate(problem, one) for starts in rated for _, one in starts if not stop()
         ]
-        best = _best_of_each_effect([*gone, *calm])[:KEPT]
-        best += _best_of_each_effect(calm)[:1]  # the likeliest of these has the longer way to go
-    ended = [_minimize_nested(problem, point, one) for one in dict.fromkeys(best) if not stop()]
-    simpler = [simplify_effect(problem, one, names, residual) for one in ended if not stop()]
-    ended = _best_of_each_effect([*ended, *(minimize(problem, one) for one in simpler if one)])
-    found = [score_estimate(problem, one, one.structure.effects[-1]) for one in ended]
+        best = _best_of_each_effect([*descended, *calm])[:KEPT]
+        best += _best_of_each_effect(calm)[:1]  # less noise starts farther from the minimum
+    minima = [_minimize_nested(problem, point, one) for one in dict.fromkeys(best) if not stop()]
+    simpler = [simplify_effect(problem, one, names, residual) for one in minima if not stop()]
+    minima = _best_of_each_effect([*minima, *(minimize(problem, one) for one in simpler if one)])
+    found = [score_estimate(problem, one, one.structure.effects[-1]) for one in minima]
     return sorted(found, key=lambda one: one.bic)
 
 
 def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Estimate) -> Estimate:
     """The local minimum near the start of a candidate, searched twice if the first search fails.
 
-    A candidate contains the model without it, so at its minimum it cannot be less likely. Where it
-    is, its start had another process noise than that model, and the search begins anew from that
-    of the model. A joint is searched from several shares of the friction instead.
+    A candidate contains the model without it, so it cannot be less likely at its minimum. If it is,
+    its start had another process noise than that model, and the search starts again from that of
+    the model. A joint is searched from several shares of the friction instead.
 
     Args:
         problem: the measurements.
-        point: the best without the candidate.
-        start: with it.
+        point: the estimate without the candidate.
+        start: an estimate with it.
     """
     found = refine_threshold(problem, minimize(problem, start))
-    if _ends_in_two_bodies(start):
+    if _ends_with_joint(start):
         return _refine_motor_friction(problem, found) if _is_much_likelier(found, point) else found
     if found.cost <= point.cost:
         return found
@@ -147,7 +142,7 @@ def _minimize_nested(problem: PredictionErrorProblem, point: Estimate, start: Es
 def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The likeliest of an estimate and of those with a slightly smaller or larger threshold.
 
-    Which samples a threshold lets through changes in jumps, so no slope leads to the best one.
+    The samples beyond a threshold change in jumps, so its derivative does not lead to the best one.
     """
     effect, structure = EFFECTS[point.structure.effects[-1]], point.structure
     names = [f"{effect.name}.{one.name}" for one in effect.parameters if one.stepwise]
@@ -164,7 +159,7 @@ def refine_threshold(problem: PredictionErrorProblem, point: Estimate) -> Estima
 
 
 def _is_much_likelier(found: Estimate, point: Estimate) -> bool:
-    """Whether a model with a joint is much likelier than one without any."""
+    """Whether the first joint makes a model much likelier."""
     alone = not any(EFFECTS[name].is_joint for name in point.structure.effects)
     return alone and point.cost - found.cost > LEAST_SCORE
 
@@ -195,67 +190,63 @@ def descend_candidate(problem: PredictionErrorProblem, start: Estimate) -> Estim
 
     Args:
         problem: the measurements.
-        start: a point with the candidate.
+        start: an estimate with the candidate.
     """
-    if not _ends_in_two_bodies(start):
-        return levenberg_marquardt(problem, start, steps=A_LITTLE)
-    gone = levenberg_marquardt(problem, start, steps=FURTHER)
+    if not _ends_with_joint(start):
+        return levenberg_marquardt(problem, start, steps=FEW_STEPS)
+    found = levenberg_marquardt(problem, start, steps=FURTHER)
     if not start.nuisance.has_backlash_phase:
-        return gone
-    untold = problem.evaluate(
+        return found
+    again = problem.evaluate(
         start.structure, start.values, start.nuisance.without_backlash_phase, start.process_noise
     )
-    return min(gone, levenberg_marquardt(problem, untold, steps=FURTHER), key=lambda one: one.cost)
+    return min(found, levenberg_marquardt(problem, again, steps=FURTHER), key=lambda one: one.cost)
 
 
-def _ends_in_two_bodies(point: Estimate) -> bool:
-    """Whether the last effect of a point is a joint of two bodies."""
+def _ends_with_joint(point: Estimate) -> bool:
+    """Whether the last effect of an estimate is a joint, which makes two bodies of one."""
     return EFFECTS[point.structure.effects[-1]].is_joint
 
 
 def _find_calmer_estimate(problem: PredictionErrorProblem, point: Estimate) -> Estimate | None:
-    """A point that little pushes, near one that much does; None where little does anyway."""
+    """The estimate refitted with little process noise; None if it has little, or diverges then."""
     calm = CALM * problem.noise.velocity**2
     if point.process_noise <= AGITATED * calm:
         return None
     calmer = problem.evaluate(point.structure, point.values, point.nuisance, calm)
-    calmer = levenberg_marquardt(problem, calmer, steps=A_LITTLE)
+    calmer = levenberg_marquardt(problem, calmer, steps=FEW_STEPS)
     return calmer if math.isfinite(calmer.cost) else None
 
 
 def simplify_effect(
-    problem: PredictionErrorProblem,
-    point: Estimate,
-    names: Sequence[str],
-    residual: VoltageResidual,
-    *,
-    effect: str = "",
-) -> Estimate | None:
-    """An estimate with an effect replaced by its simpler form; None if it has none.
+    problem: PredictionErrorProblem, point: Estimate, names: Sequence[str],
+    residual: VoltageResidual, *, effect: str = "",
+) -> Estimate | None:  # fmt: skip
+    """A start: an estimate with an effect replaced by its simpler form; None if it has none.
 
-    The optimum of the richer effect is a good start for the simpler one: that must not be rejected
-    only because its own search started badly.
+    The optimum of the richer effect is a good start for the simpler one, whose own start values may
+    lead to a worse local minimum.
 
     Args:
         problem: the measurements.
-        point: with the effect.
-        names: of effects to choose from.
+        point: an estimate with the effect.
+        names: effects that may replace it.
         residual: voltage residual of the log.
-        effect: to replace; empty for the one that was added last.
+        effect: the effect to replace; empty for the one that was added last.
     """
     old = EFFECTS[effect or point.structure.effects[-1]]
     name = old.simpler
     if name not in names:
         return None
-    mine = {one: point.values[f"{old.name}.{one}"] for one in old.names}
-    values = old.simplify(mine, residual)
+    own = {one: point.values[f"{old.name}.{one}"] for one in old.names}
+    values = old.simplify(own, residual)
     structure = point.structure - old.name + name
-    more = {
+    added = {
         f"{name}.{one}": structure.clamp_value(f"{name}.{one}", value)
         for one, value in values.items()
     }
     kept = {one: point.values[one] for one in (point.structure - old.name).names}
-    return problem.evaluate(structure, {**kept, **more}, point.nuisance, point.process_noise)
+    return problem.evaluate(structure, {**kept, **added}, point.nuisance, point.process_noise)
 
 
 def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
@@ -269,18 +260,18 @@ def _best_of_each_effect(points: Iterable[Estimate]) -> list[Estimate]:
 def _best_starts(
     problem: PredictionErrorProblem, point: Estimate, effects: Iterable[Effect],
     residual: VoltageResidual, seeds: Seeds, *, heavy: bool = False,
-) -> list[list[Begun]]:  # fmt: skip
-    """The best start of each effect, with what it promises; the most promising effect first.
+) -> list[list[RatedStart]]:  # fmt: skip
+    """The best start of each effect; the effect with the largest predicted improvement first.
 
-    Of a joint, one start for each minimum that the step tests suggest: the prediction does not say
-    which of these is the best. ``heavy`` tries joints of more inertia, too.
+    A joint has one start for each local minimum that it has on the step tests, because the
+    prediction does not say which is the best. ``heavy`` also tries joints with more inertia.
     """
-    kept = make_joint_jacobian(problem, point)
+    jacobian = make_joint_jacobian(problem, point)
     found = []
     step_tests = None
     for effect in effects:
         structure = point.structure + effect.name
-        more = [
+        starts = [
             {
                 f"{effect.name}.{one.name}": min(max(start[one.name], one.least), one.most)
                 for one in effect.parameters
@@ -291,14 +282,18 @@ def _best_starts(
         if effect.is_joint:
             step_tests = step_tests or TwoBodyStarts(problem, point)
             if tried_on_steps := step_tests.available:
-                more = step_tests.list_starts(structure, more, heavy=heavy)
-        more += [{**more[0], "kA": share * point.values["kA"]} for share in effect.inertia_shares]
+                starts = step_tests.list_starts(structure, starts, heavy=heavy)
+        starts += [
+            {**starts[0], "kA": share * point.values["kA"]} for share in effect.inertia_shares
+        ]
         if effect.has_onset:
-            more += scan_onsets(problem, point, effect, kept=kept)
+            starts += scan_onsets(problem, point, effect, jacobian=jacobian)
         if effect.name in seeds:
-            more.append(dict(seeds[effect.name]))
-        begun = rate_starts(problem, point, structure, more, kept=kept, as_given=tried_on_steps)
-        begun.sort(key=lambda one: -one[0])
-        if begun:
-            found.append(begun if tried_on_steps else begun[:1])
+            starts.append(dict(seeds[effect.name]))
+        rated = rate_starts(
+            problem, point, structure, starts, jacobian=jacobian, as_given=tried_on_steps
+        )
+        rated.sort(key=lambda one: -one[0])
+        if rated:
+            found.append(rated if tried_on_steps else rated[:1])
     return sorted(found, key=lambda starts: -starts[0][0])

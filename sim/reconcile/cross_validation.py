@@ -17,7 +17,7 @@ from sim.physics.engine import Track
 from sim.reconcile.search_effort import STEPS
 
 FRICTION_DEVIATIONS = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
-"""[standard deviations] of a run's own friction that are tried."""
+"""[standard deviations] Additional friction of a run that is tried."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,8 @@ class Fold:
     """Runs to fit, and runs to predict.
 
     Args:
-        fitted: places among a problem's runs.
-        predicted: the same.
+        fitted: indices of the runs to fit.
+        predicted: indices of the runs to predict.
     """
 
     fitted: tuple[int, ...]
@@ -52,7 +52,7 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
     With two logs the first predicts the second; with one, each run is predicted by the others.
 
     Args:
-        sessions: (runs,) the log of each.
+        sessions: (runs,) number of the log that each run is from.
     """
     every = range(len(sessions))
     if len(set(sessions)) > 1:
@@ -67,7 +67,7 @@ def make_folds(sessions: Sequence[int]) -> tuple[Fold, ...]:
 
 
 def select_usable_folds(problem: PredictionErrorProblem, folds: Sequence[Fold]) -> tuple[Fold, ...]:
-    """The folds of which both parts have samples that are compared."""
+    """The folds that have compared samples both to fit and to predict."""
     edges = pairwise(problem.run_edges.tolist())
     used = [bool(problem.informative[first:last].any()) for first, last in edges]
     return tuple(
@@ -82,7 +82,7 @@ def compute_validation_gap(
 ) -> Gap:
     """The gap on runs to which the searched parameters were not fitted.
 
-    The process noise and how each run begins are those of the fit to all runs.
+    The process noise and the nuisance parameters of each run are those of the fit to all runs.
 
     Args:
         problem: the measurements.
@@ -92,8 +92,8 @@ def compute_validation_gap(
     errors = [np.empty((0, 2))]
     for fold in folds:
         fitted, nuisance = _select_runs(problem, point, fold.fitted)
-        begin = fitted.evaluate(point.structure, point.values, nuisance, point.process_noise)
-        found = levenberg_marquardt(fitted, begin, steps=STEPS // 2)
+        start = fitted.evaluate(point.structure, point.values, nuisance, point.process_noise)
+        found = levenberg_marquardt(fitted, start, steps=STEPS // 2)
         predicted, nuisance = _select_runs(problem, point, fold.predicted)
         errors.append(
             compute_open_loop_errors(
@@ -106,9 +106,9 @@ def compute_validation_gap(
 def _select_runs(
     problem: PredictionErrorProblem, point: Estimate, chosen: Sequence[int]
 ) -> tuple[PredictionErrorProblem, RunNuisance]:
-    """The problem of some runs, and how they begin under an estimate.
+    """The problem of some runs, and their nuisance parameters under an estimate.
 
-    Where a motor heats up, what it has lost depends on the runs before, so all are simulated.
+    The state of a motor that heats up depends on the runs before, so all runs are simulated then.
     """
     if any("update_memory" in EFFECTS[name].hooks for name in point.structure.effects):
         return problem.select_runs(range(len(problem.records)), compared=chosen), point.nuisance
@@ -128,10 +128,10 @@ def compute_open_loop_errors(
 
     Args:
         problem: the runs.
-        point: values that are simulated.
-        nuisance: how each run begins.
-        own_friction: each run may have a friction of its own, as in ``random_friction.py``, so
-            that an accident in one run does not count for or against an effect.
+        point: the estimate that is simulated.
+        nuisance: initial values and friction of each run.
+        own_friction: whether to fit an additional friction to each run, as in
+            ``random_friction.py``, so that friction that varies does not decide about an effect.
     """
     track = problem.simulate(point.structure.model(point.values), nuisance)
     compared = problem.moving | problem.informative
@@ -150,8 +150,8 @@ def _with_run_friction(
 ) -> Array:
     """(n, 2) errors, each run with the additional friction that makes its errors smallest.
 
-    Each friction is simulated, because friction shifts the phase of cogging nonlinearly. Between
-    those that are tried, each run's best is where a parabola is lowest.
+    Each friction is simulated, because friction shifts the phase of cogging nonlinearly. The best
+    one between those that are tried is the minimum of a parabola.
     """
     deviation = get_friction_sd(point.values)
     model, runs = point.structure.model(point.values), len(problem.records)
@@ -162,32 +162,32 @@ def _with_run_friction(
         )
         return _open_loop_errors(problem, other)
 
-    every = np.stack(
+    errors = np.stack(
         [errors_with(np.full(runs, share * deviation)) for share in FRICTION_DEVIATIONS]
     )  # (shares, n, 2)
-    costs = _costs_by_share(problem, every, compared)
+    costs = _costs_by_share(problem, errors, compared)
     best = np.clip(np.argmin(costs, axis=0), 1, len(FRICTION_DEVIATIONS) - 2)
     less, here, more = (costs[best + way, np.arange(runs)] for way in (-1, 0, 1))
-    aside = find_parabola_minima(less, here, more)
-    between = errors_with((np.array(FRICTION_DEVIATIONS)[best] + aside) * deviation)
-    every = np.concatenate([every, between[None]])
-    best = np.argmin(_costs_by_share(problem, every, compared), axis=0)
-    return np.asarray(every[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])
+    offset = find_parabola_minima(less, here, more)
+    between = errors_with((np.array(FRICTION_DEVIATIONS)[best] + offset) * deviation)
+    errors = np.concatenate([errors, between[None]])
+    best = np.argmin(_costs_by_share(problem, errors, compared), axis=0)
+    return np.asarray(errors[np.repeat(best, np.diff(problem.run_edges)), np.arange(len(compared))])
 
 
 def find_parabola_minima(less: Array, here: Array, more: Array) -> Array:
     """Minima of parabolas through values at -1, 0 and 1; 0 where there is none."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        aside = 0.5 * (less - more) / (less - 2.0 * here + more)
-    return np.asarray(np.clip(np.nan_to_num(aside, posinf=0.0, neginf=0.0), -1.0, 1.0))
+        minima = 0.5 * (less - more) / (less - 2.0 * here + more)
+    return np.asarray(np.clip(np.nan_to_num(minima, posinf=0.0, neginf=0.0), -1.0, 1.0))
 
 
 def _costs_by_share(
-    problem: PredictionErrorProblem, every: Array, compared: NDArray[np.bool_]
+    problem: PredictionErrorProblem, errors: Array, compared: NDArray[np.bool_]
 ) -> Array:
-    """(shares, runs) what each run misses, position and velocity in what is ordinary for both."""
-    with np.errstate(over="ignore", invalid="ignore"):  # of what ran away
-        squares = np.where(compared[:, None] & ~np.isnan(every), np.square(every), 0.0)
+    """(shares, runs) squared errors over their mean without friction, position plus velocity."""
+    with np.errstate(over="ignore", invalid="ignore"):  # simulations that diverged
+        squares = np.where(compared[:, None] & ~np.isnan(errors), np.square(errors), 0.0)
         sizes = np.mean(squares[FRICTION_DEVIATIONS.index(0.0)], axis=0) + 1e-300
         costs = np.add.reduceat(np.sum(squares / sizes, axis=2), problem.run_edges[:-1], axis=1)
     return np.asarray(np.nan_to_num(costs, nan=np.inf))
@@ -195,9 +195,9 @@ def _costs_by_share(
 
 def _open_loop_errors(problem: PredictionErrorProblem, track: Track) -> Array:
     """(n, 2) measured minus simulated; infinite where a simulation diverged."""
-    seen = track.sensor_readings
-    away = ~np.isfinite(seen) & ~np.isnan(problem.measured)
-    return np.where(away, np.inf, problem.measured - seen)
+    simulated = track.sensor_readings
+    diverged = ~np.isfinite(simulated) & ~np.isnan(problem.measured)
+    return np.where(diverged, np.inf, problem.measured - simulated)
 
 
 def compute_rms_gap(errors: Array) -> Gap:
@@ -210,7 +210,7 @@ def compute_rms_gap(errors: Array) -> Gap:
 
 
 def count_noise_floors(gap: float, problem: PredictionErrorProblem) -> float:
-    """[1] A gap of the velocity over the noise that any model leaves.
+    """[1] A velocity gap over the noise floor of the measured velocity.
 
     Args:
         gap: [unit/s].

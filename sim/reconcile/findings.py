@@ -28,69 +28,65 @@ from sim.reconcile.thresholds import (
 
 
 def make_findings(
-    problem: PredictionErrorProblem, done: Sequence[SelectionRound],
+    problem: PredictionErrorProblem, rounds: Sequence[SelectionRound],
     damages: Sequence[DamagedInterval], chapters: Sequence[Chapter], *,
-    without: Mapping[str, float], held_out: bool, residuals: ResidualSummary, per: Unit,
+    without: Mapping[str, float], held_out: bool, residuals: ResidualSummary, unit: Unit,
 ) -> tuple[tuple[Finding, ...], tuple[JudgedEffect, ...]]:  # fmt: skip
-    """Findings, faults first, then effects, major ones first; and all effects that were judged.
+    """Findings in order of importance, and all effects that were judged.
 
-    An effect is a finding if it is likelier right than wrong. What any robot has a little of stays
-    in the model and is no finding, however much of a small gap it takes. Nor is a minor effect
-    beside a major one with which the gap of other runs does not shrink, nor one with which the
-    shown log is missed by more, unless that log is held out: then it decides nothing. A fault that
-    is cut out for safety's sake, but may be physics, comes after the major effects.
+    An effect is a finding if its probability is at least ``LEAST_PROBABILITY``. These are not
+    findings: an everyday effect, which only stays in the model; beside a major effect, a minor one
+    that does not narrow the cross-validated gap; and an effect that widens the gap on the shown
+    log, unless that log is held out, because a held-out log decides nothing.
 
     Args:
         problem: the measurements.
-        done: the base and the rounds.
-        damages: of the record.
-        chapters: of the shown log, one for each round.
-        without: effect -> [owner's unit/s] gap of the last model without it on the shown log.
-        held_out: whether the shown log decides nothing.
-        residuals: what the last model leaves.
-        per: the owner's unit.
+        rounds: the base model and the selection rounds.
+        damages: faults of the record that are reported.
+        chapters: each round's model on the shown log.
+        without: effect -> [log's unit/s] gap of the last model without it on the shown log.
+        held_out: whether the shown log is held out.
+        residuals: residual tests of the last model.
+        unit: the log's unit.
     """
     faults = [_make_fault_finding(one, chapters[0].gap) for one in damages]
-    judged = judge_effects(problem, done, residuals, damaged=bool(damages))
-    noises = count_noise_floors(done[-1].gap.velocity, problem)
-    far = noises > VISIBLE_FLOORS or residuals.has_structure
+    judged = judge_effects(problem, rounds, residuals, damaged=bool(damages))
+    floors = count_noise_floors(rounds[-1].gap.velocity, problem)
+    incomplete = floors > VISIBLE_FLOORS or residuals.has_structure
     gaps = {name: (gap, chapters[-1].gap) for name, gap in without.items()}
-    told = {one.effect: one for one in judged if one.probability >= LEAST_PROBABILITY}
+    likely = {one.effect: one for one in judged if one.probability >= LEAST_PROBABILITY}
     effects = [
-        replace(one, probability=told[one.effect].probability)
-        for one in _classify_size(problem, done, gaps, far=far, per=per)
-        if one.effect in told
+        replace(one, probability=likely[one.effect].probability)
+        for one in _classify_size(problem, rounds, gaps, incomplete=incomplete, unit=unit)
+        if one.effect in likely
     ]
     if not held_out:
-        effects = [_demote_unseen(one) for one in effects]
+        effects = [_demote_if_not_narrower(one) for one in effects]
         effects = [one for one in effects if not NARROWER * one.gap_after > one.gap_before]
     if any(one.size == "major" for one in effects):
-        rounds = {one.candidate.effect: one for one in done[1:]}
+        by_effect = {one.candidate.effect: one for one in rounds[1:]}
         effects = [
             one
             for one in effects
-            if one.size == "major" or is_narrower_with(rounds[one.effect], done[-1])
+            if one.size == "major" or is_narrower_with(by_effect[one.effect], rounds[-1])
         ]
-    closed = _shares_closed(done)
+    closed = _compute_closed_shares(rounds)
     effects.sort(key=lambda one: -one.probability * closed[one.effect])
     return tuple(sorted((*faults, *effects), key=_sort_key)), judged
 
 
-def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
-    """Effect -> [1] of the velocity gap that it closes: the largest is the most important.
+def _compute_closed_shares(rounds: Sequence[SelectionRound]) -> dict[str, float]:
+    """Effect -> [1] share of the velocity gap that it closes: the largest is the most important.
 
-    What it closes as the first effect and as the last one differs, so the geometric mean of both
-    counts, as in the Shapley value of two effects. An effect that was not compared in the first
-    round, because others were more promising, is taken to close nothing alone.
-
-    Args:
-        done: the base and the rounds.
+    An effect closes another share as the first effect than as the last one, so the gap ratios of
+    both are averaged geometrically, as in the Shapley value of two effects. An effect that was not
+    compared in the first round, because others were more promising, is taken to close nothing then.
     """
-    alone = {one.effect: one.gap_ratio for one in done[0].tried}
+    alone = {one.effect: one.gap_ratio for one in rounds[0].tried}
     found = {}
-    for one in done[1:]:
+    for one in rounds[1:]:
         name = one.candidate.effect
-        last = compute_log_ratio(done[-1].gap.velocity, one.gap_without.velocity)
+        last = compute_log_ratio(rounds[-1].gap.velocity, one.gap_without.velocity)
         first = compute_log_ratio(alone.get(name, 1.0), 1.0)
         found[name] = 1.0 - math.exp(0.5 * (first + last))
     return found
@@ -98,52 +94,46 @@ def _shares_closed(done: Sequence[SelectionRound]) -> dict[str, float]:
 
 def _classify_size(
     problem: PredictionErrorProblem,
-    done: Sequence[SelectionRound],
+    rounds: Sequence[SelectionRound],
     gaps: Mapping[str, tuple[float, float]],
     *,
-    far: bool,
-    per: Unit,
+    incomplete: bool,
+    unit: Unit,
 ) -> list[Finding]:
-    """What each round added, major or minor.
+    """The finding of each round's effect, major or minor.
 
-    Of effects that stand in for one another none is missed alone: if together they closed the gap,
-    the one that closed most of it is major.
+    Without one of several effects that resemble each other, the others take its place, so all of
+    them are minor at first. If together they closed the gap, the one that closed most is major.
     """
-    least = MAJOR_UNEXPLAINED if far else MAJOR
-    errors = compute_standard_errors(problem, done[-1].candidate.estimate)
+    least = MAJOR_UNEXPLAINED if incomplete else MAJOR
+    errors = compute_standard_errors(problem, rounds[-1].candidate.estimate)
     found = [
         _make_effect_finding(
-            done[n],
-            done[-1],
-            errors,
-            *gaps[done[n].candidate.effect],
-            per=per,
-            least=least,
+            one, rounds[-1], errors, *gaps[one.candidate.effect], unit=unit, least=least
         )
-        for n in range(1, len(done))
+        for one in rounds[1:]
     ]
-    closed = done[-1].gap.velocity <= least * done[0].gap.velocity
-    if closed and not far and all(one.size != "major" for one in found):
-        left = [_share_left(before.gap, one.gap) for before, one in pairwise(done)]
-        if left:
-            most = left.index(min(left))
+    closed = rounds[-1].gap.velocity <= least * rounds[0].gap.velocity
+    if closed and not incomplete and all(one.size != "major" for one in found):
+        ratios = [_gap_ratio(before.gap, one.gap) for before, one in pairwise(rounds)]
+        if ratios:
+            most = ratios.index(min(ratios))
             found[most] = replace(found[most], size="major")
     return found
 
 
-def _demote_unseen(one: Finding) -> Finding:
-    """The finding, minor where the shown gap does not visibly shrink with it."""
-    seen = one.gap_after <= NARROWER * one.gap_before
-    return one if seen else replace(one, size="minor")
+def _demote_if_not_narrower(one: Finding) -> Finding:
+    """The finding; a minor one if the gap on the shown log is not narrower with it."""
+    return one if one.gap_after <= NARROWER * one.gap_before else replace(one, size="minor")
 
 
-def _share_left(before: Gap, after: Gap) -> float:
-    """[1] share of the velocity gap that is left after a round."""
+def _gap_ratio(before: Gap, after: Gap) -> float:
+    """[1] velocity gap after a round over that before it; inf if there was none."""
     return after.velocity / before.velocity if before.velocity > 0.0 else math.inf
 
 
 def _sort_key(one: Finding) -> int:
-    """Its place: sure faults, major effects, faults that are none perhaps, minor effects."""
+    """Sort key: sure faults, major effects, unsure faults (they may be physics), minor effects."""
     return 2 * (one.size != "major") + (one.kind == "effect")
 
 
@@ -158,7 +148,7 @@ def _make_fault_finding(one: DamagedInterval, gap: float) -> Finding:
 
 def _make_effect_finding(
     now: SelectionRound, end: SelectionRound, errors: Mapping[str, float],
-    gap_before: float, gap_after: float, *, per: Unit, least: float,
+    gap_before: float, gap_after: float, *, unit: Unit, least: float,
 ) -> Finding:  # fmt: skip
     name = now.candidate.effect
     effect = EFFECTS[name]
@@ -166,12 +156,12 @@ def _make_effect_finding(
     major = end.gap.velocity <= least * now.gap_without.velocity
     parameters = {}
     for one in effect.parameters:
-        whole = f"{name}.{one.name}"
-        scale = per.si**one.power
-        error = errors.get(whole)
+        key = f"{name}.{one.name}"
+        scale = unit.si**one.power
+        error = errors.get(key)
         parameters[one.name] = ParameterEstimate(
-            last.values[whole] * scale, None if error is None else error * scale,
-            one.unit.format(u=per.symbol),
+            last.values[key] * scale, None if error is None else error * scale,
+            one.unit.format(u=unit.symbol),
         )  # fmt: skip
     tests = [test for rival in now.rivals if (test := find_separating_test(name, rival))]
     return Finding(

@@ -45,58 +45,57 @@ def select_effects(data: SelectionData, base: Estimate) -> list[SelectionRound]:
 
     Args:
         data: the measurements.
-        base: the best point without effects.
+        base: the best estimate without effects.
     """
     gap = compute_validation_gap(data.problem, base, data.folds)
-    done = _add_effects(data, [SelectionRound.make_base(score_estimate(data.problem, base), gap)])
-    done = choose_path(data, add_pair(data, done))
-    return simplify_effects(data, done)
+    rounds = _add_effects(data, [SelectionRound.make_base(score_estimate(data.problem, base), gap)])
+    rounds = choose_path(data, add_pair(data, rounds))
+    return simplify_effects(data, rounds)
 
 
-def add_pair(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def add_pair(data: SelectionData, rounds: list[SelectionRound]) -> list[SelectionRound]:
     """Add a candidate that widens the gap, if further effects then close much of it.
 
-    A spring may hide behind a current limit: the model with the spring alone is far likelier, but
-    predicts other runs worse until the limit is added, too.
+    Of a spring and a current limit, the model with the spring alone is far likelier, but predicts
+    other runs worse until the limit is added, too.
     """
-    now = done[-1]
+    now = rounds[-1]
     blocked = list_blocked_candidates(now.candidates)
-    if not blocked or len(done) >= MOST_EFFECTS or not math.isfinite(blocked[0].gap.velocity):
-        return done
-    path = _add_effects(data, [*done, _next_round(now, blocked[0])])
+    if not blocked or len(rounds) >= MOST_EFFECTS or not math.isfinite(blocked[0].gap.velocity):
+        return rounds
+    path = _add_effects(data, [*rounds, _next_round(now, blocked[0])])
     closes = path[-1].gap.velocity <= MAJOR * now.gap.velocity
-    return path if closes and not is_wider(path[-1].gap, now.gap) else done
+    return path if closes and not is_wider(path[-1].gap, now.gap) else rounds
 
 
-def choose_path(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def choose_path(data: SelectionData, rounds: list[SelectionRound]) -> list[SelectionRound]:
     """The rounds, or those of an alternative path if the model at its end is better.
 
     The first effect that is added may resemble two others at once, and mask both.
     """
-    if count_noise_floors(done[-1].gap.velocity, data.problem) <= VISIBLE_FLOORS:
-        return done
-    begun = find_alternative(done, by_gap=_is_dead_end(data.problem, done))
-    if not begun:
-        return done
-    path = _add_effects(data, begun)
-    likelier = path[-1].candidate.bic < done[-1].candidate.bic
-    return path if likelier and not is_wider(path[-1].gap, done[-1].gap) else done
+    if count_noise_floors(rounds[-1].gap.velocity, data.problem) <= VISIBLE_FLOORS:
+        return rounds
+    start = find_alternative(rounds, by_gap=_is_dead_end(data.problem, rounds))
+    if not start:
+        return rounds
+    path = _add_effects(data, start)
+    likelier = path[-1].candidate.bic < rounds[-1].candidate.bic
+    return path if likelier and not is_wider(path[-1].gap, rounds[-1].gap) else rounds
 
 
-def find_alternative(done: Sequence[SelectionRound], *, by_gap: bool) -> list[SelectionRound]:
-    """The begin of another path: the first rounds, and a candidate that nearly was added to them.
+def find_alternative(rounds: Sequence[SelectionRound], *, by_gap: bool) -> list[SelectionRound]:
+    """The start of an alternative path: the first rounds, and a candidate that was nearly added.
 
     An effect that resembles two others at once scores as much as both of them together.
 
     Args:
-        done: the path.
-        by_gap: whether of several such candidates the one with the smallest gap is taken, and not
-            the likeliest.
+        rounds: the path.
+        by_gap: whether to take the candidate with the smallest gap instead of the likeliest.
 
     Returns:
-        No round if no other candidate came close.
+        The rounds; none if no other candidate came close.
     """
-    for place, (one, added) in enumerate(pairwise(done)):
+    for place, (one, added) in enumerate(pairwise(rounds)):
         admitted = [other for other in one.candidates if other.report.admitted]
         top = max((other.report.improvement for other in admitted), default=0.0)
         near = [
@@ -108,21 +107,21 @@ def find_alternative(done: Sequence[SelectionRound], *, by_gap: bool) -> list[Se
         if near:
             likeliest = max(near, key=lambda other: other.report.improvement)
             nearest = min(near, key=lambda other: other.report.gap_ratio)
-            return [*done[: place + 1], _next_round(one, nearest if by_gap else likeliest)]
+            return [*rounds[: place + 1], _next_round(one, nearest if by_gap else likeliest)]
     return []
 
 
-def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[SelectionRound]:
+def _add_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[SelectionRound]:
     """The rounds, with one more for each effect that narrows the gap."""
-    done = list(done)
-    while len(done) <= MOST_EFFECTS and not _is_dead_end(data.problem, done):
+    rounds = list(rounds)
+    while len(rounds) <= MOST_EFFECTS and not _is_dead_end(data.problem, rounds):
         data.progress(
-            f"round {len(done)}: every candidate", 0.1 + 0.7 * len(done) / (MOST_EFFECTS + 1)
+            f"round {len(rounds)}: every candidate", 0.1 + 0.7 * len(rounds) / (MOST_EFFECTS + 1)
         )
-        now = done[-1]
+        now = rounds[-1]
         weighed = weigh_candidates(data, now)
         seeds = {**now.seeds, **_collect_seeds(weighed)}
-        done[-1] = now = replace(now, seeds=seeds, candidates=tuple(weighed))
+        rounds[-1] = now = replace(now, seeds=seeds, candidates=tuple(weighed))
         admitted = select_admissible(weighed)
         if not admitted:
             break
@@ -131,21 +130,21 @@ def _add_effects(data: SelectionData, done: list[SelectionRound]) -> list[Select
         if best is not chosen:
             near = [one for one in near if _is_close(_finish_search(data, one), best)]
         rivals = tuple(one.candidate.effect for one in near)
-        done.append(replace(_next_round(now, best), rivals=rivals))
-    return done
+        rounds.append(replace(_next_round(now, best), rivals=rivals))
+    return rounds
 
 
 def _next_round(now: SelectionRound, added: WeighedCandidate) -> SelectionRound:
-    """The round that begins with a candidate of the one before."""
+    """The round after ``now``, whose model is a candidate of ``now``."""
     return SelectionRound(added.candidate, added.gap, now.candidate, now.gap, seeds=now.seeds)
 
 
 def select_admissible(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
     """Candidates that may be added next.
 
-    What any robot has a little of goes first, and alone, if it is nearly the likeliest: beside it
-    the others are seen as they are. A limit of the current resembles a late command and a weak
-    battery together more than each of them does alone.
+    If an everyday effect is nearly the likeliest, it alone is admissible: only with it in the model
+    are the scores of the others reliable. A current limit, for example, resembles a delay and a
+    weak battery together more than each of these does.
 
     Args:
         weighed: the candidates of a round, the likeliest first.
@@ -159,23 +158,23 @@ def select_admissible(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandid
     return admitted
 
 
-def _is_dead_end(problem: PredictionErrorProblem, done: Sequence[SelectionRound]) -> bool:
+def _is_dead_end(problem: PredictionErrorProblem, rounds: Sequence[SelectionRound]) -> bool:
     """Whether a model misses most of the motion, and its last effect hardly improved that.
 
     Nothing would be reported of such a model, and further effects would take minutes to try.
     """
-    now = done[-1]
+    now = rounds[-1]
     share = compute_missed_motion(now.gap.velocity, problem)
     if share <= LOST:
         return False
     values = now.candidate.estimate.values
-    if len(done) == 1:
+    if len(rounds) == 1:
         return values["kA"] > UNDRIVEN * values["kV"]
     return not now.gap.velocity <= MAJOR_UNEXPLAINED * now.gap_without.velocity
 
 
 def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandidate:
-    """The same, as far as its search leads: candidates are only compared, the one taken goes on."""
+    """The candidate at its local minimum; to compare candidates, their searches were shortened."""
     candidate, problem = best.candidate, data.problem
     point = minimize_fully(problem, candidate.estimate)
     for other in flip_duration(problem, point):
@@ -198,7 +197,7 @@ def _is_close(other: WeighedCandidate, best: WeighedCandidate) -> bool:
 
 
 def _collect_seeds(weighed: Sequence[WeighedCandidate]) -> Seeds:
-    """What the candidates' parameters are, of those that explain something."""
+    """The parameter values of the candidates whose score is at least ``LEAST_SCORE``."""
     found = {}
     for one in weighed:
         if one.report.improvement >= LEAST_SCORE:

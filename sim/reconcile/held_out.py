@@ -51,10 +51,10 @@ class HeldOutLog:
 
     Args:
         log: the runs.
-        problem: what is compared of them.
-        usage: a sentence about how it was used.
-        doubts: what a person should know of the logs.
-        held_out: whether nothing was fitted to it.
+        problem: their measurements.
+        usage: a sentence about how the log was used.
+        doubts: remarks about all logs.
+        held_out: whether neither a fit nor a choice used it.
     """
 
     log: Log
@@ -78,64 +78,64 @@ class HeldOutLog:
                 where=recordings.logs_by_name[name].source,
                 advice="Inspect the log, and record it again.",
             )
-        # numbers of one story have one unit
+        # all results are in the unit of the first log
         log = replace(recordings.logs_by_name[name], units=recordings.log.units)
-        again = _describe_repeats(recordings)
-        others = [text for other, text in again.items() if other != name]
+        repeats = _describe_repeats(recordings)
+        others = [text for other, text in repeats.items() if other != name]
         return cls(
             log,
             problem,
-            again.get(name, LOG_USES[name]),
+            repeats.get(name, LOG_USES[name]),
             (*others, *_collect_doubts(recordings)),
-            name == "held_out" and name not in again,
+            name == "held_out" and name not in repeats,
         )
 
     def notes(self, last: Chapter, fitted: float) -> tuple[str, ...]:
-        """Remarks about the logs, for people.
+        """Remarks about the logs.
 
         Args:
             last: the last model, on this log.
-            fitted: [unit/s] its gap on the runs that were fitted or chosen by.
+            fitted: [unit/s] its cross-validated gap on the fitted runs.
         """
         gap = last.gap * find_unit(self.log.units).si
-        said = (*self.doubts, *((PHASE_NOTE,) if _has_backlash(last) else ()))
+        remarks = (*self.doubts, *((PHASE_NOTE,) if _has_backlash(last) else ()))
         least = max(fitted, self.problem.velocity_floor)
         if not self.held_out or gap <= VISIBLE_FLOORS * least:
-            return said
-        far = (
+            return remarks
+        wide_gap = (
             f"The last model misses the held-out log by {gap / least:.0f} times "
             "as much as it misses the others: make sure that it is of the same mechanism, in "
             "the same units, and that nothing was changed in between."
         )
-        return (far, *said)
+        return (wide_gap, *remarks)
 
     @property
     def noise_floor(self) -> float:
-        """[owner's unit/s] noise of its velocity."""
+        """[log's unit/s] noise of its velocity."""
         return self.problem.velocity_floor / find_unit(self.log.units).si
 
     @property
     def compared_samples(self) -> tuple[NDArray[np.bool_], ...]:
-        """Per run, (n,) which samples are compared: it moves, and nothing is excluded."""
+        """Per run, (n,) which samples are compared: in motion, and not excluded."""
         return tuple(one.measurements.informative for one in self.problem.records)
 
     def find_gap_places(self, base: Chapter) -> tuple[Place, ...]:
-        """Places where the base model's velocity is wrong, the most significant first."""
+        """Where the base model's velocity is wrong, the most significant place first."""
         noise = self.problem.velocity_floor
         found = map_residuals(self.log, base.tracks, compared=self.compared_samples, floor=noise)
         return found.find_places(PLACES_SHOWN, signal="velocity") if found else ()
 
-    def chapters(self, done: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
+    def chapters(self, rounds: Sequence[SelectionRound]) -> tuple[Chapter, ...]:
         """Each model's gap and simulated runs."""
-        return tuple(map(self._chapter, done))
+        return tuple(map(self._chapter, rounds))
 
-    def measure_gaps_without(self, done: Sequence[SelectionRound]) -> dict[str, float]:
-        """[owner's unit/s] effect -> the gap of the last model without this effect.
+    def measure_gaps_without(self, rounds: Sequence[SelectionRound]) -> dict[str, float]:
+        """[log's unit/s] effect -> the gap of the last model without this effect.
 
-        If the model diverges without an effect, the gap of the model before it.
+        If the simulation diverges without the effect, the gap of the model before it was added.
         """
         found = {}
-        for before, one in pairwise(done):
+        for before, one in pairwise(rounds):
             gap = self._gap(one.without.estimate)
             gap = gap if math.isfinite(gap) else self._gap(before.candidate.estimate)
             found[one.candidate.effect] = gap
@@ -156,22 +156,22 @@ class HeldOutLog:
         return Chapter(one.candidate.effect, model, one.tried, gap, runs)
 
     def _initial_nuisance(self, point: Estimate) -> RunNuisance:
-        """How its runs begin: where they were first seen, and where in free play they say."""
-        seen = self.problem.initial_nuisance
-        here = self.problem.evaluate(point.structure, point.values, seen, point.process_noise)
+        """Initial values of its runs: the first samples, and estimated backlash phases."""
+        first = self.problem.initial_nuisance
+        found = self.problem.evaluate(point.structure, point.values, first, point.process_noise)
         for _ in range(ROUNDS):
-            here = estimate_backlash_phase(self.problem, here)
-        return here.nuisance
+            found = estimate_backlash_phase(self.problem, found)
+        return found.nuisance
 
 
 def _has_backlash(chapter: Chapter) -> bool:
-    """Whether motor and load of its model have free play."""
+    """Whether its model has free play between motor and load."""
     names = tuple(part.effect for part in chapter.model.parts)
     return ModelStructure(chapter.model.type, names).has_backlash
 
 
 def _describe_repeats(recordings: Recordings) -> dict[str, str]:
-    """A log that repeats runs of those before it -> what that means."""
+    """Name of each log that contains a run twice or repeats an earlier log -> a warning."""
     return {
         name: REPEAT_WARNINGS[name]
         for name in REPEAT_WARNINGS
@@ -180,6 +180,6 @@ def _describe_repeats(recordings: Recordings) -> dict[str, str]:
 
 
 def _collect_doubts(recordings: Recordings) -> tuple[str, ...]:
-    """What reading the logs left to say, each once; the log that was used least first."""
+    """Doubts from reading the logs, each once; those of the least used log first."""
     logs = [recordings.logs_by_name[name] for name in LOG_USES if name in recordings.logs_by_name]
     return tuple(dict.fromkeys(doubt.message for log in logs for doubt in log.doubts))

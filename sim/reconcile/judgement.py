@@ -27,7 +27,7 @@ from sim.reconcile.thresholds import LATEST, LOST, NARROWER, SOONEST, STRUCTURE
 
 def judge_effects(
     problem: PredictionErrorProblem,
-    done: Sequence[SelectionRound],
+    rounds: Sequence[SelectionRound],
     residuals: ResidualSummary,
     *,
     damaged: bool,
@@ -36,17 +36,17 @@ def judge_effects(
 
     Args:
         problem: the measurements.
-        done: the base model and the selection rounds.
-        residuals: residuals of the last model.
+        rounds: the base model and the selection rounds.
+        residuals: residual tests of the last model.
         damaged: whether damaged intervals were excluded.
     """
-    last = done[-1].candidate.estimate
-    missed = compute_missed_motion(done[-1].gap.velocity, problem)
-    if not missed <= LOST:  # no number at all is lost, too
+    last = rounds[-1].candidate.estimate
+    missed = compute_missed_motion(rounds[-1].gap.velocity, problem)
+    if not missed <= LOST:  # also true for nan
         return ()
     possible = [
         (before, now)
-        for before, now in pairwise(done)
+        for before, now in pairwise(rounds)
         if not is_ordinary_size(now.candidate.effect, last.values)
         and not is_contradicted(now.candidate.effect, problem, last, residuals)
         and not oscillates_within_sample(now.candidate.effect, problem, last.values)
@@ -54,10 +54,10 @@ def judge_effects(
     found = []
     for place, (before, now) in enumerate(possible):
         name = now.candidate.effect
-        with_, bare = done[-1].gap, now.gap_without
+        with_, bare = rounds[-1].gap, now.gap_without
         added = before.candidate.bic - now.candidate.bic
         evidence = Evidence(
-            likelihood=math.log(max(now.without.bic - done[-1].candidate.bic, 1.0)),
+            likelihood=math.log(max(now.without.bic - rounds[-1].candidate.bic, 1.0)),
             gap=0.5
             * (
                 compute_log_ratio(with_.velocity, bare.velocity)
@@ -79,14 +79,14 @@ def judge_effects(
 def oscillates_within_sample(
     effect: str, problem: PredictionErrorProblem, values: Mapping[str, float]
 ) -> bool:
-    """Whether a soft joint oscillates once or more from one sample to the next.
+    """Whether a soft joint oscillates at least once between two samples, which no log can show.
 
-    No log can show that. The angular frequency is 1/√(softness·share·(1 - share)·kA) [rad/s].
+    The angular frequency is 1/√(softness·share·(1 - share)·kA) [rad/s].
 
     Args:
-        effect: its name.
+        effect: name of the effect.
         problem: the measurements.
-        values: of a model, in SI.
+        values: parameter values of the model, in SI.
     """
     if "joint_compliance" not in EFFECTS[effect].hooks:
         return False
@@ -100,26 +100,26 @@ def is_contradicted(
 ) -> bool:
     """Whether the largest unexplained residual follows this effect's onset.
 
-    A sensor that slips or a robot that is bumped loses speed as one does that takes up a load, but
-    regains it at another pace. The samples of the impact itself are never explained quite.
+    A slipping sensor or a bumped robot loses speed like one that takes up a load, but regains it at
+    another rate. The samples of the impact itself do not count: no model explains them exactly.
     """
-    moment = residuals.worst_window
+    window = residuals.worst_window
     if not (EFFECTS[effect].has_onset and residuals.has_unlikely_window):
         return False
-    record = problem.records[moment.record]
+    record = problem.records[window.record]
     onset = last.values[f"{effect}.{ONSET}"] - record.clock + float(record.measurements.time[0])
-    return onset + SOONEST * problem.period < moment.start < onset + LATEST
+    return onset + SOONEST * problem.period < window.start < onset + LATEST
 
 
 def list_rival_scores(before: SelectionRound, kept: Sequence[str], name: str) -> dict[str, float]:
-    """Candidate -> its score in the round of an effect, without other effects of the last model.
+    """Score of each candidate in an effect's round, except of other effects of the last model.
 
-    Those explain something else: they are in the model beside it.
+    Those explain something else, because the last model needs both.
 
     Args:
-        before: the round.
+        before: the round before the effect was added, with its candidates.
         kept: the effects of the last model.
-        name: the effect.
+        name: name of the effect.
     """
     others = {*kept} - {name}
     return {one.effect: one.improvement for one in before.tried if one.effect not in others}

@@ -1,4 +1,4 @@
-"""The local minimum near an estimate, and what a start of a candidate promises.
+"""The local minimum near an estimate, and the predicted improvement of a candidate's starts.
 
 Levenberg–Marquardt steps alternate with a search for the process noise and for the backlash phase
 of each run.
@@ -22,22 +22,24 @@ from sim.reconcile.backlash_phase import estimate_backlash_phase, halve_backlash
 from sim.reconcile.search_effort import ROUNDS, STEPS
 from sim.reconcile.thresholds import EQUAL_SCORE
 
-SCANNED = (-12, -9, -6, -4, -2)  # powers of it: the process noise is first thought too large
-SMALL_PART, LARGE_PART = 0.03, 0.8  # [1] of a start's size between which a part of it is tried, too
-LARGEST_PART = 30.0  # [1] the same, the other way
-SURELY_MORE = 10.0  # [of -2 log L]
+SCANNED = (-12, -9, -6, -4, -2)  # powers of FACTOR: the first process noise is usually too large
+LEAST_SHARE, MOST_SHARE = 0.03, 0.8  # [1] of a start's size: limits of a smaller one that is tried
+MOST_OPPOSITE_SHARE = 30.0  # [1] the upper limit for a size with the opposite sign
+WORTHWHILE = 10.0  # [of -2 log L] improvement for which a search is repeated or a size is tried
 START_HALVINGS = 3  # of the best start, which may be too large for a subtle effect
 FIRST_STEPS = 3  # Levenberg-Marquardt steps before the process noise is estimated
-AGAIN = 6  # times that a point is settled at most
-CALM, AGITATED = 1.0, 8.0  # [noises of a velocity, squared, per second] such a q, and times it
-HALVED = 6  # times at most that play is halved
-Begun = tuple[float, Estimate]  # predicted improvement of a start, and the start
+MOST_REPEATS = 6  # of a minimization
+CALM = 1.0  # [(velocity noise)²/s] little process noise
+AGITATED = 8.0  # [CALM] more process noise may hide a model error
+BACKLASH_HALVINGS = 6  # at most
+RatedStart = tuple[float, Estimate]  # predicted decrease of -2 log L by a start, and the start
 
 
 def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """Alternate between parameters and process noise until neither improves.
 
-    Values go first: far from the best ones a large q is the likeliest, and hides what they miss.
+    The parameters come first: far from their optimum a large process noise is the likeliest, and
+    hides the residuals.
     """
     point = levenberg_marquardt(problem, point, steps=FIRST_STEPS)
     for _ in range(ROUNDS):
@@ -53,23 +55,24 @@ def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def minimize_fully(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The local minimum near an estimate, also searched from less process noise where that helps.
+    """The local minimum near an estimate, also searched from less process noise if it has much.
 
-    Large process noise hides any residual, so a search whose gains are far off tends to stop there.
+    Large process noise hides any residual, so a search tends to stop there with wrong gains.
     """
-    found = [_alternate(problem, point)]
+    found = [_minimize_repeatedly(problem, point)]
     calm = CALM * problem.noise.velocity**2
     if found[0].process_noise > AGITATED * calm:
         calmer = problem.evaluate(point.structure, found[0].values, found[0].nuisance, calm)
-        found.append(_alternate(problem, levenberg_marquardt(problem, calmer, steps=STEPS)))
+        calmer = levenberg_marquardt(problem, calmer, steps=STEPS)
+        found.append(_minimize_repeatedly(problem, calmer))
     best = min(found, key=lambda one: one.cost)
     return _tighten_backlash(problem, best) if point.structure.has_backlash else best
 
 
 def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The least play of those about as likely: what no run crosses may be of any size."""
+    """The smallest of about equally likely backlashes: one that no run crosses has no bound."""
     best = point
-    for _ in range(HALVED):
+    for _ in range(BACKLASH_HALVINGS):
         less = minimize(problem, halve_backlash(problem, point))
         if not less.cost < best.cost + EQUAL_SCORE:
             break
@@ -78,20 +81,20 @@ def _tighten_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estim
     return point
 
 
-def _alternate(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """The same, settled until that gains no more."""
-    for _ in range(AGAIN):
+def _minimize_repeatedly(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
+    """The estimate, minimized again while that improves it by more than ``WORTHWHILE``."""
+    for _ in range(MOST_REPEATS):
         before = point.cost
         point = minimize(problem, point)
-        if not before - point.cost > SURELY_MORE:
+        if not before - point.cost > WORTHWHILE:
             break
     return point
 
 
 def rate_starts(
     problem: PredictionErrorProblem, point: Estimate, structure: ModelStructure,
-    more: Sequence[Mapping[str, float]], *, kept: JointJacobian, as_given: bool = False,
-) -> list[Begun]:  # fmt: skip
+    starts: Sequence[Mapping[str, float]], *, jacobian: JointJacobian, as_given: bool = False,
+) -> list[RatedStart]:  # fmt: skip
     """Estimates at a candidate's starts, each with its predicted decrease of -2 log L.
 
     The prediction lets the gains adjust, to second order. A start that is too large, or has the
@@ -101,69 +104,69 @@ def rate_starts(
 
     Args:
         problem: the measurements.
-        point: the best without the candidate.
-        structure: with it.
-        more: values that it adds, one start after another.
-        kept: what the point adjusts to.
-        as_given: none is tried smaller: they have been chosen from some that were.
+        point: the estimate without the candidate.
+        structure: the model with it as its last effect.
+        starts: values of the parameters that each start adds or changes.
+        jacobian: joint Jacobian at ``point``.
+        as_given: whether to try no other sizes, because the starts result from a search.
     """
 
-    def begun(one: Mapping[str, float]) -> tuple[float, Estimate]:
+    def rate(one: Mapping[str, float]) -> RatedStart:
         other = problem.evaluate(
             structure, {**point.values, **one}, point.nuisance, point.process_noise
         )
-        if not point.structure.has_backlash:  # else its runs are told by now
-            other = estimate_backlash_phase(problem, other, aside=not as_given)
+        if not point.structure.has_backlash:  # else the phases are estimated already
+            other = estimate_backlash_phase(problem, other, ends_only=not as_given)
         if not math.isfinite(other.cost):
             return -math.inf, other
-        left = kept.compute_residual_square(problem.whiten(point, other.innovations))
+        remaining = jacobian.compute_residual_square(problem.whiten(point, other.innovations))
         phases = other.nuisance.backlash_phase_costs - point.nuisance.backlash_phase_costs
-        return square - left - float(np.sum(phases)), other
+        return square - remaining - float(np.sum(phases)), other
 
     now = problem.whiten(point, point.innovations)
-    square = kept.compute_residual_square(now)
+    square = jacobian.compute_residual_square(now)
     found = []
-    for one in more:
-        gained, other = begun(one)
-        if not math.isfinite(gained):
+    for one in starts:
+        improvement, other = rate(one)
+        if not math.isfinite(improvement):
             continue
         change = problem.whiten(point, other.innovations) - now
-        along, size = kept.compute_residual_products(change, now)
-        part = -along / size if size > 0.0 else 0.0
-        found.append((gained, other))
-        if as_given or not _is_other_size_worthwhile(structure, part):
+        product, change_square = jacobian.compute_residual_products(change, now)
+        share = -product / change_square if change_square > 0.0 else 0.0
+        found.append((improvement, other))
+        if as_given or not _may_have_size(structure, share):
             continue
-        if part**2 * size > gained + SURELY_MORE:
-            found.append(begun(_scale_start(structure, one, part)))
+        if share**2 * change_square > improvement + WORTHWHILE:
+            found.append(rate(_scale_start(structure, one, share)))
     if found and not as_given:
-        found += _halve_start(structure, tuple(more[0]), max(found, key=lambda one: one[0]), begun)
+        found += _halve_start(structure, tuple(starts[0]), max(found, key=lambda one: one[0]), rate)
     return [one for one in found if math.isfinite(one[0])]
 
 
 def _halve_start(
-    structure: ModelStructure, names: Sequence[str], best: Begun,
-    begun: Callable[[Mapping[str, float]], Begun],
-) -> Iterator[Begun]:  # fmt: skip
-    """Half of the best start, and half of that, as long as it promises more."""
+    structure: ModelStructure, names: Sequence[str], best: RatedStart,
+    rate: Callable[[Mapping[str, float]], RatedStart],
+) -> Iterator[RatedStart]:  # fmt: skip
+    """The best start halved, and halved again, while that improves the prediction."""
     for _ in range(START_HALVINGS):
-        half = begun(_scale_start(structure, {name: best[1].values[name] for name in names}, 0.5))
+        half = rate(_scale_start(structure, {name: best[1].values[name] for name in names}, 0.5))
         if not half[0] > best[0]:
             return
         yield half
         best = half
 
 
-def _is_other_size_worthwhile(structure: ModelStructure, part: float) -> bool:
-    """Whether a part of a start's size is worth a look: a smaller one, or one the other way."""
-    if part > 0.0:
-        return SMALL_PART < part < LARGE_PART
+def _may_have_size(structure: ModelStructure, share: float) -> bool:
+    """Whether to try this share of a start's size: a smaller one, or one of the opposite sign."""
+    if share > 0.0:
+        return LEAST_SHARE < share < MOST_SHARE
     sizes = _size_parameters(structure)
     signed = bool(sizes) and all(structure.parameters[name].least < 0.0 for name in sizes)
-    return signed and SMALL_PART < -part < LARGEST_PART
+    return signed and LEAST_SHARE < -share < MOST_OPPOSITE_SHARE
 
 
 def _size_parameters(structure: ModelStructure) -> list[str]:
-    """The parameters of the last effect that are nothing where it is not there."""
+    """The searched parameters of the last effect that are 0 without it."""
     own = f"{structure.effects[-1]}."
     return [
         name
@@ -173,12 +176,12 @@ def _size_parameters(structure: ModelStructure) -> list[str]:
 
 
 def _scale_start(
-    structure: ModelStructure, one: Mapping[str, float], part: float
+    structure: ModelStructure, one: Mapping[str, float], share: float
 ) -> dict[str, float]:
-    """A start at a part of its size."""
+    """A start at a share of its size."""
     sizes = _size_parameters(structure)
     return {
-        name: structure.clamp_value(name, value * part) if name in sizes else value
+        name: structure.clamp_value(name, value * share) if name in sizes else value
         for name, value in one.items()
     }
 

@@ -18,14 +18,14 @@ from sim.reconcile.thresholds import (
 )
 
 HARDLY, WIDENS = "hardly narrows the gap", "widens the gap"
-TINY = 1e-300  # no gap at all
+TINY = 1e-300  # avoids a division by a gap of zero
 
 
 def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCandidate]:
     """All candidates of a round with their cross-validated gaps, likeliest first.
 
     Returns:
-        None of them if there was no time to try all.
+        No candidate if the time limit passed before all were tried.
     """
     point = now.candidate.estimate
     found = []
@@ -72,8 +72,8 @@ def is_wider(gap: Gap, before: Gap) -> bool:
 def choose_likeliest(admitted: Sequence[WeighedCandidate]) -> WeighedCandidate:
     """The candidate with the smallest BIC.
 
-    An effect that begins at a moment has to beat the others by ``LEAST_SCORE_ONCE``, because it may
-    be an accident in a single run.
+    An effect with an onset has to beat the others by ``LEAST_SCORE_ONCE``, because it may be an
+    accident in a single run.
     """
     return max(
         admitted,
@@ -88,8 +88,8 @@ def list_rivals(
 ) -> list[WeighedCandidate]:
     """Effects that explain about as much as the chosen one.
 
-    An effect that contains the chosen one as its simpler form explains as much without being needed
-    itself: it is no rival, unless it explains more.
+    An effect that has the chosen one as its simpler form always explains as much, so it is a rival
+    only if it explains more.
     """
     chosen = best.candidate.effect
     return [
@@ -106,7 +106,7 @@ def list_rivals(
 
 
 def contains_effect(effect: str, other: str) -> bool:
-    """Whether an effect has another one as its simpler form, or as that of its simpler form."""
+    """Whether an effect has another one as its simpler form, directly or in several steps."""
     simpler = EFFECTS[effect].simpler
     while simpler and simpler != other:
         simpler = EFFECTS[simpler].simpler
@@ -116,8 +116,8 @@ def contains_effect(effect: str, other: str) -> bool:
 def list_blocked_candidates(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandidate]:
     """Candidates that are much likelier, but simulate other runs worse.
 
-    It is not what is missing, or not alone: something is. What happens once is left out, of which
-    other runs know nothing, and so is what any robot has a little of.
+    Something is missing then, but not this effect, or not it alone. Effects with an onset are left
+    out, because other runs cannot confirm them, and so are everyday effects.
     """
     return [
         one

@@ -1,9 +1,9 @@
-"""Scan all onset times of effects that happen once.
+"""Scan all onset times of effects with an onset.
 
-A small effect is simulated from each moment to the end of the run, in all runs at the same time. To
-first order, the innovations change in proportion to its size, so the likeliest size and the gain of
-the likelihood follow from sums. An acceleration computed from a noisy velocity says less: late in a
-step the acceleration is small, but the position still shows the difference.
+A small effect is simulated from each onset to the end of the run, in all runs at the same time. To
+first order, the innovations change in proportion to its size, so the likeliest size and the
+decrease of -2 log L follow from sums. An acceleration computed from a noisy velocity says less:
+late in a step the acceleration is small, but the position still shows the difference.
 """
 
 import math
@@ -25,20 +25,20 @@ from sim.reconcile.search_effort import HALVINGS
 from sim.reconcile.thresholds import CELLS
 
 RESPONSE = 50  # [samples] after a sudden loss of speed in which innovations show it
-SHOWN = 2  # moments of each kind that are worth a start
-PROBE = 0.1  # [1] of kA: so little that the innovations change in proportion to it
-LEAST, MOST = -0.5, 2.0  # [1] of kA that may leave, and that may join: a search goes on from there
-HARDLY = 1e-9  # [1] of its square below which gains and first samples can do all that it does
+STARTS_PER_KIND = 2  # likeliest onsets that become starts
+PROBE = 0.1  # [kA] simulated size: so small that the innovations change in proportion to it
+LEAST, MOST = -0.5, 2.0  # [kA] smallest and largest size of a start
+INDEPENDENT = 1e-9  # [1] least share of a change's square that no other parameter can cause
 
 
 @dataclass(frozen=True, eq=False)
 class _Sums:
-    """What a change does to innovations: sums over the rows of some runs.
+    """Scalar products of a change of the whitened innovations, summed over some runs.
 
     Args:
-        product: with what the point leaves unexplained.
+        product: with the residual of the estimate.
         square: with itself.
-        projection: (k,) with what values and starts can make of it.
+        projection: (k,) with the orthonormal basis of the joint Jacobian.
     """
 
     product: float
@@ -53,28 +53,29 @@ class _Sums:
         )
 
     def best_size(self, least: float, most: float) -> tuple[float, float]:
-        """[of -2 log L] that it explains at most between two sizes, and at which."""
-        own = self.square - float(self.projection @ self.projection)
-        if not own > HARDLY * self.square:
+        """Largest predicted decrease of -2 log L for sizes within two limits, and the size."""
+        square = self.square - float(self.projection @ self.projection)
+        if not square > INDEPENDENT * self.square:
             return 0.0, 0.0
-        size = min(max(-self.product / own, least), most)
-        return -size * (2.0 * self.product + size * own), size
+        size = min(max(-self.product / square, least), most)
+        return -size * (2.0 * self.product + size * square), size
 
 
 def scan_onsets(
-    problem: PredictionErrorProblem, point: Estimate, effect: Effect, *, kept: JointJacobian
+    problem: PredictionErrorProblem, point: Estimate, effect: Effect, *, jacobian: JointJacobian
 ) -> Iterator[dict[str, float]]:
-    """Parameter values at the onset times that explain most.
+    """Start values of an effect at the onset times with the largest predicted improvements.
 
     Args:
         problem: the measurements.
-        point: the best without it.
-        effect: that happens once.
-        kept: what the point adjusts to.
+        point: the estimate without the effect.
+        effect: the effect, which has an onset.
+        jacobian: joint Jacobian at ``point``.
     """
-    scan = _Scan(problem, point, effect, kept)
+    scan = _Scan(problem, point, effect, jacobian)
     for kind in list_fixed_choices(effect):
-        likeliest = sorted(scan.scan_coarsely(kind), key=lambda one: -one.improvement)[:SHOWN]
+        likeliest = sorted(scan.scan_coarsely(kind), key=lambda one: -one.improvement)
+        likeliest = likeliest[:STARTS_PER_KIND]
         for one in map(scan.refine, likeliest):
             yield {
                 f"{effect.name}.{name}": value for name, value in scan.parameter_values(one).items()
@@ -84,8 +85,8 @@ def scan_onsets(
 def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[Estimate]:
     """The estimate with a permanent effect made temporary, and the other way round.
 
-    No search moves from one to the other, and what was likelier before another effect was added may
-    not be likelier beside it.
+    No search moves from one to the other, and with further effects in the model the other one may
+    have become likelier.
     """
     for name in point.structure.effects:
         effect = EFFECTS[name]
@@ -96,8 +97,8 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
             record.clock + float(np.ptp(record.measurements.time)) + MOMENT
             for record in problem.records
         ]
-        over = min((end for end in ends if end > onset), default=LATER)
-        for kind, until in product(list_fixed_choices(effect), (over, LATER)):
+        run_end = min((end for end in ends if end > onset), default=LATER)
+        for kind, until in product(list_fixed_choices(effect), (run_end, LATER)):
             changed = {f"{name}.{one}": value for one, value in {**kind, UNTIL: until}.items()}
             values = {**point.values, **changed}
             if values != point.values:
@@ -107,7 +108,7 @@ def flip_duration(problem: PredictionErrorProblem, point: Estimate) -> Iterator[
 def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The estimate with the likeliest onset nearby.
 
-    No search moves a moment: across a sample what is likely jumps.
+    An optimizer does not move an onset, because the likelihood jumps at each sample.
     """
     for name in point.structure.effects:
         if not EFFECTS[name].has_onset:
@@ -117,7 +118,7 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
             around = (
                 structure.clamp_value(onset, point.values[onset] + by) for by in (-step, step)
             )
-            moved = ({**point.values, onset: moment} for moment in around)
+            moved = ({**point.values, onset: time} for time in around)
             tried = [
                 problem.evaluate(structure, one, point.nuisance, point.process_noise)
                 for one in moved
@@ -128,7 +129,7 @@ def refine_onset(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
 
 
 def list_fixed_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
-    """Values of the parameters that the search keeps fixed, apart from onset times."""
+    """All choices of the values that a search keeps fixed, other than onset and end."""
     ends = {
         one.name: (one.least, one.most)
         for one in effect.parameters
@@ -139,16 +140,16 @@ def list_fixed_choices(effect: Effect) -> Iterator[Mapping[str, float]]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Moment:
-    """One that was tried.
+class _Onset:
+    """An onset time that was tried.
 
     Args:
-        kind: values of what is neither searched nor a moment.
-        run: in which it is.
-        share: [1] of that run, before it.
-        here: what it does in that run.
-        later: what it does in all runs after it; None if it is over with its run.
-        ka: of the point.
+        kind: fixed values, one of ``list_fixed_choices``.
+        run: index of the run that contains the onset.
+        share: [1] onset as a share of that run's duration.
+        here: sums over that run.
+        later: sums over all later runs; None if the effect ends with its run.
+        ka: [V·s²/unit] inertia of the estimate.
     """
 
     kind: Mapping[str, float]
@@ -160,7 +161,7 @@ class _Moment:
 
     @cached_property
     def best(self) -> tuple[float, float]:
-        """[of -2 log L] that it explains, and its size; what leaves takes no momentum of others."""
+        """Predicted decrease of -2 log L, and size; only added inertia can share momentum."""
         sums = self.here + self.later if self.later else self.here
         least = 0.0 if any(self.kind.values()) else LEAST * self.ka
         return sums.best_size(least, MOST * self.ka)
@@ -172,46 +173,50 @@ class _Moment:
 
 class _Scan:
     def __init__(
-        self, problem: PredictionErrorProblem, point: Estimate, effect: Effect, kept: JointJacobian
+        self,
+        problem: PredictionErrorProblem,
+        point: Estimate,
+        effect: Effect,
+        jacobian: JointJacobian,
     ) -> None:
-        self.problem, self.point, self.effect, self.kept = problem, point, effect, kept.basis
+        self.problem, self.point, self.effect, self.basis = problem, point, effect, jacobian.basis
         most = min(one.most for one in effect.parameters if one.searched)
-        self.ka = min(point.values["kA"], most / MOST)  # which may be any number in the wild
-        self.lasts = [
+        self.ka = min(point.values["kA"], most / MOST)  # kA has no limit of its own
+        self.durations = [
             float(record.measurements.time[-1] - record.measurements.time[0])
             for record in problem.records
         ]
-        self._some: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
-        rest = problem.whiten(point, point.innovations)
-        self.rest = rest - kept.basis @ kept.project(rest)
+        self._isolated: dict[tuple[int, ...], tuple[PredictionErrorProblem, RunNuisance]] = {}
+        white = problem.whiten(point, point.innovations)
+        self.residual = white - jacobian.basis @ jacobian.project(white)
 
-    def scan_coarsely(self, kind: Mapping[str, float]) -> Iterator[_Moment]:
-        """Each run's likeliest moment, for the rest of the run and for good.
+    def scan_coarsely(self, kind: Mapping[str, float]) -> Iterator[_Onset]:
+        """Each run's likeliest onset of an effect that ends with the run, and of a permanent one.
 
-        What takes momentum is looked for where speed is lost, anything else all over the run.
+        Inertia that shares momentum is searched where speed is lost, other inertia in all the run.
         """
         every = range(len(self.problem.records))
-        takes_momentum = any(kind.values())
-        shares = [0.0] if takes_momentum else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
+        shares_momentum = any(kind.values())
+        shares = [0.0] if shares_momentum else [0.0, *((n + 0.5) / CELLS for n in range(CELLS))]
         table = [self._sums(kind, share, every) for share in shares]
-        later = _Sums(0.0, 0.0, np.zeros(self.kept.shape[1]))
+        later = _Sums(0.0, 0.0, np.zeros(self.basis.shape[1]))
         for run in reversed(every):
             sums = [(share, row[run]) for share, row in zip(shares, table, strict=True)]
-            if takes_momentum:
+            if shares_momentum:
                 sums += [
                     (one, self._sums(kind, one, (run,))[0]) for one in self._velocity_losses(run)
                 ]
-            for more in (None, later) if run < every[-1] else (None,):
+            for after in (None, later) if run < every[-1] else (None,):
                 tried = (
-                    _Moment(kind, run, share, here, more, self.ka)
+                    _Onset(kind, run, share, here, after, self.ka)
                     for share, here in sums
-                    if share or run or more is None  # else it was never otherwise
+                    if share or run or after is None  # else it acts on all samples, as kA does
                 )
                 yield max(tried, key=lambda one: one.improvement)
             later += table[0][run]
 
-    def refine(self, one: _Moment) -> _Moment:
-        """The same, at the likeliest moment around."""
+    def refine(self, one: _Onset) -> _Onset:
+        """The likeliest onset nearby."""
         step = 1.0 / CELLS
         for _ in range(HALVINGS if one.share else 0):
             step *= 0.5
@@ -224,90 +229,91 @@ class _Scan:
             one = max((one, *tried), key=lambda one: one.improvement)
         return one
 
-    def parameter_values(self, one: _Moment) -> dict[str, float]:
-        """Of all parameters, if it happens then."""
-        began = self.problem.records[one.run].clock
+    def parameter_values(self, one: _Onset) -> dict[str, float]:
+        """Values of all parameters of the effect with this onset."""
+        start = self.problem.records[one.run].clock
         return {
-            **self._fit_size(one.best[1]),
+            **self._size_parameters(one.best[1]),
             **one.kind,
-            ONSET: began + one.share * self.lasts[one.run],
-            UNTIL: LATER if one.later else began + self.lasts[one.run] + MOMENT,
+            ONSET: start + one.share * self.durations[one.run],
+            UNTIL: LATER if one.later else start + self.durations[one.run] + MOMENT,
         }
 
     def _velocity_losses(self, run: int) -> list[float]:
-        """[1] of a run, about its sharpest loss of speed, which is over too soon for any grid.
+        """Shares of a run's duration around its sharpest loss of speed, which a grid would miss.
 
-        The innovations after it are correlated with the response to such a loss (a matched filter).
+        The innovations are correlated with the response to a loss of speed (a matched filter).
         """
-        rest = self.rest[slice(*self._edges[run : run + 2])].reshape(-1, 2)
+        residual = self.residual[slice(*self._edges[run : run + 2])].reshape(-1, 2)
         speed = self.problem.measured[slice(*self.problem.run_edges[run : run + 2]), 1]
-        response = self._velocity_response[: len(rest)]
+        response = self._velocity_response[: len(residual)]
         size = np.cumsum(np.sum(np.square(response), axis=1))
         last = len(response) - 1
-        seen = sum(np.correlate(rest[:, n], response[:, n], "full")[last:] for n in (0, 1))
-        left = np.minimum(np.arange(len(rest), 0, -1), len(response))
-        lost = -np.asarray(seen) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[left - 1])
+        products = sum(np.correlate(residual[:, n], response[:, n], "full")[last:] for n in (0, 1))
+        count = np.minimum(np.arange(len(residual), 0, -1), len(response))
+        lost = -np.asarray(products) * np.sign(np.nan_to_num(speed)) / np.sqrt(size[count - 1])
         time = self.problem.records[run].measurements.time
         within = 0.5 * (time[:-1] + time[1:]) - time[0]
         place = int(np.argmax(lost[1:]))
-        near = within[max(place - 1, 0) : place + 2] / self.lasts[run]
+        near = within[max(place - 1, 0) : place + 2] / self.durations[run]
         return [float(one) for one in near]
 
     @cached_property
     def _velocity_response(self) -> Array:
-        """(samples, 2) white innovations after a velocity that is one more than expected."""
+        """(RESPONSE, 2) whitened innovations after a velocity error of 1 unit/s."""
         rate, dt = self.point.values["kV"] / self.ka, self.problem.period
-        kept = math.exp(-rate * dt)
-        step = np.array([[1.0, (1.0 - kept) / rate], [0.0, kept]]) @ (
+        decay = math.exp(-rate * dt)
+        step = np.array([[1.0, (1.0 - decay) / rate], [0.0, decay]]) @ (
             np.eye(2) - self.point.kalman_filter.steady
         )
-        off, errors = np.array([0.0, 1.0]), []
+        error, errors = np.array([0.0, 1.0]), []
         for _ in range(RESPONSE):
-            errors.append(off)
-            off = step @ off
+            errors.append(error)
+            error = step @ error
         return self.problem.whiten(self.point, np.array(errors)).reshape(-1, 2)
 
-    def _fit_size(self, size: float) -> dict[str, float]:
+    def _size_parameters(self, size: float) -> dict[str, float]:
         return {one.name: size for one in self.effect.parameters if one.searched}
 
     def _sums(self, kind: Mapping[str, float], share: float, runs: Sequence[int]) -> list[_Sums]:
-        """What it changes from that share of each of these runs on, to its end."""
-        some, nuisance = self._isolate_runs(tuple(runs))
-        moment = max(self.lasts)  # on the clocks of all runs at once
-        clocks = moment - share * np.array([self.lasts[run] for run in runs])
+        """For each run, the sums of the effect from that share of the run to its end."""
+        isolated, nuisance = self._isolate_runs(tuple(runs))
+        onset = max(self.durations)  # the same in all runs, whose clocks are shifted to it
+        clocks = onset - share * np.array([self.durations[run] for run in runs])
         size = PROBE * self.ka
-        given = {**self._fit_size(size), **kind, ONSET: moment, UNTIL: LATER}
+        given = {**self._size_parameters(size), **kind, ONSET: onset, UNTIL: LATER}
         model = self.point.structure.model(self.point.values)
-        with np.errstate(over="ignore", invalid="ignore"):  # what flies off explains nothing
+        with np.errstate(over="ignore", invalid="ignore"):  # a diverged simulation explains nothing
             model += Part(self.effect.name, given)
-            ahead = some.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
+            found = isolated.predict_errors(model, nuisance, self.point.kalman_filter, clocks)
             return [
-                self._sum_rows(run, (ahead[slice(*rows)] - self._run_innovations[run]) / size)
-                for run, rows in zip(runs, pairwise(some.run_edges.tolist()), strict=True)
+                self._sum_rows(run, (found[slice(*rows)] - self._run_innovations[run]) / size)
+                for run, rows in zip(runs, pairwise(isolated.run_edges.tolist()), strict=True)
             ]
 
     def _sum_rows(self, run: int, change: Array) -> _Sums:
-        one, rows = self.problem.whiten(self.point, change), slice(*self._edges[run : run + 2])
-        return _Sums(float(one @ self.rest[rows]), float(one @ one), self.kept[rows].T @ one)
+        white, rows = self.problem.whiten(self.point, change), slice(*self._edges[run : run + 2])
+        product = float(white @ self.residual[rows])
+        return _Sums(product, float(white @ white), self.basis[rows].T @ white)
 
     def _isolate_runs(self, runs: tuple[int, ...]) -> tuple[PredictionErrorProblem, RunNuisance]:
-        """These runs, none finding warm what another heated, and how they begin."""
-        if runs not in self._some:
+        """The problem of these runs, none of which heats the motor for another; their nuisance."""
+        if runs not in self._isolated:
             records = (replace(self.problem.records[run], memory_group=run) for run in runs)
-            some = replace(self.problem, records=tuple(records))
-            self._some[runs] = some, self.point.nuisance.select_runs(runs)
-        return self._some[runs]
+            isolated = replace(self.problem, records=tuple(records))
+            self._isolated[runs] = isolated, self.point.nuisance.select_runs(runs)
+        return self._isolated[runs]
 
     @property
     def _edges(self) -> list[int]:
-        """(runs + 1,) where each run begins among white innovations."""
+        """(runs + 1,) index of each run's first value in whitened innovations."""
         edges: list[int] = (2 * self.problem.run_edges).tolist()
         return edges
 
     @cached_property
     def _run_innovations(self) -> list[Array]:
-        """A run -> (n, 2) innovations without it."""
+        """Per run, (n, 2) innovations without the effect."""
         alone, nuisance = self._isolate_runs(tuple(range(len(self.problem.records))))
         model = self.point.structure.model(self.point.values)
-        ahead = alone.predict_errors(model, nuisance, self.point.kalman_filter)
-        return [ahead[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]
+        found = alone.predict_errors(model, nuisance, self.point.kalman_filter)
+        return [found[slice(*rows)] for rows in pairwise(self.problem.run_edges.tolist())]

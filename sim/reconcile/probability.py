@@ -23,18 +23,17 @@ class Evidence:
     """The measurements of one effect from which its probability is computed.
 
     Args:
-        likelihood: ln of the -2 log L that the last model loses without it, at least 0.
-        gap: ln of the validation's gap with it over that without it, geometric mean of velocity's
-            and position's.
-        size: ln of its size over the largest that is everyday, clipped to ``LARGEST_SIZE``.
-        rival: score of the best other effect that lasts, over its own, in its round, 0 to 1. What
-            is the same wherever the mechanism moves is no other effect.
+        likelihood: ln of the increase of the last model's BIC without it, at least 0.
+        gap: ln of the cross-validated gap with it over that without it, mean of velocity and
+            position.
+        size: ln of its size over the largest everyday size, see ``compute_log_size``.
+        rival: score of the best other effect over its own, see ``compute_rival_share``.
         later: 1 if another effect that may be a finding was added before it, else 0. It may then
-            explain what that one leaves because its form is only about right.
+            only correct that effect's form.
         structure: largest result of the residual tests of the last model over its threshold,
             clipped to ``STRUCTURE``.
-        once: 1 if it begins at a moment, else 0.
-        damaged: 1 if it begins at a moment and the log is damaged, else 0.
+        once: 1 if it has an onset, else 0.
+        damaged: 1 if it has an onset and the log is damaged, else 0.
     """
 
     likelihood: float
@@ -62,8 +61,8 @@ class JudgedEffect:
     Args:
         effect: its name.
         ambiguous_with: other effects that would explain as much.
-        evidence: its measurements.
-        probability: that it, or one of the others, is in the mechanism and not in the base model.
+        evidence: features from which the probability is computed.
+        probability: [1] that it, or one of the others, is missing in the base model.
     """
 
     effect: str
@@ -82,7 +81,7 @@ def compute_probability(evidence: Evidence) -> float:
 
 
 def compute_log_ratio(with_: float, without: float) -> float:
-    """Logarithm of a ratio of gaps, clipped; 0 where one of them is not finite."""
+    """Ln of a ratio of gaps, clipped to ±``FARTHEST``; 0 without two finite gaps and a divisor."""
     if not (math.isfinite(with_) and math.isfinite(without) and without > 0.0):
         return 0.0
     ratio = math.log(with_ / without) if with_ > 0.0 else -FARTHEST
@@ -90,14 +89,13 @@ def compute_log_ratio(with_: float, without: float) -> float:
 
 
 def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
-    """Logarithm of an effect's size over the largest ordinary size.
+    """Ln of an effect's size over the largest ordinary size, -``FARTHEST`` to ``LARGEST_SIZE``.
 
-    It is clipped to -``FARTHEST`` and ``LARGEST_SIZE``, which is also that of an effect without an
-    ordinary size.
+    It is ``LARGEST_SIZE`` for an effect without an ordinary size.
 
     Args:
-        effect: its name.
-        values: of a model, its gains and ``effect.parameter`` -> value.
+        effect: name of the effect.
+        values: the model's gains, and ``effect.parameter`` -> value.
     """
     known = EFFECTS[effect]
 
@@ -124,10 +122,13 @@ def compute_log_size(effect: str, values: Mapping[str, float]) -> float:
 def compute_rival_share(effect: str, score: float, tried: Mapping[str, float]) -> float:
     """[1] Score of the best other effect divided by this effect's, clamped to 0..1.
 
+    Effects that have the same effect on the motion do not count as others, nor do effects with an
+    onset if this one has none.
+
     Args:
-        effect: that was added.
-        score: its decrease of -2 log L when it was added and its search had ended.
-        tried: candidate of its round -> the same decrease, before the end of each search.
+        effect: name of the effect that was added.
+        score: decrease of the BIC by it at its local minimum.
+        tried: candidate of its round -> the same decrease, after a shortened search.
     """
     own = max(tried.get(effect, score), score)
     others = [

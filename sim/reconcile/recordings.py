@@ -1,4 +1,4 @@
-"""The logs that a comparison is given, and what they say before anything is fitted."""
+"""The logs that are reconciled with a model, and what follows from them before any fit."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -31,7 +31,7 @@ class Recordings:
         validation: runs by which effects are chosen, if given.
         held_out: runs on which the gap is shown, if given.
         type: the base model: ``simple``, ``elevator`` or ``arm``.
-        damage: the excluded intervals of each log, by the names above.
+        damage: excluded intervals of each of these logs, by its name.
     """
 
     log: Log
@@ -62,7 +62,7 @@ class Recordings:
         return self.log if self.validation is None else join_records(self.log, self.validation)
 
     def make_problem(self) -> PredictionErrorProblem:
-        """The problem of all runs that may be fitted, without what is damaged."""
+        """The problem of all runs that may be fitted, without damaged intervals."""
         fitted = [name for name in self.logs_by_name if name != "held_out"]
         return _make_problem(
             [one for n, name in enumerate(fitted) for one in self._records(name, session=n)]
@@ -90,7 +90,7 @@ class Recordings:
         ]
 
     def _records(self, name: str, *, session: int = 0) -> tuple[RunRecord, ...]:
-        """The runs of one log; its clock goes on where the log before it ended."""
+        """The runs of one log, whose clock continues where the log before it ended."""
         return make_run_records(
             self.logs_by_name[name],
             session=session,
@@ -100,7 +100,7 @@ class Recordings:
 
 
 def _make_problem(records: Sequence[RunRecord]) -> PredictionErrorProblem:
-    """The estimation problem of some runs, with a least velocity noise and most process noise.
+    """The estimation problem of some runs, with limits of velocity noise and process noise.
 
     A velocity that a device averages is so smooth that hardly any noise is measured in it. With so
     little noise, random acceleration would explain the motion better than the voltage does.

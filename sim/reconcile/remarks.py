@@ -33,56 +33,58 @@ UNLIKELY = (
 
 def list_remarks(
     problem: PredictionErrorProblem,
-    done: Sequence[SelectionRound],
+    rounds: Sequence[SelectionRound],
     findings: Sequence[Finding],
     judged: Sequence[JudgedEffect],
     residuals: ResidualSummary,
 ) -> tuple[str, ...]:
     """Remarks: effects that were not reported, and what the data do not determine."""
-    last = done[-1].candidate.estimate
+    last = rounds[-1].candidate.estimate
     structure = last.structure
     named = {one.effect for one in findings}
-    unsure = [name for name in structure.effects if is_contradicted(name, problem, last, residuals)]
-    rest = [name for name in structure.effects if name not in {*named, *unsure}]
-    last_shown = select_reported_rounds(done, findings)[-1]
+    contradicted = [
+        name for name in structure.effects if is_contradicted(name, problem, last, residuals)
+    ]
+    rest = [name for name in structure.effects if name not in {*named, *contradicted}]
+    last_shown = select_reported_rounds(rounds, findings)[-1]
     kept = last_shown.candidate.estimate.structure.effects
-    said = []
+    remarks = []
     if inside := [name for name in rest if name in kept]:
         what = " and ".join(inside)
         why = "no more than on other robots, or too little to narrow the gap"
-        said.append(f"In the last model there is also a little {what}: {why}.")
+        remarks.append(f"In the last model there is also a little {what}: {why}.")
     unlikely = _list_unlikely(judged)
     doubted = [name for name in rest if name not in kept and name in unlikely]
-    said += [UNLIKELY.format(name, _describe_small_share(unlikely[name])) for name in doubted]
+    remarks += [UNLIKELY.format(name, _describe_small_share(unlikely[name])) for name in doubted]
     if outside := [name for name in rest if name not in {*kept, *doubted}]:
         what = " and ".join(outside)
-        said.append(
+        remarks.append(
             f"A little {what} would fit the log better, but the gap does not shrink with it, so "
             "the model leaves it out."
         )
-    said += [CONTRADICTED.format(name) for name in unsure]
+    remarks += [CONTRADICTED.format(name) for name in contradicted]
     if structure.has_backlash and not _reverses_within_run(problem):
-        said.append(NO_REVERSAL)
-    return tuple(said)
+        remarks.append(NO_REVERSAL)
+    return tuple(remarks)
 
 
 def select_reported_rounds(
-    done: Sequence[SelectionRound], findings: Sequence[Finding]
+    rounds: Sequence[SelectionRound], findings: Sequence[Finding]
 ) -> Sequence[SelectionRound]:
     """The rounds to show: up to the last whose effect is named or, if everyday, narrows the gap.
 
     An effect of another size that is not named is not shown as if it explained the log.
     """
     named = {one.effect for one in findings}
-    values = done[-1].candidate.estimate.values
+    values = rounds[-1].candidate.estimate.values
     last = max(
         n
-        for n, one in enumerate(done)
+        for n, one in enumerate(rounds)
         if n == 0
         or one.candidate.effect in named
-        or (is_ordinary_size(one.candidate.effect, values) and is_narrower_with(one, done[-1]))
+        or (is_ordinary_size(one.candidate.effect, values) and is_narrower_with(one, rounds[-1]))
     )
-    return done[: last + 1]
+    return rounds[: last + 1]
 
 
 def _describe_small_share(share: float) -> str:
@@ -97,9 +99,9 @@ def _list_unlikely(judged: Sequence[JudgedEffect]) -> dict[str, float]:
 
 
 def _reverses_within_run(problem: PredictionErrorProblem) -> bool:
-    """Whether it moved both ways within a run."""
-    ways = [
+    """Whether the mechanism moves in both directions within a run."""
+    signs = [
         np.sign(problem.measured[first:last, 1][problem.moving[first:last]])
         for first, last in pairwise(problem.run_edges.tolist())
     ]
-    return any((one > 0.0).any() and (one < 0.0).any() for one in ways)
+    return any((one > 0.0).any() and (one < 0.0).any() for one in signs)

@@ -1,4 +1,4 @@
-"""The data of every selection step: the measurements, and which runs predict which."""
+"""The data of every selection step: measurements and cross-validation folds."""
 
 import math
 import time
@@ -17,8 +17,8 @@ class SelectionData:
 
     Args:
         log: all runs that may be fitted.
-        problem: the measurements of these.
-        folds: which runs predict which.
+        problem: their measurements.
+        folds: the cross-validation folds.
         progress: called with a step's description and the share done [1].
         deadline: [s] of ``time.process_time`` after which the best model so far is taken.
     """

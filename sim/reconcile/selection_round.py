@@ -12,9 +12,9 @@ class WeighedCandidate:
     """A candidate with its cross-validated gap.
 
     Args:
-        candidate: the model with it.
-        gap: outside of what was fitted.
-        report: the same, as it is told.
+        candidate: the model with the effect.
+        gap: cross-validated gap of the model.
+        report: the line about it in the story.
     """
 
     candidate: Candidate
@@ -27,13 +27,13 @@ class SelectionRound:
     """A model, and the candidates tried on top of it.
 
     Args:
-        candidate: the model, and the effect that was added to it; empty for the base.
-        gap: of the model, on runs to which it was not fitted.
-        without: the model without that effect: first that of the round before; after the search,
-            the last model, refitted without it. The base itself, for the base.
+        candidate: the model, and the name of the effect that was added last; empty for the base.
+        gap: cross-validated gap of the model.
+        without: the model without that effect: the one of the round before; after backward
+            elimination, the last model refitted without it. For the base, the base.
         gap_without: the gap of ``without``.
         rivals: effects that would have explained as much.
-        seeds: parameters of the candidates that were likelier than nothing, of all rounds so far.
+        seeds: parameter values of the promising candidates of all rounds so far.
         candidates: the candidates of the next round, with their models.
     """
 
@@ -52,5 +52,5 @@ class SelectionRound:
 
     @property
     def tried(self) -> tuple[TriedCandidate, ...]:
-        """The candidates of the next round, as they are told."""
+        """The lines about the candidates of the next round in the story."""
         return tuple(one.report for one in self.candidates)

@@ -19,13 +19,13 @@ AMBIGUOUS, UNEXPLAINED = "ambiguous", "unexplained"
 
 @dataclass(frozen=True)
 class ParameterEstimate:
-    """A parameter, as found, in the owner's unit.
+    """An estimated parameter, in the log's unit.
 
     Args:
-        value: of it.
-        error: one standard error, infinite if the log does not determine the parameter; None where
-            a start chose it and nothing was searched.
-        unit: of both.
+        value: the estimate.
+        error: one standard error, infinite if the log does not determine the parameter; None if it
+            is a start value that no search changes.
+        unit: symbol of the unit of both.
     """
 
     value: float
@@ -35,21 +35,21 @@ class ParameterEstimate:
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that was missing in the model, or wrong with the record.
+    """An effect that is missing in the base model, or a fault of the record.
 
     Args:
-        effect: its name, of an effect or a fault.
+        effect: name of the effect or fault.
         kind: ``effect`` or ``fault``.
         size: ``major`` or ``minor``.
         ambiguous_with: other effects that would explain as much.
         parameters: name -> estimate.
-        gap_before: [owner's unit/s] RMS velocity error of the simulation without it.
+        gap_before: [log's unit/s] RMS velocity error of the simulation without it.
         gap_after: the same with it.
-        sentence: what it is and does, for a person.
-        inspect: what to look at on the robot.
-        separating_test: which test tells it from what it is ambiguous with; empty if it is not.
+        sentence: what it is and does, in plain words.
+        inspect: what to inspect on the robot.
+        separating_test: the tests that separate it from ``ambiguous_with``; empty if none is known.
         probability: [1] that the effect, or one that it is ambiguous with, is missing in the base
-            model; 1 for a fault, which an inspection found.
+            model; 1 for a fault.
     """
 
     effect: str
@@ -71,11 +71,10 @@ class TriedCandidate:
 
     Args:
         effect: its name.
-        improvement: [of -2 log L] by which it would make the BIC smaller; negative: larger.
-        gap_ratio: [1] gap of the validation over the one before, below 1 if it shrinks; nan if it
-            was not computed.
-        admitted: whether it passed every gate.
-        why: the gate that it did not pass; empty if it passed all.
+        improvement: [of -2 log L] decrease of the BIC by it.
+        gap_ratio: [1] cross-validated velocity gap over the one before; nan if not computed.
+        admitted: whether it may be added.
+        why: why it may not; empty if it may.
     """
 
     effect: str
@@ -90,11 +89,11 @@ class Chapter:
     """One round: a model, what was tried on top of it, and how its simulation follows the log.
 
     Args:
-        added: the effect that made this model of the one before; empty for the base.
-        model: with it.
+        added: name of the effect that was added in this round; empty for the base.
+        model: the model with it.
         tried: the candidates of the next round, the likeliest first.
-        gap: [owner's unit/s] RMS velocity error on the shown log.
-        tracks: a run of the shown log -> (n, 2) simulated position and velocity, SI.
+        gap: [log's unit/s] RMS velocity error on the shown log.
+        tracks: per run of the shown log, (n, 2) simulated position and velocity [SI].
     """
 
     added: str
@@ -110,20 +109,20 @@ class Story:
 
     Args:
         verdict: ``nothing-missing``, ``explained``, ``ambiguous`` or ``unexplained``.
-        findings: what was missing or wrong, the most telling first.
-        remainder: something is left that no effect of the catalogue explains.
+        findings: sure faults, major effects, unsure faults, minor effects.
+        remainder: whether something may remain that the last model does not explain.
         remains: a sentence about it; empty if nothing remains.
-        noise_floor: [owner's unit/s] RMS noise of the shown velocity, at least ``LEAST_FLOOR`` of
-            the top speed. Gaps are told in multiples of it.
-        gap_before: [owner's unit/s] RMS velocity error of the base model on the shown log.
+        noise_floor: [log's unit/s] RMS noise of the shown velocity, at least ``LEAST_FLOOR`` of
+            the top speed. Texts give gaps as multiples of it.
+        gap_before: [log's unit/s] RMS velocity error of the base model on the shown log.
         gap_after: the same of the last model.
         where: where the base model disagrees most.
         chapters: the base first, then a model for each effect added.
-        shown: the log that was held out; or what stood in for it.
+        shown: the log that gaps are shown on: held out, else validation, else the fitted log.
         how: how the logs were used, in a sentence.
-        notes: other things a person should know.
-        compared: a run of ``shown`` -> (n,) which of its samples count; empty: all of them.
-        judged: effects of the last model that might have been findings, and how likely each is.
+        notes: further remarks.
+        compared: per run of ``shown``, (n,) which samples count; empty: all of them.
+        judged: effects of the last model that may be findings, and how likely each is.
     """
 
     verdict: str
@@ -147,10 +146,10 @@ class Story:
         return self.chapters[-1].model
 
     def to_json(self) -> dict[str, Any]:
-        """As ``sysid reconcile --json`` prints it."""
+        """The result as ``sysid reconcile --json`` prints it."""
         return {
             "verdict": self.verdict,
-            "findings": [_finding(one) for one in self.findings],
+            "findings": [_finding_to_json(one) for one in self.findings],
             "remainder": self.remainder,
             "noise_floor": self.noise_floor,
             "gap_before": _finite(self.gap_before),
@@ -175,7 +174,7 @@ def _finite(number: float | None) -> float | None:
     return number if number is not None and math.isfinite(number) else None
 
 
-def _finding(one: Finding) -> dict[str, Any]:
+def _finding_to_json(one: Finding) -> dict[str, Any]:
     return {
         "effect": one.effect,
         "kind": one.kind,

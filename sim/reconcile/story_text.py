@@ -15,7 +15,7 @@ from sim.reconcile.story import (
 )
 from sim.reconcile.thresholds import NARROWER, PROBABLE, VISIBLE_FLOORS
 
-HARDLY = 1e-4  # [of a value] a smaller error is told as that, as ``sysid fit`` does
+LEAST_ERROR = 1e-4  # [1] relative standard error below which only this limit is written
 FAULT, MAJOR, MINOR = "fault", "major", "minor"
 
 
@@ -23,19 +23,18 @@ def write_headline(story: Story) -> str:
     """The verdict in a few plain sentences: what is missing, and how much that explains."""
     faults = [one.effect for one in story.findings if one.kind == FAULT]
     majors = [one for one in story.findings if one.kind != FAULT and one.size == MAJOR]
-    damaged = f"The log is {'also ' if majors else ''}damaged: {_listed(faults)}."
+    damaged = f"The log is {'also ' if majors else ''}damaged: {_join(faults)}."
     if story.verdict == UNEXPLAINED:
-        known = (
-            f"{_listed([one.effect for one in majors])}, and something" if majors else "something"
-        )
-        said = [f"The model is missing {known} that no known effect explains.", _gap(story)]
+        known = f"{_join([one.effect for one in majors])}, and " if majors else ""
+        gaps = _gaps(story)
+        said = [f"The model is missing {known}something that no known effect explains.", gaps]
     elif majors:
-        missing = _listed([_either(one) for one in majors])
+        missing = _join([_name_with_rivals(one) for one in majors])
         doubt = "; these logs cannot tell which" if story.verdict == AMBIGUOUS else ""
         guess = "" if all(one.probability >= PROBABLE for one in majors) else "probably "
-        said = [f"The model is {guess}missing {missing}{doubt}.", _gap(story)]
+        said = [f"The model is {guess}missing {missing}{doubt}.", _gaps(story)]
     elif story.verdict == NOTHING_MISSING or not faults:
-        return _nothing(story)
+        return _nothing_missing(story)
     else:
         rest = "something is missing that no known effect explains"
         rest = rest if story.remainder else "nothing big is missing"
@@ -51,7 +50,7 @@ def list_effect_names(story: Story, size: str) -> list[str]:
     """The names of the effects of one size that were found.
 
     Args:
-        story: what was found.
+        story: the result of reconcile.
         size: ``major`` or ``minor``.
     """
     return [one.effect for one in story.findings if one.kind != FAULT and one.size == size]
@@ -70,7 +69,7 @@ def format_gap(gap: float, story: Story) -> str:
 
 
 def describe_effect(effect: str) -> str:
-    """An effect or a fault in a few plain words; empty where none are known."""
+    """An effect in a few plain words; empty for a fault."""
     return EFFECTS[effect].summary if effect in EFFECTS else ""
 
 
@@ -93,8 +92,8 @@ def format_estimate(one: ParameterEstimate) -> tuple[str, str]:
     if one.error is None or not (math.isfinite(one.error) and one.error > 0.0):
         chosen = one.error is None
         return _minus(f"{one.value:.4g}"), "chosen, not searched" if chosen else "not known"
-    if one.error < HARDLY * abs(one.value):
-        return _minus(f"{one.value:#.5g}".rstrip(".")), f"< {HARDLY:.2%} of it"
+    if one.error < LEAST_ERROR * abs(one.value):
+        return _minus(f"{one.value:#.5g}".rstrip(".")), f"< {LEAST_ERROR:.2%} of it"
     size = max(abs(one.value), one.error)
     digits = 1 + math.floor(math.log10(size)) - math.floor(math.log10(one.error))
     return _minus(f"{one.value:#.{max(digits + 1, 2)}g}".rstrip(".")), f"{one.error:.2g}"
@@ -126,22 +125,22 @@ def list_next_tests(story: Story) -> tuple[str, ...]:
 
 
 def list_remarks(story: Story) -> tuple[str, ...]:
-    """Whatever else a person should know: what remains, a gap that does not shrink, notes."""
-    said = [story.remains] if story.remains else []
+    """Remarks: what remains, a gap that does not shrink, and the notes."""
+    remarks = [story.remains] if story.remains else []
     if list_effect_names(story, MAJOR) and not is_gap_narrower(story.gap_before, story.gap_after):
-        said.append(
+        remarks.append(
             "The finding does not make the gap smaller. Do not trust the finding before another "
             "log confirms it."
         )
-    return (*said, *story.notes)
+    return (*remarks, *story.notes)
 
 
-def _nothing(story: Story) -> str:
+def _nothing_missing(story: Story) -> str:
     minor = list_effect_names(story, MINOR)
-    little = f", only a little {_listed(minor)}" if minor else ""
+    little = f", only a little {_join(minor)}" if minor else ""
     last = story.gap_after / story.noise_floor if story.noise_floor > 0.0 else math.inf
     if last > VISIBLE_FLOORS:
-        small = f" (a little: {_listed(minor)})" if minor else ""
+        small = f" (a little: {_join(minor)})" if minor else ""
         return f"No known effect makes the simulation error much smaller{small}. {_error(story)}"
     big = " big" if minor or story.remainder else ""
     rest = " Something small remains that no known effect explains." if story.remainder else ""
@@ -153,7 +152,7 @@ def _error(story: Story) -> str:
     return f"The simulation error is {gap} times the sensor noise{_in_speed(story)}."
 
 
-def _gap(story: Story) -> str:
+def _gaps(story: Story) -> str:
     before, after = (format_gap(gap, story) for gap in (story.gap_before, story.gap_after))
     added = [*list_effect_names(story, MAJOR), *list_effect_names(story, MINOR)]
     if len(story.chapters) == 1 or not added:
@@ -168,7 +167,7 @@ def _gap(story: Story) -> str:
 
 
 def _in_speed(story: Story) -> str:
-    """The last gap as a speed and a share of the top speed, in brackets; empty if it is neither."""
+    """The last gap in brackets, as a speed and a share of the top speed; empty if not known."""
     top = story.shown.top_speed
     if not (math.isfinite(story.gap_after) and top > 0.0):
         return ""
@@ -177,14 +176,14 @@ def _in_speed(story: Story) -> str:
     return f" ({story.gap_after:.2g} {unit.symbol}/s, {share:.1%} of the top speed)"
 
 
-def _either(one: Finding) -> str:
-    """A finding with its look-alikes, and what the first is."""
+def _name_with_rivals(one: Finding) -> str:
+    """A finding, what it is, and its rivals: ``a (…), b or c``."""
     short = describe_effect(one.effect).partition(" (")[0]
-    told = f"{one.effect} ({short})" if short else one.effect
-    return _listed([told, *one.ambiguous_with], word="or")
+    name = f"{one.effect} ({short})" if short else one.effect
+    return _join([name, *one.ambiguous_with], word="or")
 
 
-def _listed(names: Sequence[str], *, word: str = "and") -> str:
+def _join(names: Sequence[str], *, word: str = "and") -> str:
     *first, last = names or ("nothing",)
     return f"{', '.join(first)} {word} {last}" if first else last
 

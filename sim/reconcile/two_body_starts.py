@@ -1,9 +1,9 @@
 """Start values for backlash and compliance, from step tests.
 
-Free play and a soft joint show for a moment after each change of voltage, and a slow ramp says
-little of them. −2 log L has many local minima: a light motor, a heavy one, an oscillation
-whose period is near that of the samples. So many starts are simulated on the step tests, the best
-are optimized there, which takes little time, and the minima that these find are tried on all runs.
+Free play and a soft joint show for a moment after each change of voltage, and hardly in a slow
+ramp. −2 log L has many local minima: a light motor, a heavy one, an oscillation whose period is
+near that of the samples. So many starts are simulated on the step tests and the best are optimized
+there, which takes little time; the local minima that result become starts for all runs.
 """
 
 from collections.abc import Iterable, Sequence
@@ -13,16 +13,16 @@ from sim.estimation.likelihood import Estimate, PredictionErrorProblem
 from sim.estimation.model_structure import ModelStructure
 from sim.estimation.optimize import levenberg_marquardt, make_joint_jacobian
 from sim.physics.effects import EFFECTS
-from sim.reconcile.local_minimum import Begun, rate_starts
+from sim.reconcile.local_minimum import RatedStart, rate_starts
 from sim.reconcile.thresholds import LEAST_SCORE
 
-SLOW = "quasistatic"  # tests that say little of them
+SLOW = "quasistatic"  # tests that hardly show them
 MOST = 4  # starts of each kind that are optimized by one step on the step tests
 FURTHER = (4, 4)  # of them, how many are optimized by a second step, and by a third
 MINIMA = 2  # local minima that are tried on all runs
 SAME = 0.2  # [1] by which the parameters of two minima differ at least
 NEAR = 0.5  # [1] of the best gain that another minimum reaches, to be tried on all runs, too
-HEAVIER = 2.5  # [1] times the kA of one body, which goes by how its lighter motor begins to move
+HEAVIER = 2.5  # [1] of a single body's kA, which mostly follows the motor that moves first
 
 
 class TwoBodyStarts:
@@ -30,7 +30,7 @@ class TwoBodyStarts:
 
     Args:
         problem: the measurements of all runs.
-        point: the best without a joint.
+        point: the estimate without a joint.
     """
 
     def __init__(self, problem: PredictionErrorProblem, point: Estimate) -> None:
@@ -42,30 +42,29 @@ class TwoBodyStarts:
         self.point = self.problem.evaluate(
             point.structure, point.values, point.nuisance.select_runs(chosen), point.process_noise
         )
-        if isfinite(self.point.cost):  # else all of them were set aside, or fly off
+        if isfinite(self.point.cost):  # else all samples are excluded, or it diverges
             self.available = True
-            self.kept = make_joint_jacobian(self.problem, self.point)
+            self.jacobian = make_joint_jacobian(self.problem, self.point)
 
     def list_starts(
-        self, structure: ModelStructure, more: list[dict[str, float]], *, heavy: bool
+        self, structure: ModelStructure, starts: list[dict[str, float]], *, heavy: bool
     ) -> list[dict[str, float]]:
-        """The starts that are worth a look at all runs.
+        """The starts to try on all runs: the best local minima on the step tests.
 
-        The list is empty where no start makes the step tests likelier by ``LEAST_SCORE``: a joint
-        shows in these runs, and a simulation of all runs takes longest.
+        The list is empty if none is better by ``LEAST_SCORE``, because a joint shows in these runs.
 
         Args:
-            structure: with the joint as its last effect.
-            more: values that it adds, one start after another.
-            heavy: two bodies of more inertia are tried, too.
+            structure: the model with the joint as its last effect.
+            starts: values of the parameters that each start adds or changes.
+            heavy: whether to try two bodies of more inertia, too.
         """
         effect = structure.effects[-1]
         names = ["kA", *(f"{effect}.{name}" for name in EFFECTS[effect].names)]
-        tried = list(more)
+        tried = list(starts)
         if heavy:
-            tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in more]
-        begun = rate_starts(self.problem, self.point, structure, tried, kept=self.kept)
-        optimized = self._step(_best_of_each(begun, effect))
+            tried += [{**one, "kA": HEAVIER * self.point.values["kA"]} for one in starts]
+        rated = rate_starts(self.problem, self.point, structure, tried, jacobian=self.jacobian)
+        optimized = self._step(_best_of_each(rated, effect))
         for most in FURTHER:
             optimized = self._step(_one_per_minimum(optimized, names)[:most])
         best = _one_per_minimum(optimized, names)
@@ -82,17 +81,17 @@ class TwoBodyStarts:
         return self.point.cost - point.cost
 
 
-def _best_of_each(begun: Iterable[Begun], effect: str) -> list[Estimate]:
-    """The most promising of the starts that differ in size alone: the same share of the motor."""
+def _best_of_each(rated: Iterable[RatedStart], effect: str) -> list[Estimate]:
+    """The best ``MOST`` of the starts that differ only in size, not in the motor's share."""
     kinds: dict[tuple[float, ...], list[Estimate]] = {}
     fixed = [f"{effect}.{one.name}" for one in EFFECTS[effect].parameters if one.neutral]
-    for _, point in sorted(begun, key=lambda one: -one[0]):
+    for _, point in sorted(rated, key=lambda one: -one[0]):
         kinds.setdefault(tuple(point.values[name] for name in fixed), []).append(point)
     return [one for kind in kinds.values() for one in kind[:MOST]]
 
 
 def _one_per_minimum(points: Iterable[Estimate], names: Sequence[str]) -> list[Estimate]:
-    """The likeliest first, one near each local minimum."""
+    """The likeliest estimate near each local minimum, the likeliest first."""
     found: list[Estimate] = []
     for one in sorted(points, key=lambda one: one.cost):
         if not any(_are_near(one, other, names) for other in found):

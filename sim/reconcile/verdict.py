@@ -16,21 +16,21 @@ from sim.reconcile.thresholds import COMPARABLE, LOST, MAJOR, VISIBLE_FLOORS, VI
 
 
 def reach_verdict(
-    findings: Sequence[Finding], done: Sequence[SelectionRound], problem: PredictionErrorProblem, *,
-    residuals: ResidualSummary, cut: float = math.inf, per: Unit,
+    findings: Sequence[Finding], rounds: Sequence[SelectionRound], problem: PredictionErrorProblem,
+    *, residuals: ResidualSummary, exceeded_limit: float = math.inf, unit: Unit,
 ) -> tuple[str, bool, str]:  # fmt: skip
     """The verdict, whether something remains, and a sentence about it.
 
     Args:
-        findings: what was named.
-        done: the base and the rounds.
+        findings: the reported effects and faults.
+        rounds: the base model and the selection rounds.
         problem: the measurements.
-        residuals: what the last model leaves.
-        cut: [s] time limit that ended the search; inf if it came to its own end.
-        per: the owner's unit.
+        residuals: residual tests of the last model.
+        exceeded_limit: [s] time limit that ended the search; inf if none did.
+        unit: the log's unit.
     """
-    gap, before = (one.velocity for one in (done[-1].gap, done[0].gap))
-    strays = count_noise_floors(gap, problem)
+    gap, before = (one.velocity for one in (rounds[-1].gap, rounds[0].gap))
+    floors = count_noise_floors(gap, problem)
     share = compute_missed_motion(gap, problem)
     if not share <= LOST:
         remains = (
@@ -40,16 +40,16 @@ def reach_verdict(
         )
         return UNEXPLAINED, True, remains
     remains = (
-        _describe_cut(cut, strays)
-        or _describe_residual(problem, residuals, per)
-        or _describe_remainder(findings, done, strays=strays)
+        _describe_time_limit(exceeded_limit, floors)
+        or _describe_residual(problem, residuals, unit)
+        or _describe_remainder(findings, rounds, floors=floors)
     )
     majors = [one for one in findings if one.size == "major"]
     effects = any(one.kind == "effect" for one in majors)
-    mostly = effects and strays > VISIBLE_FLOORS and gap > COMPARABLE * before
+    mostly = effects and floors > VISIBLE_FLOORS and gap > COMPARABLE * before
     if majors:
-        unexplained = gap > VISIBLE_SPEED * problem.top_speed and strays > VISIBLE_FLOORS
-    else:  # effects of the last model that are not named explain nothing
+        unexplained = gap > VISIBLE_SPEED * problem.top_speed and floors > VISIBLE_FLOORS
+    else:  # effects of the last model that are no findings explain nothing
         unexplained = count_noise_floors(before, problem) > VISIBLE_FLOORS
     if mostly or (remains and unexplained):
         return UNEXPLAINED, True, remains
@@ -60,15 +60,15 @@ def reach_verdict(
     return EXPLAINED, bool(remains), remains
 
 
-def _describe_cut(limit: float, strays: float) -> str:
-    """A sentence about a search that a time limit ended; empty if none did, or nothing is left.
+def _describe_time_limit(limit: float, floors: float) -> str:
+    """A sentence about an exceeded time limit; empty if it is inf, or nothing major can be missing.
 
     Args:
-        limit: [s] the time limit.
-        strays: [noise floors] gap of the last model. Hardly any model comes below one noise floor,
-            so of a gap that is nearly as small, no further effect can be major.
+        limit: [s] the exceeded time limit.
+        floors: [noise floors] gap of the last model. Hardly any model comes below one noise floor,
+            so no further effect can be major if the gap is nearly as small.
     """
-    if math.isinf(limit) or MAJOR * strays <= 1.0:
+    if math.isinf(limit) or MAJOR * floors <= 1.0:
         return ""
     return (
         f"The search stopped at its time limit of {limit:g} s of processor time, so more "
@@ -77,15 +77,15 @@ def _describe_cut(limit: float, strays: float) -> str:
 
 
 def _describe_remainder(
-    findings: Sequence[Finding], done: Sequence[SelectionRound], *, strays: float
+    findings: Sequence[Finding], rounds: Sequence[SelectionRound], *, floors: float
 ) -> str:
-    """A sentence about how far the last model still is, or why it may be another; or nothing."""
-    if strays > VISIBLE_FLOORS:
+    """A sentence about a wide gap, or a sign that the model is wrong; empty if there is none."""
+    if floors > VISIBLE_FLOORS:
         return (
-            f"The last model misses the log by {strays:.1f} times the noise of the velocity, "
+            f"The last model misses the log by {floors:.1f} times the noise of the velocity, "
             "and no effect in the catalogue makes that smaller."
         )
-    if likely := list_blocked_candidates(done[-1].candidates):
+    if likely := list_blocked_candidates(rounds[-1].candidates):
         return (
             f"With {likely[0].candidate.effect} the model fits this log far better, but "
             "predicts other runs worse: something else is missing, or more than one thing."
@@ -101,19 +101,19 @@ def _describe_remainder(
 
 
 def _describe_residual(
-    problem: PredictionErrorProblem, residuals: ResidualSummary, per: Unit
+    problem: PredictionErrorProblem, residuals: ResidualSummary, unit: Unit
 ) -> str:
-    """A sentence about what the last model leaves that is no noise; empty if it is."""
+    """A sentence about structure in the last model's residuals; empty if they are noise."""
     if residuals.has_unlikely_window:
-        moment = residuals.worst_window
-        record = problem.records[moment.record]
+        window = residuals.worst_window
+        record = problem.records[window.record]
         return (
-            f"In {record.test}, {moment.start:.2f} to {moment.end:.2f} s, the log shows a "
-            f"motion that no effect in the catalogue explains ({moment.size:.0f} times the "
+            f"In {record.test}, {window.start:.2f} to {window.end:.2f} s, the log shows a "
+            f"motion that no effect in the catalogue explains ({window.size:.0f} times the "
             "usual size)."
         )
     if residuals.is_repeated:
-        return _describe_repeated(residuals.repeated, per)
+        return _describe_repeated(residuals.repeated, unit)
     if residuals.is_periodic:
         return (
             f"Something pushes back and forth every {1.0 / residuals.peak.rate:.2f} s, whatever "
@@ -125,10 +125,10 @@ def _describe_residual(
 
 
 def _find_nested_pair(findings: Sequence[Finding]) -> str:
-    """Two effects of which one does about what the other does, with fewer parameters; or nothing.
+    """The names of two found effects of which one is a simpler form of the other; or nothing.
 
-    On some 2900 logs, none of which has two such effects, they were named together 51 times: on 50
-    with a bump, a band or a grip that no effect is, and on one where two others were missed.
+    On some 2900 logs, none of which has two such effects, they were found together 51 times: on 50
+    with a force that is not in the catalogue, and on one where two other effects were not found.
     """
     named = {one.effect for one in findings if one.kind == "effect"}
     for one, other in permutations(sorted(named), 2):
@@ -137,13 +137,15 @@ def _find_nested_pair(findings: Sequence[Finding]) -> str:
     return ""
 
 
-def _describe_repeated(alike: RepeatedResidual, per: Unit) -> str:
-    """A sentence about what runs miss alike."""
-    low, high = (f"{edge / per.si:.3g}".replace("-", "−") for edge in (alike.low, alike.high))
-    where, of = ("places", "") if alike.what == POSITION else ("speeds", "/s")
-    way = "forward" if alike.way > 0 else "in reverse"
+def _describe_repeated(repeated: RepeatedResidual, unit: Unit) -> str:
+    """A sentence about residuals that runs share."""
+    low, high = (
+        f"{edge / unit.si:.3g}".replace("-", "−") for edge in (repeated.low, repeated.high)
+    )
+    where, of = ("places", "") if repeated.what == POSITION else ("speeds", "/s")
+    way = "forward" if repeated.way > 0 else "in reverse"
     return (
-        f"At the same {where} the same error comes back in every run ({alike.size:.0f} times "
+        f"At the same {where} the same error comes back in every run ({repeated.size:.0f} times "
         "as large as by chance), and no effect in the catalogue explains it; most of it "
-        f"{way}, between {low} and {high} {per.symbol}{of}."
+        f"{way}, between {low} and {high} {unit.symbol}{of}."
     )
