@@ -55,13 +55,9 @@ def estimate_backlash_phase(
 def halve_backlash(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     """The estimate with half the backlash, and the phase of each run estimated anew."""
     halves = {name: 0.5 * point.values[name] for name in point.structure.backlash_names}
-    values = {**point.values, **halves}
-    return estimate_backlash_phase(
-        problem,
-        problem.evaluate(
-            point.structure, values, point.nuisance.without_backlash_phase, point.process_noise
-        ),
-    )
+    values, nuisance = {**point.values, **halves}, point.nuisance.without_backlash_phase
+    start = problem.evaluate(point.structure, values, nuisance, point.process_noise)
+    return estimate_backlash_phase(problem, start)
 
 
 def _costs_by_run(

@@ -27,9 +27,10 @@ def simplify_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[
             break
         point = last.candidate.estimate
         simpler = EFFECTS[effect].simpler
-        names = [simpler] if simpler not in {"", *point.structure.effects} else []
+        if simpler in {"", *point.structure.effects}:
+            continue
         residual = data.voltage_residual(point)
-        start = simplify_effect(problem, point, names, residual, effect=effect)
+        start = simplify_effect(problem, point, [simpler], residual, effect=effect)
         if start is None or not math.isfinite(start.cost):
             continue
         found = score_estimate(problem, minimize(problem, start), start.structure.effects[-1])

@@ -116,12 +116,9 @@ def _select_runs(
 
 
 def compute_open_loop_errors(
-    problem: PredictionErrorProblem,
-    point: Estimate,
-    nuisance: RunNuisance,
-    *,
+    problem: PredictionErrorProblem, point: Estimate, nuisance: RunNuisance, *,
     own_friction: bool = False,
-) -> Array:
+) -> Array:  # fmt: skip
     """(compared, 2) measured minus simulated position and velocity, without correction.
 
     Which samples are compared does not depend on the model.

@@ -112,7 +112,7 @@ def find_alternative(rounds: Sequence[SelectionRound], *, by_gap: bool) -> list[
 
 
 def _add_effects(data: SelectionData, rounds: list[SelectionRound]) -> list[SelectionRound]:
-    """The rounds, with one more for each effect that narrows the gap."""
+    """The rounds, and one more for each added effect, until no candidate is admissible."""
     rounds = list(rounds)
     while len(rounds) <= MOST_EFFECTS and not _is_dead_end(data.problem, rounds):
         data.progress(
@@ -159,9 +159,10 @@ def select_admissible(weighed: Sequence[WeighedCandidate]) -> list[WeighedCandid
 
 
 def _is_dead_end(problem: PredictionErrorProblem, rounds: Sequence[SelectionRound]) -> bool:
-    """Whether a model misses most of the motion, and its last effect hardly improved that.
+    """Whether a model misses more than ``LOST`` of the motion, and further effects cannot help.
 
-    Nothing would be reported of such a model, and further effects would take minutes to try.
+    They cannot if the voltage does not drive the base model, or the last effect hardly narrowed the
+    gap. Nothing would be reported of such a model, and candidates would take minutes to try.
     """
     now = rounds[-1]
     share = compute_missed_motion(now.gap.velocity, problem)
@@ -174,13 +175,13 @@ def _is_dead_end(problem: PredictionErrorProblem, rounds: Sequence[SelectionRoun
 
 
 def _finish_search(data: SelectionData, best: WeighedCandidate) -> WeighedCandidate:
-    """The candidate at its local minimum; to compare candidates, their searches were shortened."""
+    """The candidate after a full search, or as it was if that widens its gap or changes little."""
     candidate, problem = best.candidate, data.problem
     point = minimize_fully(problem, candidate.estimate)
     for other in flip_duration(problem, point):
-        settled = minimize(problem, other)
-        if settled.cost < point.cost - EQUAL_SCORE:
-            point = settled
+        found = minimize(problem, other)
+        if found.cost < point.cost - EQUAL_SCORE:
+            point = found
     near = refine_onset(problem, point)
     if near is not point:
         point = minimize(problem, near)

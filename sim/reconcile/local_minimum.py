@@ -36,7 +36,7 @@ RatedStart = tuple[float, Estimate]  # predicted decrease of -2 log L by a start
 
 
 def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
-    """Alternate between parameters and process noise until neither improves.
+    """Alternate between parameters and process noise until neither improves, or ``ROUNDS`` times.
 
     The parameters come first: far from their optimum a large process noise is the likeliest, and
     hides the residuals.
@@ -44,11 +44,8 @@ def minimize(problem: PredictionErrorProblem, point: Estimate) -> Estimate:
     point = levenberg_marquardt(problem, point, steps=FIRST_STEPS)
     for _ in range(ROUNDS):
         before = point.cost
-        point = levenberg_marquardt(
-            problem,
-            tune_process_noise(problem, estimate_backlash_phase(problem, point)),
-            steps=STEPS,
-        )
+        tuned = tune_process_noise(problem, estimate_backlash_phase(problem, point))
+        point = levenberg_marquardt(problem, tuned, steps=STEPS)
         if before - point.cost < 2.0 * ENOUGH:
             break
     return point

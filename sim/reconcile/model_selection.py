@@ -22,7 +22,7 @@ TINY = 1e-300  # avoids a division by a gap of zero
 
 
 def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCandidate]:
-    """All candidates of a round with their cross-validated gaps, likeliest first.
+    """The best candidates of a round with their cross-validated gaps, likeliest first.
 
     Returns:
         No candidate if the time limit passed before all were tried.
@@ -33,22 +33,18 @@ def weigh_candidates(data: SelectionData, now: SelectionRound) -> list[WeighedCa
     stop = data.out_of_time
     for candidate in rank_candidates(data.problem, point, residual, seeds=now.seeds, stop=stop):
         score = now.candidate.bic - candidate.bic
-        if score < find_required_improvement(candidate.effect):
-            tried = TriedCandidate(
-                candidate.effect, score, math.nan, admitted=False, why="explains too little"
-            )
-            found.append(WeighedCandidate(candidate, now.gap, tried))
-            continue
-        gap = compute_validation_gap(data.problem, candidate.estimate, data.folds)
-        why = explain_rejection(gap, now.gap, score)
-        share = gap.velocity / max(now.gap.velocity, TINY)
-        tried = TriedCandidate(candidate.effect, score, share, admitted=not why, why=why)
+        gap, ratio, why = now.gap, math.nan, "explains too little"
+        if score >= find_required_improvement(candidate.effect):
+            gap = compute_validation_gap(data.problem, candidate.estimate, data.folds)
+            ratio = gap.velocity / max(now.gap.velocity, TINY)
+            why = explain_rejection(gap, now.gap, score)
+        tried = TriedCandidate(candidate.effect, score, ratio, admitted=not why, why=why)
         found.append(WeighedCandidate(candidate, gap, tried))
     return [] if stop() else found  # a round that was cut short compares nothing
 
 
 def find_required_improvement(effect: str) -> float:
-    """Least decrease of -2 log L for which a candidate is added."""
+    """Least decrease of the BIC for which a candidate is added."""
     return LEAST_SCORE_ONCE if EFFECTS[effect].has_onset else LEAST_SCORE
 
 
@@ -56,8 +52,8 @@ def explain_rejection(gap: Gap, before: Gap, score: float) -> str:
     """Why a candidate is not admitted; empty if it is."""
     if is_wider(gap, before):
         return WIDENS
-    seen = gap.velocity <= NARROWER * before.velocity
-    return "" if seen or score >= LEAST_SCORE_UNSEEN else HARDLY
+    narrower = gap.velocity <= NARROWER * before.velocity
+    return "" if narrower or score >= LEAST_SCORE_UNSEEN else HARDLY
 
 
 def is_wider(gap: Gap, before: Gap) -> bool:

@@ -149,7 +149,7 @@ class _Onset:
         share: [1] onset as a share of that run's duration.
         here: sums over that run.
         later: sums over all later runs; None if the effect ends with its run.
-        ka: [V·s²/unit] inertia of the estimate.
+        ka: [V·s²/unit] inertia of the estimate, limited by the bounds of the size.
     """
 
     kind: Mapping[str, float]
@@ -193,7 +193,7 @@ class _Scan:
     def scan_coarsely(self, kind: Mapping[str, float]) -> Iterator[_Onset]:
         """Each run's likeliest onset of an effect that ends with the run, and of a permanent one.
 
-        Inertia that shares momentum is searched where speed is lost, other inertia in all the run.
+        Inertia that shares momentum is searched where speed is lost, any other in the whole run.
         """
         every = range(len(self.problem.records))
         shares_momentum = any(kind.values())

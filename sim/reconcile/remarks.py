@@ -21,8 +21,8 @@ NO_REVERSAL = (
 )
 
 CONTRADICTED = (
-    "With {} the model fits this log better, but right after it begins is the moment that is "
-    "explained least. What happened then may be something else, so the model leaves it out."
+    "With {} the model fits this log better, but the part of the log that it explains least comes "
+    "right after this effect begins. The real cause may be another one, so the model leaves it out."
 )
 
 UNLIKELY = (

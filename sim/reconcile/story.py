@@ -115,9 +115,9 @@ class Story:
         noise_floor: [log's unit/s] RMS noise of the shown velocity, at least ``LEAST_FLOOR`` of
             the top speed. Texts give gaps as multiples of it.
         gap_before: [log's unit/s] RMS velocity error of the base model on the shown log.
-        gap_after: the same of the last model.
+        gap_after: the same of the last chapter's model.
         where: where the base model disagrees most.
-        chapters: the base first, then a model for each effect added.
+        chapters: the base first, then a model per added effect, up to the last reported one.
         shown: the log that gaps are shown on: held out, else validation, else the fitted log.
         how: how the logs were used, in a sentence.
         notes: further remarks.
@@ -142,7 +142,7 @@ class Story:
 
     @property
     def model(self) -> Model:
-        """The last model."""
+        """The model of the last chapter."""
         return self.chapters[-1].model
 
     def to_json(self) -> dict[str, Any]:
