@@ -73,7 +73,7 @@ def reconcile(
         progress: called with a step's description and the share done [1].
 
     Raises:
-        BadRequest: an unknown type, a log of another mechanism, or positions beyond the travel.
+        BadRequest: an unknown type, logs that do not fit together, or a travel far too short.
         NotIdentifiable: nothing moves, or too little was recorded; the message says what to record.
 
     Examples:

@@ -25,7 +25,7 @@ def check_logs(recordings: Recordings, *, travel: float | None) -> None:
         travel: [log's unit] from stop to stop, if known.
 
     Raises:
-        BadRequest: units or gains that do not fit together, or positions beyond the travel.
+        BadRequest: units or gains that do not fit together, or positions far beyond the travel.
         NotIdentifiable: too few runs, samples, or voltages.
     """
     log, base, unit = recordings.log, recordings.type, recordings.unit

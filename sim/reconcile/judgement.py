@@ -55,18 +55,15 @@ def judge_effects(
     for place, (before, now) in enumerate(possible):
         name = now.candidate.effect
         with_, bare = rounds[-1].gap, now.gap_without
-        added = before.candidate.bic - now.candidate.bic
+        velocity = compute_log_ratio(with_.velocity, bare.velocity)
+        position = compute_log_ratio(with_.position, bare.position)
+        score = before.candidate.bic - now.candidate.bic
+        rivals = list_rival_scores(before, last.structure.effects, name)
         evidence = Evidence(
             likelihood=math.log(max(now.without.bic - rounds[-1].candidate.bic, 1.0)),
-            gap=0.5
-            * (
-                compute_log_ratio(with_.velocity, bare.velocity)
-                + compute_log_ratio(with_.position, bare.position)
-            ),
+            gap=0.5 * (velocity + position),
             size=compute_log_size(name, last.values),
-            rival=compute_rival_share(
-                name, added, list_rival_scores(before, last.structure.effects, name)
-            ),
+            rival=compute_rival_share(name, score, rivals),
             later=float(place > 0),
             structure=min(max(residuals.largest_ratio, STRUCTURE[0]), STRUCTURE[1]),
             once=float(EFFECTS[name].has_onset),
