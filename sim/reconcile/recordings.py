@@ -53,7 +53,11 @@ class Recordings:
 
     @cached_property
     def initial_gains(self) -> Mapping[str, float]:
-        """First estimates of the base model's gains, as ``guess_gains`` makes them."""
+        """First estimates of the base model's gains, as ``guess_gains`` makes them.
+
+        Raises:
+            NotIdentifiable: nothing moves for long enough, or the voltage never changes.
+        """
         return guess_gains(self.log, type=self.type)
 
     @cached_property
