@@ -192,7 +192,7 @@ def test_a_direction_that_differs_is_said_with_numbers(fit, tmp_path):
 
 
 def test_a_long_log_is_not_fitted_three_times_unless_for_a_page(fit, drive, tmp_path, monkeypatch):
-    monkeypatch.setattr("sim.cli.fit.plausibility.MANY", 100)
+    monkeypatch.setattr("sim.cli.fit.plausibility.LONG", 100)
 
     _, said, _ = fit(drive)
     _, patient, _ = fit(drive, "--html", tmp_path / "drive.html")

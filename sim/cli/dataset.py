@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from sim.bench.dataset.spec import Spec
 
 
-WORTH = 50  # [logs] that a further process has to save, to be worth its start
+WORTH = 50  # [logs] per process at least: for fewer, starting it takes longer than it saves
 
 
 @click.command()
@@ -49,8 +49,7 @@ def dataset(  # noqa: PLR0917 - click passes options by name
     """Make many damaged logs, as the file SPEC describes them.
 
     The command also makes a sealed key with the true values. The key is next to the folder, never
-    in it. If the command was stopped, run it again to
-    continue.
+    in it. If the command was stopped, run it again to continue.
 
     For example: sysid dataset week3.toml -o week3
     """
@@ -92,7 +91,7 @@ def _make(
     processes: int | None,
     cluster: str | None,
 ) -> int:
-    """Make what is not there yet."""
+    """Make the logs that are missing, with a progress bar; the exit code."""
     from sim.bench.dataset.making import make_log  # noqa: PLC0415 - --help must not wait
     from sim.bench.dataset.run import check_folder, finish_dataset, rehearse_jobs  # noqa: PLC0415 - the same
     from sim.support.work.cluster import run_jobs_on_cluster  # noqa: PLC0415 - the same
@@ -135,8 +134,8 @@ def _make(
         else:
             stopped = False
     if stopped:
-        said = f"stopped with {done()} of {len(jobs)} logs done. Run the same command to continue."
-        print_error(said, name="sysid")
+        text = f"stopped with {done()} of {len(jobs)} logs done. Run the same command to continue."
+        print_error(text, name="sysid")
         return INTERRUPTED
     kept = f", {len(found.kept)} of them made earlier" if found.kept else ""
     click.echo(f"{place.folder}: {len(jobs)} logs{kept}. The truth about them: {place.key}")
@@ -144,7 +143,7 @@ def _make(
 
 
 def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]", secret: "Secret") -> int:
-    """Say what is not as it was made."""
+    """Print which logs have changed or are missing; the exit code."""
     from sim.bench.dataset.checking import verify_dataset  # noqa: PLC0415 - --help must not wait for it
 
     wrong = verify_dataset(place.folder, jobs, key=place.key, secret=secret)
@@ -156,7 +155,11 @@ def _check(place: "DatasetPlace", jobs: "tuple[LogJob, ...]", secret: "Secret") 
 
 
 def _write_example(path: Path) -> int:
-    """Write a spec to begin with, where none is."""
+    """Write the example of a spec into a new file; the exit code.
+
+    Raises:
+        BadRequest: the file exists, or cannot be written.
+    """
     from importlib.resources import files  # noqa: PLC0415 - few ask for it
 
     try:

@@ -33,12 +33,12 @@ def entries(file: Path, *, as_json: bool) -> None:
     width = max((len(str(row["name"])) for row in rows), default=0)
     click.echo(f"{len(rows)} entries:")
     for row in rows:
-        said = f"{row['signal'] or '-':12} {row['name']!s:{width}}  {row['type']}, {row['values']}"
-        click.echo(f"{said} {row['unit']}".rstrip())
+        line = f"{row['signal'] or '-':12} {row['name']!s:{width}}  {row['type']}, {row['values']}"
+        click.echo(f"{line} {row['unit']}".rstrip())
 
 
 def _row(entry: "Entry") -> dict[str, object]:
-    """An entry as plain data; ``signal`` is empty where it is none of a motor's."""
+    """An entry as plain data; ``signal`` is empty if it is not a motor's signal."""
     from sim.io.entries.discovery import identify_signal  # noqa: PLC0415 - --help must not wait for it
     from sim.io.entries.entry import NUMBERS, STRING  # noqa: PLC0415 - the same
     from sim.io.entries.state import names_tests  # noqa: PLC0415 - the same

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from sim.inspect.detect_faults import Inspection
     from sim.inspect.fault import Damage
 
-SURE, LIKELY = 0.9, 0.7  # [1] confidence from which a person would say so
-LINES = 40  # a terminal shows so many; nobody scrolls back to read a report
+SURE, LIKELY = 0.9, 0.7  # [1] lowest confidence that is called sure, or likely
+LINES = 40  # [lines] of a report at most: it should fit on one screen of a terminal
 WIDTH = 78  # [characters] of a line
-PLACES = 4  # that a paragraph lists; more are counted
-RUNS = 8  # that a heading lists
+PLACES = 4  # places that a paragraph lists; further ones are counted
+RUNS = 8  # runs that a heading lists
 ALL_IN_JSON = "Add --json to list everything."
 
 
@@ -60,38 +60,38 @@ def inspect(
 
 
 def _show(found: "Inspection", *, runs: "Mapping[str, int]") -> None:
-    """One paragraph for each kind of fault, the worst first; then the doubts, on one screen.
+    """Print one paragraph for each kind of fault, the worst first; then the doubts, on one screen.
 
     Args:
         found: what to show.
-        runs: name of each file -> how many runs it has.
+        runs: name of each file -> the number of its runs.
     """
     kinds = found.group_by_kind()
     count = len(kinds)
-    said = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
+    result = f"{count} fault{'s' * (count > 1)} found" if count else "no fault found"
     if any(doubt.code == "odd-clock" for doubt in found.doubts):
-        said = f"not inspected{f', {said}' * bool(count)}"
+        result = f"not inspected{f', {result}' * bool(count)}"
     total = sum(runs.values())
-    click.echo(f"{', '.join(runs)}: {total} run{'s' * (total != 1)}, {said}.")
-    room = LINES - 2  # the title, and the sentence about what is left out
+    click.echo(f"{', '.join(runs)}: {total} run{'s' * (total != 1)}, {result}.")
+    lines_left = LINES - 2  # the title, and the sentence about what is left out
     if count and len(runs) > 1:
         lines = click.wrap_text(_name_runs(runs), width=WIDTH).splitlines()
         click.echo("\n".join(lines))
-        room -= len(lines)
+        lines_left -= len(lines)
     for left, kind in zip(range(count - 1, -1, -1), kinds, strict=True):
-        head, *body = _paragraph(kind)
-        if 2 + len(body) + 2 * left > room:
+        head, *body = _write_paragraph(kind)
+        if 2 + len(body) + 2 * left > lines_left:
             body = []
         click.echo("")
         click.secho(head, bold=True)
         for line in body:
             click.echo(line)
-        room -= 2 + len(body)
-    _show_doubts(found.doubts, room=room, cut=any(len(kind) > PLACES for kind in kinds))
+        lines_left -= 2 + len(body)
+    _show_doubts(found.doubts, lines_left=lines_left, cut=any(len(kind) > PLACES for kind in kinds))
 
 
 def _name_runs(runs: "Mapping[str, int]") -> str:
-    """Which runs are of which file, as ``Runs 0 to 3: a.wpilog; runs 4 to 7: b.wpilog``."""
+    """The runs of each file, as ``Runs 0 to 3: a.wpilog; runs 4 to 7: b.wpilog``."""
     ends = list(accumulate(runs.values()))
     parts = [
         f"runs {end - count} to {end - 1}: {name}" if count > 1 else f"run {end - 1}: {name}"
@@ -101,16 +101,19 @@ def _name_runs(runs: "Mapping[str, int]") -> str:
     return f"{text[:1].upper()}{text[1:]}."
 
 
-def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
-    """The doubts that there is room for, grave ones first, and how many are left out."""
+def _show_doubts(doubts: "Iterable[Doubt]", *, lines_left: int, cut: bool) -> None:
+    """Print the doubts that fit into the lines left, grave ones first.
+
+    If doubts are left out, or places were (``cut``), a line says how to list everything.
+    """
     ordered = sorted(doubts, key=lambda doubt: (not doubt.grave, doubt.code not in SHOWN_FIRST))
     shown = []
     for doubt in ordered:
         text = click.wrap_text(f"warning: {doubt.message}", width=WIDTH, subsequent_indent=" " * 9)
         lines = text.splitlines()
-        if len(lines) + 1 <= room:
+        if len(lines) + 1 <= lines_left:
             shown += lines
-            room -= len(lines)
+            lines_left -= len(lines)
         else:
             cut = True
     for line in ["", *shown] if shown else []:
@@ -119,14 +122,16 @@ def _show_doubts(doubts: "Iterable[Doubt]", *, room: int, cut: bool) -> None:
         click.echo(ALL_IN_JSON)
 
 
-def _paragraph(kind: "Sequence[Damage]") -> list[str]:
+def _write_paragraph(kind: "Sequence[Damage]") -> list[str]:
     """The lines on the faults of one kind: where, what happened, what to do."""
     worst, several = kind[0], len(kind) > 1
-    where = _runs(kind) if several else _place(worst)
-    lines = [f"{worst.fault}: {where} ({_sure(max(damage.confidence for damage in kind))})"]
+    where = _list_runs(kind) if several else _describe_place(worst)
+    lines = [
+        f"{worst.fault}: {where} ({_format_confidence(max(damage.confidence for damage in kind))})"
+    ]
     texts = [worst.evidence, worst.advice]
     if several:
-        places = [_place(damage) for damage in sorted(kind, key=_when)[:PLACES]]
+        places = [_describe_place(damage) for damage in sorted(kind, key=_sort_key)[:PLACES]]
         if len(kind) > PLACES:
             places.append(f"{len(kind) - PLACES} more")
         listed = [f"Found at {'; '.join(places)}."] if worst.where.run is not None else []
@@ -137,8 +142,8 @@ def _paragraph(kind: "Sequence[Damage]") -> list[str]:
     return lines
 
 
-def _runs(kind: "Sequence[Damage]") -> str:
-    """In which runs the faults of a kind are, or of which tests."""
+def _list_runs(kind: "Sequence[Damage]") -> str:
+    """The runs that have faults of a kind; for faults of no single run, the tests."""
     runs = sorted({damage.where.run for damage in kind if damage.where.run is not None})
     if not runs:
         return ", ".join(damage.where.test or "the whole log" for damage in kind)
@@ -152,12 +157,12 @@ def _example(worst: "Damage") -> str:
     return worst.evidence if run is None else f"In run {run}: {worst.evidence}"
 
 
-def _when(damage: "Damage") -> tuple[int, float]:
+def _sort_key(damage: "Damage") -> tuple[int, float]:
     run = damage.where.run
     return (-1 if run is None else run, damage.where.start)
 
 
-def _place(damage: "Damage") -> str:
+def _describe_place(damage: "Damage") -> str:
     """Where a fault is: a stretch of a run, a test, or the whole log."""
     where = damage.where
     if not where.test:
@@ -167,6 +172,6 @@ def _place(damage: "Damage") -> str:
     return f"run {where.run}, {where.test}, {where.start:.2f} to {where.end:.2f} s"
 
 
-def _sure(confidence: float) -> str:
+def _format_confidence(confidence: float) -> str:
     word = "sure" if confidence >= SURE else "likely" if confidence >= LIKELY else "perhaps"
     return f"{word}, {confidence:.2f}"

@@ -28,7 +28,11 @@ FAULT_NAMES = complete_members(SIM / "inspect" / "faults")
 
 
 def _factor(_: click.Context, __: click.Parameter, value: float) -> float:
-    """A finite number other than zero."""
+    """The value, if it is finite and not zero.
+
+    Raises:
+        BadParameter: it is not.
+    """
     if not (math.isfinite(value) and value):
         raise click.BadParameter(f"{value:g} is not a finite number other than zero.")
     return value
@@ -42,7 +46,7 @@ def combine_options(*options: Option) -> Option:
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
-# How to read a log.
+# Options for reading a log.
 reading_options = combine_options(
     click.option("--type", "type_", type=click.Choice(TYPES), help="What kind of mechanism."),
     click.option(
@@ -54,7 +58,7 @@ reading_options = combine_options(
     click.option("--velocity", metavar="ENTRY", help="Log entry with the velocity."),
     click.option("--state", metavar="ENTRY", help="Log entry with the running test's name."),
 )
-# Which mechanism, and how to put a velocity right that was logged wrongly.
+# Which mechanism, and how to correct a velocity that was logged wrongly.
 velocity_options = combine_options(
     click.option(
         "--pick",
@@ -82,8 +86,8 @@ def list_catalogue(rows: Iterable[Mapping[str, Any]], *, as_json: bool) -> None:
     """Print a catalogue: name and summary, one line each, or everything as JSON.
 
     Args:
-        rows: each with ``name`` and ``summary``, and what else JSON should carry.
-        as_json: as JSON.
+        rows: one mapping for each member, with ``name``, ``summary`` and other keys for JSON.
+        as_json: print JSON.
     """
     rows = list(rows)
     if as_json:
@@ -97,8 +101,8 @@ def refuse_overwriting(*outputs: Path | None, inputs: Iterable[Path | None] = ()
     """Refuse an output that would replace an input or another output.
 
     Args:
-        outputs: the files that the command writes; None is one that was not asked for.
-        inputs: the files that it reads; None is one that was not given.
+        outputs: the files that the command writes; None for an option that was not given.
+        inputs: the files that it reads; None for an option that was not given.
 
     Raises:
         BadRequest: two of them are the same file.
@@ -143,8 +147,8 @@ def read_logs_together(files: Iterable[Path], **how: Any) -> "Log":  # noqa: ANN
     """Read the files of one mechanism as one log.
 
     Args:
-        files: in any format.
-        how: as ``read_each_log`` takes it.
+        files: paths of logs in any format.
+        how: the keyword arguments of ``read_each_log``.
 
     Raises:
         Refusal: as ``read_each_log``, or one file measures a length and another an angle.
@@ -166,11 +170,11 @@ def read_each_log(
     """Read the files of one mechanism, each as a log.
 
     Args:
-        files: in any format.
-        units: of the positions in them; None believes the files.
-        type: of the mechanism; None believes the files.
-        motor: which one, where a file has several.
-        entries: signal -> name of its entry; None looks for it.
+        files: paths of logs in any format.
+        units: unit of the positions in them; None takes the one in each file.
+        type: type of the mechanism; None takes the one in each file.
+        motor: name of the motor to read, if a file has several.
+        entries: signal -> name of its entry; None finds it by name.
 
     Raises:
         Refusal: a file cannot be read, or is given twice.
@@ -189,12 +193,12 @@ class PartReader:
     """Reads the files of a robot, one log for each mechanism, side or motor.
 
     Args:
-        units: of the positions in them; None believes the files.
-        type: of the mechanism; None believes the files.
-        motor: which one alone, where a file has several.
-        entries: signal -> name of its entry; None looks for it.
-        velocity: what the velocity is multiplied by; None takes the slope of the position.
-        pick: which of several mechanisms, counted from 1.
+        units: unit of the positions in them; None takes the one in each file.
+        type: type of the mechanism; None takes the one in each file.
+        motor: name of the only motor to read; None reads all.
+        entries: signal -> name of its entry; None finds it by name.
+        velocity: factor of the velocity; None uses the slope of the position as the velocity.
+        pick: number of the mechanism to read, counted from 1; None if the log has only one.
     """
 
     units: str | None = None

@@ -26,12 +26,12 @@ if TYPE_CHECKING:
     from sim.core.log import Log
     from sim.reconcile import DamagedInterval, Story
 
-IN_MOMENTS = "voltage-dropout"  # a fault that an inspection tells as one stretch
+DROPOUT = "voltage-dropout"  # an inspection reports many short dropouts as one interval
 TIME_LIMIT = 20.0  # [s] of processor time
-UNSURE = ("unexplained", "ambiguous")  # verdicts that leave work to do
+UNSURE = ("unexplained", "ambiguous")  # verdicts with exit code 1
 
 
-# What is held against the model, and what is written.
+# Validation data, limits of the search, and the file to write.
 reconcile_options = combine_options(
     click.option("--validation", type=FILE, help="Other runs: they must confirm each effect."),
     click.option("--held-out", type=FILE, help="More runs, used only to show the gap."),
@@ -84,7 +84,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
     if html is not None:
         from sim.report.page_file import choose_page_path  # noqa: PLC0415 - draws, as all of its folder
 
-        choose_page_path(html)  # a wrong name is told before the work, not after
+        choose_page_path(html)  # refuse a wrong name before the search, not after it
 
     def read(*some: Path) -> "Log":
         return read_logs_together(some, units=units, type=type_, motor=motor, entries=entries)
@@ -96,8 +96,8 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
         if file is not None
     }
     _warn_uncompiled()
-    with _watched(seen=not as_json) as progress:
-        story = _solved(logs, type_=type_, travel=travel, time_limit=time_limit, progress=progress)
+    with _progress_display(visible=not as_json) as progress:
+        story = _solve(logs, type_=type_, travel=travel, time_limit=time_limit, progress=progress)
     if html is not None:
         from sim.report.story import write_story  # noqa: PLC0415 - draws
 
@@ -113,7 +113,7 @@ def reconcile(  # noqa: PLR0917 - click passes options by name
 
 
 def _warn_uncompiled() -> None:
-    """Say that this takes long where Numba is missing: a search simulates thousands of times."""
+    """Warn that the search is slow without Numba: it simulates thousands of times."""
     from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
 
     if not engine_can_compile():
@@ -124,20 +124,20 @@ def _warn_uncompiled() -> None:
         )
 
 
-def _watched(*, seen: bool) -> "AbstractContextManager[Callable[[str, float], None]]":
-    """A progress bar for people; other programs do not wait for it to load."""
-    if not seen:
+def _progress_display(*, visible: bool) -> "AbstractContextManager[Callable[[str, float], None]]":
+    """A progress bar, or without output for people (``visible``) a function that does nothing."""
+    if not visible:
         return nullcontext(lambda _, __: None)
     from sim.report.story_terminal import show_progress  # noqa: PLC0415 - only for people
 
     return show_progress()
 
 
-def _solved(
+def _solve(
     logs: "Mapping[str, Log]", *, type_: str | None, travel: float | None, time_limit: float | None,
     progress: Callable[[str, float], None],
 ) -> "Story":  # fmt: skip
-    """The story of these logs, without the damage that an inspection finds."""
+    """The story of these logs; intervals in which an inspection finds damage are excluded."""
     from sim.reconcile import reconcile as solve  # noqa: PLC0415 - --help must not wait for it
 
     progress("looking for damage", 0.0)
@@ -155,18 +155,14 @@ def _solved(
 
 
 def choose_time_limit() -> float:
-    """[s] default limit of processor time; infinite where the simulation is not compiled."""
+    """The default limit of processor time [s]; infinite if the simulation is not compiled."""
     from sim.physics.engine import engine_can_compile  # noqa: PLC0415 - --help must not wait for it
 
     return TIME_LIMIT if engine_can_compile() else math.inf
 
 
 def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
-    """The damaged intervals that an inspection finds, as ``reconcile`` takes them.
-
-    Args:
-        log: any.
-    """
+    """The damaged intervals that an inspection finds in a log, as ``reconcile`` takes them."""
     from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - --help must not wait for it
     from sim.inspect.dropout_intervals import find_dropout_intervals  # noqa: PLC0415
     from sim.reconcile import DamagedInterval  # noqa: PLC0415
@@ -174,15 +170,15 @@ def inspect_damage(log: "Log") -> "tuple[DamagedInterval, ...]":
     found = []
     for one in inspect(log).damages:
         where = one.where
-        stretches: tuple[tuple[float, float], ...] = ((where.start, where.end),)
-        if one.fault == IN_MOMENTS and where.run is not None:
-            stretches = find_dropout_intervals(
+        intervals: tuple[tuple[float, float], ...] = ((where.start, where.end),)
+        if one.fault == DROPOUT and where.run is not None:
+            intervals = find_dropout_intervals(
                 log.runs[where.run], start=where.start, end=where.end
             )
         found += [
             DamagedInterval(
-                where.run, *stretch, one.fault, one.confidence, one.evidence, one.advice
+                where.run, *interval, one.fault, one.confidence, one.evidence, one.advice
             )
-            for stretch in stretches
+            for interval in intervals
         ]
     return tuple(found)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sim.bench.mechanism import Mechanism
     from sim.core.log import Log
 
-PERIOD = 0.02  # [s] a robot program loops as often unless told otherwise
+PERIOD = 0.02  # [s] loop period of a robot program by default
 
 
 @click.command()
@@ -118,11 +118,11 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     refuse_overwriting(output, truth)
     kinds = tuple(kind.strip() for kind in tests.split(",") if kind.strip())
     routine = Routine(ramp=ramp, step=step, timeout=timeout, kinds=kinds)
-    # chance has a stream for each thing it decides, so that a fault leaves the motion as it was
-    motion, damage, another = np.random.default_rng(seed), *np.random.default_rng(seed).spawn(2)
+    # separate random streams, so that adding a fault does not change the motion
+    motion, damage, variation = np.random.default_rng(seed), *np.random.default_rng(seed).spawn(2)
     built = find(mechanism)
-    built = _fed(built.draw(another) if vary else built, battery, controller)
-    built = _hiding(built, hide)
+    built = _set_battery(built.draw(variation) if vary else built, battery, controller)
+    built = _hide_effects(built, hide)
     if recorder is not None:
         built = find_recorder(recorder).record(built)
         period = period or find_recorder(recorder).period
@@ -134,7 +134,7 @@ def simulate(  # noqa: PLR0917 - click passes options by name
     try:
         write(log, output)
     except Refusal:
-        if truth:  # the truth of a log that is not there would only mislead
+        if truth:  # a truth file without its log would mislead
             truth.unlink()
         raise
     _echo_written(log, output, after="inspect" if faults else "fit")
@@ -149,23 +149,36 @@ def _echo_written(log: "Log", output: Path, *, after: str) -> None:
     click.echo(f"{output}: {len(log.runs)} tests, {samples} samples. Next: {following}")
 
 
-def _fed(mechanism: "Mechanism", battery: str | None, controller: str) -> "Mechanism":
-    """The mechanism on a battery asked for as ``VOLTS`` or ``VOLTS:OHMS``."""
+def _set_battery(mechanism: "Mechanism", battery: str | None, controller: str) -> "Mechanism":
+    """The mechanism with the brownout voltage of a controller and the battery of an option.
+
+    Args:
+        mechanism: the mechanism to change.
+        battery: ``VOLTS`` or ``VOLTS:OHMS``; None keeps the mechanism's own.
+        controller: name of the robot controller.
+
+    Raises:
+        BadRequest: the text is not a battery.
+    """
     stop = CONTROLLERS[controller].brownout
     if battery is None:
         return replace(mechanism, brownout=stop)
     rest, colon, ohms = battery.partition(":")
     try:
-        fed = Battery(float(rest), float(ohms) if colon else mechanism.battery.resistance)
+        chosen = Battery(float(rest), float(ohms) if colon else mechanism.battery.resistance)
     except ValueError:
         raise BadRequest(
             f"{battery!r} is not a battery", advice="Write VOLTS[:OHMS], as 12.2:0.035."
         ) from None
-    return replace(mechanism, battery=fed, brownout=stop)
+    return replace(mechanism, battery=chosen, brownout=stop)
 
 
-def _hiding(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
-    """The mechanism with effects that are asked for as ``NAME`` or ``NAME:SIZE``."""
+def _hide_effects(mechanism: "Mechanism", asked: Iterable[str]) -> "Mechanism":
+    """The mechanism with hidden effects, each written as ``NAME`` or ``NAME:SIZE``.
+
+    Raises:
+        BadRequest: a size is not a number, or there is no such effect.
+    """
     for text in asked:
         name, colon, size = text.partition(":")
         try:

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 LOOPS = ("velocity", "position")
 
 
-# The user's own feedback gains, to be simulated, too, and the files to write.
+# The user's own feedback gains, which are simulated, too, and the files to write.
 feedback_options = combine_options(
     click.option("--own-kp", type=float, help="Also simulate a loop with your own kP."),
     click.option("--own-kd", type=float, help="Your own kD, for --own-kp.  [default: 0]"),
@@ -164,19 +164,19 @@ def fit(  # noqa: PLR0917 - click passes options by name
     pooled = fit_parts(parts, find, files=len(files))
     found, notes = check_against_physics(pooled.found, log, parts=built, notes=pooled.notes)
     if not (as_json or paste):
-        found, more = compare_directions_alone(found, log, patient=html is not None)
+        found, more = compare_directions_alone(found, log, include_long=html is not None)
         notes = (*more, *notes)
     found, notes, turned = add_inertia(found, notes, log, turning, method=method)
     tried = try_feedback_gains(found := found.in_log_units(), PRESETS[preset], own=own)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
-    told = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
-    _write(told, html=html, plot=plot, wpilog=wpilog, parts=parts)
-    return told.echo(as_json=as_json, paste=paste, season=int(season))
+    output = _FitOutput(files, found, log, preset, tried, notes, pooled.to_json(), turned)
+    _write_files(output, html=html, plot=plot, wpilog=wpilog, parts=parts)
+    return output.echo(as_json=as_json, paste=paste, season=int(season))
 
 
 @dataclass(frozen=True, eq=False)
 class _FitOutput:
-    """What the command found."""
+    """The fit, and everything that is printed or written with it."""
 
     files: tuple[Path, ...]
     found: "Fit"
@@ -188,7 +188,7 @@ class _FitOutput:
     turned: "MomentOfInertia | None" = None
 
     def echo(self, *, as_json: bool, paste: str | None, season: int) -> int:
-        """Print what was asked for, robot code, JSON, or text for people; the exit code."""
+        """Print robot code, JSON or readable text, as the options say; the exit code."""
         if paste:
             click.echo(make_paste_text(self.found, paste, season=season), nl=False)
         elif as_json:
@@ -198,7 +198,7 @@ class _FitOutput:
         return NOT_RIGHT if any(doubt.grave for doubt in self.found.doubts) else DONE
 
     def to_json(self) -> dict[str, object]:
-        """Plain data; the learner's own gains and those of parts only where there are any."""
+        """The fit as plain data, with the user's own gains and those of parts if there are any."""
         from sim.fit.feedback_trial import OWN  # noqa: PLC0415 - --help must not wait for it
 
         own = [
@@ -206,10 +206,10 @@ class _FitOutput:
             for one in self.tried
             if one.owner == OWN
         ]
-        said = self.found.to_json(PRESETS[self.preset])
-        said |= {"own_feedback": own[0]} if own else {}
-        said |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
-        return said | ({"parts": self.parts} if self.parts else {})
+        data = self.found.to_json(PRESETS[self.preset])
+        data |= {"own_feedback": own[0]} if own else {}
+        data |= {"moment_of_inertia": self.turned.to_json()} if self.turned else {}
+        return data | ({"parts": self.parts} if self.parts else {})
 
     def print_result(self) -> None:
         """Print the fit on the terminal."""
@@ -223,27 +223,29 @@ class _FitOutput:
         )  # fmt: skip
 
 
-def _write(
-    told: _FitOutput, *, html: Path | None, plot: Path | None, wpilog: Path | None, parts: "Parts"
+def _write_files(
+    output: _FitOutput, *, html: Path | None, plot: Path | None, wpilog: Path | None, parts: "Parts"
 ) -> None:
-    """The files that were asked for."""
+    """Write the files that the options name."""
     if wpilog is not None:
         from sim.cli.fit.wpilog import write_replay  # noqa: PLC0415 - only with --wpilog
 
-        write_replay(told.found, parts, wpilog)
+        write_replay(output.found, parts, wpilog)
     if html is None and plot is None:
         return
     from sim.report import Report, write_page, write_picture  # noqa: PLC0415 - draws
 
-    title = ", ".join(file.name for file in told.files)  # a page travels; folders are private
-    report = Report(title, told.found, told.log, PRESETS[told.preset], told.tried, told.notes)
+    title = ", ".join(file.name for file in output.files)  # a page travels; folders are private
+    report = Report(
+        title, output.found, output.log, PRESETS[output.preset], output.tried, output.notes
+    )
     if html is not None:
         write_page(report, html)
     if plot is not None:
         write_picture(report, plot)
 
 
-def _go_together(ctx: click.Context) -> None:
+def _refuse_conflicting_options(ctx: click.Context) -> None:
     """Refuse options that would be ignored, and outputs that would replace an input."""
     paste, wpilog = ctx.params["paste"], ctx.params["wpilog"]
     layout = None if wpilog is None else choose_layout_path(wpilog)
@@ -270,8 +272,8 @@ def _go_together(ctx: click.Context) -> None:
 def _read_own_gains(
     ctx: click.Context, loop: str | None, *, kp: float | None, kd: float | None
 ) -> "OwnGains | None":
-    """The learner's gains, if some were given; refuses options that would be ignored."""
-    _go_together(ctx)
+    """The user's own gains, or None; refuses options that would be ignored."""
+    _refuse_conflicting_options(ctx)
     from sim.fit.feedback_trial import OwnGains  # noqa: PLC0415 - --help must not wait for it
 
     if kp is None:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from sim.fit import Fit
     from sim.fit.physics.inertia import MomentOfInertia
 
-FINEST = 0.005  # [share] no scale tells a mass better
+FINEST = 0.005  # [1] smaller relative errors are not printed: no scale weighs a robot better
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,10 @@ class Turning:
     """The options about a robot that turns on the spot.
 
     Args:
-        straight: log of the same robot going straight.
-        mass: [kg].
-        lever: [m] of a wheel; None takes what the speeds tell.
+        straight: path of a log of the same robot going straight.
+        mass: mass of the robot [kg].
+        lever: distance from the middle of the robot to the line along which a wheel pushes [m];
+            None computes it from the speeds.
     """
 
     straight: Path
@@ -55,7 +56,7 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
     )
 
     @wraps(command)
-    def asked(
+    def with_turning(
         *args: object,
         straight: Path | None,
         mass: float | None,
@@ -65,13 +66,17 @@ def turning_options(command: Callable[..., Any]) -> Callable[..., Any]:
         turning = _read_turning(straight, mass=mass, lever=lever)
         return command(*args, turning=turning, **others)
 
-    return options(asked)
+    return options(with_turning)
 
 
 def _read_turning(
     straight: Path | None, *, mass: float | None, lever: float | None
 ) -> Turning | None:
-    """The options as one; refuses what would be ignored, and a log without a mass."""
+    """The three options as one object; None without --straight.
+
+    Raises:
+        UsageError: an option would be ignored, or --mass is missing.
+    """
     if straight is None:
         if mass is None and lever is None:
             return None
@@ -87,7 +92,7 @@ def _read_turning(
 def find_inertia(
     found: "Fit", log: "Log", turning: Turning | None, *, method: str
 ) -> "MomentOfInertia | None":
-    """The moment of inertia, from a turning fit and a straight log; None without such a log.
+    """The moment of inertia, from a turning fit and a straight log; None without ``turning``.
 
     Raises:
         Refusal: the log of going straight cannot be read or fitted, or no inertia follows from the
@@ -106,10 +111,10 @@ def find_inertia(
         )
     parts = PartReader(type="simple").read((turning.straight,))
     find = partial(find_gains, type="simple", method=method)
-    gone = fit_parts(parts, find).found
+    straight = fit_parts(parts, find).found
     wheels = any(doubt.code == "turning-drivetrain" for doubt in log.doubts)
     return compute_moment_of_inertia(
-        found, gone, mass=turning.mass, lever=turning.lever, by_wheels=wheels
+        found, straight, mass=turning.mass, lever=turning.lever, by_wheels=wheels
     )
 
 

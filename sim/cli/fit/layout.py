@@ -18,7 +18,7 @@ from sim.support.atomic_file import write_atomically
 SUFFIX = ".layout.json"  # in place of the log's .wpilog
 VERSION = "26.0.0"
 DOCUMENTATION, LINE_GRAPH = 0, 1  # types of a tab
-COLORS = ("#2b66a2", "#e5b31b", "#af2437", "#80588e")  # of its own list, which takes no others
+COLORS = ("#2b66a2", "#e5b31b", "#af2437", "#80588e")  # AdvantageScope accepts no others
 NO_CONVERSION = {"type": None, "factor": 1}
 
 
@@ -31,7 +31,7 @@ def write_layout(log: Path, tops: Sequence[str]) -> None:
     """Write an AdvantageScope layout beside a log, with tabs for velocities and residuals.
 
     Args:
-        log: what ``write_replay`` wrote.
+        log: path of the log that ``write_replay`` wrote.
         tops: the path above the entries of each part: ``/sysid/left``.
 
     Raises:
@@ -44,14 +44,14 @@ def write_layout(log: Path, tops: Sequence[str]) -> None:
         velocity = _line_graph(
             (f"{top}/measured/velocity", f"{top}/simulated/velocity"), (f"{top}/voltage",), texts
         )
-        left = _line_graph(
+        residual = _line_graph(
             (f"{top}/residual/velocity", f"{top}/innovation/velocity"),
             (f"{top}/residual/position", f"{top}/innovation/position"),
             texts,
         )
         tabs += [
             _tab(f"{name} velocity".strip(), LINE_GRAPH, velocity),
-            _tab(f"{name} residual".strip(), LINE_GRAPH, left),
+            _tab(f"{name} residual".strip(), LINE_GRAPH, residual),
         ]
     state = {
         "sidebar": {"width": 300, "expanded": ["/sysid", *(tops if len(tops) > 1 else ())]},
@@ -82,7 +82,7 @@ def _tab(title: str, kind: int, controller: dict[str, Any] | None) -> dict[str, 
 
 
 def _line_graph(left: Sequence[str], right: Sequence[str], texts: Sequence[str]) -> dict[str, Any]:
-    """The state of a line graph: numbers on its two axes, and texts as stripes."""
+    """The state of a line graph: numbers on its left and right axis, and texts as stripes."""
     colors = iter(COLORS)
     return {
         "leftSources": [_number(key, next(colors)) for key in left],

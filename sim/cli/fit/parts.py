@@ -1,7 +1,7 @@
-"""Alike parts of a robot that files hold: sides, modules, repetitions; each is fitted, then pooled.
+"""Equal parts of a robot: sides, modules or repetitions; each is fitted, then the fits are pooled.
 
-Files that hold one test each are joined. Files that hold whole recordings are parts of their own,
-as every motor is.
+Files that hold one test each are joined. A file with a whole recording is a part of its own, and so
+is every motor.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -20,8 +20,8 @@ Parts = Mapping[str, "Log"]  # name -> its log
 
 SIDE, MOTOR, FILE = "side", "motor", "file"
 SIDES = ("left", "right")
-SURELY = 3.0  # [standard errors] beyond which a difference is no accident of noise
-SHOWN = 4  # [parts] whose gains a sentence lists; of more, the lowest and the highest
+SIGNIFICANT = 3.0  # [standard errors] smaller differences can be noise
+MOST_LISTED = 4  # [parts] in a sentence; of more parts, it lists the lowest and the highest
 
 
 def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
@@ -43,20 +43,24 @@ def list_parts(logs: Sequence[tuple[Path, Parts]]) -> Parts:
     joined: dict[str, Log] = {}
     for _, motors in logs:
         for name, log in motors.items():
-            joined[name] = _joined(joined[name], log) if name in joined else log
+            joined[name] = _join_logs(joined[name], log) if name in joined else log
     return joined
 
 
 def join_parts(parts: Parts) -> "Log":
-    """All runs of all parts as one log for display; what several parts say is said once."""
+    """All runs of all parts as one log for display; a doubt about several parts appears once.
+
+    Args:
+        parts: the logs by the name of each part; at least one.
+    """
     first, *others = parts.values()
     for log in others:
-        first = _joined(first, log)
+        first = _join_logs(first, log)
     return first
 
 
-def _joined(first: "Log", other: "Log") -> "Log":
-    """The runs of two logs; what is said of both, but for the name of the file, is said once."""
+def _join_logs(first: "Log", other: "Log") -> "Log":
+    """The runs of two logs; doubts that differ only in the name of the file appear once."""
     said = {(one.code, one.message.replace(first.source, "")) for one in first.doubts}
     new = tuple(
         one for one in other.doubts if (one.code, one.message.replace(other.source, "")) not in said
@@ -69,7 +73,7 @@ class PooledParts:
     """The pooled fit of several parts, and the fit of each.
 
     Args:
-        found: the pooled fit, where the parts differ among its doubts.
+        found: the pooled fit; if the parts differ, one of its doubts says so.
         fits: the name of each part -> its own fit.
         notes: sentences about parts that agree.
     """
@@ -94,12 +98,12 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -
     """Fit every mechanism or side of a robot, compare the fits and pool them.
 
     Args:
-        parts: at least one.
-        find: fits one.
-        files: how many files they come from.
+        parts: the logs by the name of each part; at least one.
+        find: fits one log.
+        files: number of files that the parts come from.
 
     Raises:
-        Refusal: none of them can be fitted; the reason of the first.
+        Refusal: no part can be fitted; it gives the reason for the first.
     """
     from sim.fit.physics import compare_parts  # noqa: PLC0415 - --help must not wait for it
     from sim.fit.pooled import pool_fits  # noqa: PLC0415 - the same
@@ -113,7 +117,7 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -
             refused[name] = refusal
     if not fits:
         name = next(iter(refused))
-        raise _explained(refused[name], parts[name])
+        raise _add_unit_advice(refused[name], parts[name])
     found = pool_fits(fits)
     if len(parts) == 1:
         return PooledParts(found, fits)
@@ -126,18 +130,18 @@ def fit_parts(parts: Parts, find: Callable[["Log"], "Fit"], *, files: int = 1) -
         return PooledParts(replace(found, doubts=(*found.doubts, *left_out)), fits)
     differ = compare_parts(fits, kind)
     found = replace(found, doubts=(*found.doubts, *differ, *left_out))
-    return PooledParts(found, fits, () if differ else (_agree(fits, kind),))
+    return PooledParts(found, fits, () if differ else (_describe_agreement(fits, kind),))
 
 
 def _kind(parts: Parts, files: int) -> str:
-    """What the parts are: two sides, several motors, or several files."""
+    """The word for the parts: side, motor or file."""
     if set(map(str.lower, parts)) == set(SIDES):
         return SIDE
     return FILE if files > 1 and len(parts) >= files else MOTOR
 
 
-def _explained(refusal: Refusal, log: "Log") -> Refusal:
-    """The refusal of a log, with the advice about its units or velocity if they are doubted."""
+def _add_unit_advice(refusal: Refusal, log: "Log") -> Refusal:
+    """The refusal; if the log has a doubt about its units or velocity, with that advice."""
     for doubt in log.doubts:
         if doubt.code in {"velocity-scale", "contradicting-units"}:
             advice = doubt.message.removeprefix(f"{log.source}: ")
@@ -147,11 +151,11 @@ def _explained(refusal: Refusal, log: "Log") -> Refusal:
     return refusal
 
 
-def _agree(fits: Mapping[str, "Fit"], kind: str) -> str:
+def _describe_agreement(fits: Mapping[str, "Fit"], kind: str) -> str:
     """The sentence that parts agree, with the gains of each."""
     units = next(iter(fits.values())).log_units
     alike = {name: one.in_units(units) for name, one in fits.items()}
-    if len(alike) > SHOWN:
+    if len(alike) > MOST_LISTED:
         order = sorted(alike, key=lambda name: alike[name].gains["kV"])
         alike = {name: alike[name] for name in (order[0], order[-1])}
     gains = [
@@ -160,8 +164,8 @@ def _agree(fits: Mapping[str, "Fit"], kind: str) -> str:
     ]
     values = [one.gains["kV"] for one in fits.values()]
     apart = (max(values) - min(values)) / abs(sum(values) / len(values))
-    unsure = SURELY * max(one.errors["kV"] / abs(one.gains["kV"]) for one in fits.values())
-    agree = "agree within their errors" if apart <= unsure else f"agree within {apart:.1%}"
+    tolerance = SIGNIFICANT * max(one.errors["kV"] / abs(one.gains["kV"]) for one in fits.values())
+    agree = "agree within their errors" if apart <= tolerance else f"agree within {apart:.1%}"
     names = "Left and right" if kind == SIDE else f"All {len(fits)} {kind}s"
     some = f" ({' and '.join(alike)}:" if kind != SIDE else ":"
     end = ")." if kind != SIDE else "."

@@ -8,11 +8,13 @@ if TYPE_CHECKING:
     from sim.fit import Fit
 
 LANGUAGES = ("java", "python")  # WPILib's feedforward, in the robot program
-CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains that somebody else's code holds, in Java
+CONTROLLERS = ("phoenix6", "revlib", "yagsl")  # gains in a vendor's units, in Java
 
 
 def make_paste_text(found: "Fit", target: str, *, season: int) -> str:
-    """The text to print for ``--paste``; a radius counts only where the command was given one.
+    """The text to print for ``--paste``.
+
+    The radius is read from the current command's ``--radius``; its default value is not used.
 
     Args:
         found: the fit, in the unit of its log.

@@ -13,13 +13,25 @@ if TYPE_CHECKING:
     from sim.fit import Fit
     from sim.fit.physics import Parts
 
-MANY = 20_000  # samples: of a longer log the directions take seconds; only a page waits for them
+LONG = 20_000  # [samples] comparing the directions of a longer log takes seconds
 
 
 def read_motor_parts(
     name: str | None, *, count: int, ratio: float | None, radius: float, load: float | None
 ) -> "Parts | None":
-    """The motor, gearing and load that the options name; None without them."""
+    """The motor, gearing and load that the options name; None without ``--driven-by``.
+
+    Args:
+        name: of the motor, or None.
+        count: number of motors.
+        ratio: motor turns per turn of the output.
+        radius: of wheel or drum [m].
+        load: moved mass [kg] or moment of inertia [kg·m²].
+
+    Raises:
+        BadRequest: the motor is unknown.
+        UsageError: the ratio is missing.
+    """
     if name is None:
         return None
     from sim.fit.physics import Parts  # noqa: PLC0415 - only with --driven-by
@@ -37,10 +49,11 @@ def check_against_physics(
     """The fit with the doubts of the plausibility checks before its own, and its notes.
 
     Args:
-        found: the gains, in any unit.
-        log: where they come from.
-        parts: what the mechanism was built from; the gains of theory are then the first note.
-        notes: what is well, a sentence each.
+        found: the fit, in any unit.
+        log: what it was fitted to.
+        parts: motors, gearing and load of the mechanism, or None; with them, the theoretical gains
+            are the first note.
+        notes: sentences about checks that passed; they come last.
     """
     import numpy as np  # noqa: PLC0415 - --help must not wait for it
 
@@ -48,22 +61,28 @@ def check_against_physics(
 
     period = float(np.median(np.concatenate([np.diff(run.time) for run in log.runs])))
     doubts = check_plausibility(found, parts=parts, period=period)
-    return _doubted(found, *doubts, first=True), (*compare_with_theory(found, parts), *notes)
+    return _add_doubts(found, *doubts, first=True), (*compare_with_theory(found, parts), *notes)
 
 
 def compare_directions_alone(
-    found: "Fit", log: "Log", *, patient: bool
+    found: "Fit", log: "Log", *, include_long: bool
 ) -> "tuple[Fit, tuple[str, ...]]":
-    """The fit with a doubt where forward and reverse runs, fitted alone, disagree."""
+    """The fit, with a doubt if forward and reverse runs disagree when fitted alone; and notes.
+
+    Args:
+        found: the fit; only fits by simulation are compared.
+        log: what it was fitted to.
+        include_long: also compare the directions of a log of more than 20 000 samples.
+    """
     from sim.fit.physics import compare_directions  # noqa: PLC0415 - --help must not wait for it
 
     if found.method != METHODS[0]:
         return found, ()
-    if patient or sum(map(len, log.runs)) <= MANY:
-        return _doubted(found, *compare_directions(log, found.type)), ()
+    if include_long or sum(map(len, log.runs)) <= LONG:
+        return _add_doubts(found, *compare_directions(log, found.type)), ()
     return found, ("Forward and reverse were not compared: this log is long. --html does it.",)
 
 
-def _doubted(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":
+def _add_doubts(found: "Fit", *doubts: "Doubt", first: bool = False) -> "Fit":
     both = (doubts, found.doubts) if first else (found.doubts, doubts)
     return replace(found, doubts=tuple(doubt for part in both for doubt in part))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sim.fit import Fit
     from sim.inspect.fault import Damage
 
-TOP = "/sysid"  # above all entries
+TOP = "/sysid"  # path above all entries
 
 
 def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
@@ -53,7 +53,7 @@ def write_replay(found: "Fit", parts: "Mapping[str, Log]", path: Path) -> None:
 
 
 def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[SignalGroup]:
-    """Groups for each run that is long enough to be simulated."""
+    """The entries of each run that is long enough to be simulated."""
     faults = inspect(log).faults
     runs = [(k, run) for k, run in enumerate(log.runs) if len(run) >= FEWEST]
     for (k, run), replay in zip(runs, replay_fit(found, log), strict=False):
@@ -65,7 +65,7 @@ def _list_groups(found: "Fit", log: "Log", top: str, unit: Unit) -> Iterator[Sig
 def _make_group(
     replay: RunReplay, run: "Run", faults: "list[Damage]", top: str, unit: Unit
 ) -> SignalGroup:
-    """One run: signals, the name of its test, and its faults where they begin and end."""
+    """The entries of one run: signals, the name of its test, and start and end of its faults."""
     signals = {
         f"{top}/voltage": replay.run.voltage,
         f"{top}/measured/position": replay.run.position / unit.si,
@@ -84,7 +84,7 @@ def _make_group(
 
 
 def _innovation_groups(one: RunInnovations, top: str, unit: Unit) -> Iterator[SignalGroup]:
-    """The innovations of one run; positions and velocities need not be new at the same times."""
+    """The innovations of one run; positions and velocities can be measured at different times."""
     for name, time, values in (
         ("position", one.position_time, one.position),
         ("velocity", one.velocity_time, one.velocity),

@@ -1,4 +1,4 @@
-"""``sysid open``: a page in the browser that shows logs, fits them, and lets one move the gains."""
+"""``sysid open``: a page in the browser that shows and fits logs, with a slider for each gain."""
 
 import os
 import sys
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sim.cli.open.view import PageView
 
 
-# Of a command that serves the page.
+# Options of the commands that serve the page.
 page_options = combine_options(
     click.option(
         "--port",
@@ -55,10 +55,10 @@ def serve_page(
     """Serve the page until Ctrl-C, and print its address.
 
     Args:
-        files: that are open from the beginning.
+        files: the logs to open at the start.
         view: what the page shows of them.
-        port: on this machine; 0 takes a free one.
-        no_browser: print the address only.
+        port: port on this machine; 0 takes a free one.
+        no_browser: only print the address.
 
     Raises:
         BadRequest: the port is taken, or there are too many files.
@@ -81,6 +81,6 @@ def serve_page(
 
 
 def open_browser(address: str) -> None:
-    """Show an address in the person's browser, unless the environment says there is none."""
+    """Show an address in the user's browser, unless the variable BROWSER is ``none``."""
     if os.environ.get("BROWSER") != "none":
         threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

@@ -1,4 +1,4 @@
-"""A log for the page, as plain data: runs, faults, gains with their doubts.
+"""The data of a log that the page shows: runs, faults, and gains with their doubts.
 
 Samples are in SI; gains and their unit are those of the log, with the factor between both.
 """
@@ -23,18 +23,18 @@ if TYPE_CHECKING:
     from sim.io.entries.entry import Entry
 
 SIGNALS = ("time", "voltage", "position", "velocity")
-MOST_ENTRIES = 400  # that are listed to choose from
-PICTURE = 120  # points of an entry's picture
-LONGEST_UNIT = 40  # [characters] longer metadata is no unit
-LAGS = 1e-5  # [s] a shorter lag is none
-FEWEST = 4  # [samples] a shorter run is no test, and is not simulated
+MOST_ENTRIES = 400  # entries listed to choose from
+PICTURE = 120  # [points] of an entry's small plot
+LONGEST_UNIT = 40  # [characters] longer metadata is not a unit
+LAGS = 1e-5  # [s] a shorter lag is shown as 0
+FEWEST = 4  # [samples] shorter runs are not simulated
 
 
 def describe_log(one: "OpenLog", reading: "Reading", *, doubts: bool = True) -> dict[str, Any]:
     """Name, unit, type and runs of a log, with its doubts if wanted.
 
     Raises:
-        Refusal: it cannot be read in this way.
+        Refusal: the log cannot be read with these options.
     """
     from sim.physics.engine import engine_can_compile, engine_is_cached  # noqa: PLC0415 - once needed
 
@@ -149,13 +149,16 @@ def describe_directions(one: "OpenLog", reading: "Reading") -> dict[str, Any]:
     from sim.cli.fit.plausibility import compare_directions_alone  # noqa: PLC0415 - once it is needed
 
     found = one.fit(reading).found
-    doubted, notes = compare_directions_alone(found, one.combine_runs(reading), patient=False)
+    doubted, notes = compare_directions_alone(found, one.combine_runs(reading), include_long=False)
     more = [doubt for doubt in doubted.doubts if doubt not in found.doubts]
     return {"doubts": _doubts(more, one), "notes": list(notes)}
 
 
 def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
-    """Where and how fast each run begins in simulation, and the noise of the velocity [SI]."""
+    """Simulated position and velocity at the start of each run, and velocity noise, in SI.
+
+    A run that is not simulated has None; the velocity noise is None if no run is simulated.
+    """
     from sim.fit.replay import replay_fit  # noqa: PLC0415 - simulates
 
     try:
@@ -165,22 +168,22 @@ def _describe_starts(found: "Fit", log: "Log") -> dict[str, Any]:
     starts: list[dict[str, float] | None] = []
     noise = None
     for run in log.runs:
-        again = next(replays, None) if len(run) >= FEWEST else None
-        noise = again.velocity_noise if again is not None else noise
+        replay = next(replays, None) if len(run) >= FEWEST else None
+        noise = replay.velocity_noise if replay is not None else noise
         starts.append(
             None
-            if again is None
+            if replay is None
             else {
-                "first": len(run) - len(again.run),
-                "position": float(again.position[0]),
-                "velocity": float(again.velocity[0]),
+                "first": len(run) - len(replay.run),
+                "position": float(replay.position[0]),
+                "velocity": float(replay.velocity[0]),
             }
         )
     return {"starts": starts, "noise": noise}
 
 
 def write_code(one: "OpenLog", reading: "Reading", query: Mapping[str, str]) -> dict[str, str]:
-    """Robot code for the gains of a log, or for those that a person moved away from them.
+    """Robot code for the gains of a log, or for values that the user set with the sliders.
 
     Raises:
         Refusal: the log cannot be fitted, or its gains cannot be written as code.
@@ -193,7 +196,9 @@ def write_code(one: "OpenLog", reading: "Reading", query: Mapping[str, str]) -> 
     found = one.fit(reading).found.in_log_units()
     moved = {name: float(query[name]) for name in found.gains if _is_number(query.get(name, ""))}
     errors = {name: error for name, error in found.errors.items() if name not in moved}
-    found = replace(found, gains={**found.gains, **moved}, errors=errors)  # a hand has no error
+    found = replace(
+        found, gains={**found.gains, **moved}, errors=errors
+    )  # a value set by hand has no standard error
     code = write_robot_code(found, language=language, season=int(season))
     if moved:
         code = (
@@ -229,7 +234,7 @@ def write_report(one: "OpenLog", reading: "Reading") -> str:
 
 
 def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
-    """Entries that can be signals, each with a small picture: numbers first, then texts."""
+    """Entries that can be signals, each with points for a small plot; numbers first, then texts."""
     found = [one for one in entries if one.type in (*NUMBERS, STRING) and len(one)]
     found.sort(key=lambda one: (one.type == STRING, one.name))
     return [
@@ -238,20 +243,23 @@ def describe_entries(entries: "Sequence[Entry]") -> list[dict[str, Any]]:
             "text": one.type == STRING,
             "unit": one.metadata if len(one.metadata) <= LONGEST_UNIT else "",
             "samples": len(one),
-            "picture": [] if one.type == STRING else _thin(one.numbers()),
+            "picture": [] if one.type == STRING else _decimate(one.numbers()),
         }
         for one in found[:MOST_ENTRIES]
     ]
 
 
-def _thin(values: "Array") -> list[float]:
-    """Some of the values, from first to last; what is no number is left out."""
+def _decimate(values: "Array") -> list[float]:
+    """Every n-th value, 120 to 240 of a long entry; values that are not finite are left out."""
     step = max(1, values.size // PICTURE)
     return [float(f"{value:.4g}") for value in values[::step].tolist() if math.isfinite(value)]
 
 
 def describe_refusal(refusal: Refusal, folder: str) -> dict[str, str]:
-    """An error as plain data: what went wrong, where, and what to do; without our folder."""
+    """An error as plain data: what went wrong, where, and what to do.
+
+    The temporary folder of the session is removed from the file's path.
+    """
     where = refusal.where.partition(folder)[2] or refusal.where
     place = where.replace("\\", "/").rpartition("/")[2]
     kind = type(refusal).__name__
@@ -266,10 +274,10 @@ def _doubts(doubts: Sequence[Doubt], one: "OpenLog") -> list[dict[str, Any]]:
 
 
 def _without_path(text: str, one: "OpenLog") -> str:
-    """A message that names the file as the page shows it."""
+    """A message in which the file's path is replaced by the name that the page shows."""
     return text.replace(str(one.path), one.name)
 
 
 def _finite(value: float) -> float | None:
-    """A number that JSON knows."""
+    """The value, or None if it is not finite, which JSON cannot hold."""
     return value if math.isfinite(value) else None

@@ -1,4 +1,4 @@
-"""A search for missing effects that runs while the page waits: how far it is, and the story."""
+"""A search for missing effects that runs in the background: its progress and its story."""
 
 import math
 import threading
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from sim.core.log import Log
     from sim.reconcile import Story
 
-PLACES = 5  # where the base model disagrees most, that are told
+PLACES = 5  # places listed where the base model's residual is largest
 
 
 class ReconcileJob:
@@ -20,8 +20,8 @@ class ReconcileJob:
 
     Args:
         read: reads the log.
-        name: of its file, as it is shown.
-        type: of the mechanism; None believes the file.
+        name: name of its file, as the page shows it.
+        type: type of the mechanism; None takes the one in the file.
     """
 
     def __init__(self, read: "Callable[[], Log]", *, name: str, type: str | None) -> None:  # noqa: A002 - the field's own word
@@ -61,7 +61,7 @@ class ReconcileJob:
             self._story = describe_story(story)
         except Refusal as refusal:
             self._refusal = refusal
-        except Exception as error:  # noqa: BLE001 - a mistake of ours must not leave the page waiting
+        except Exception as error:  # noqa: BLE001 - a bug must not leave the page waiting
             self._refusal = Refusal(
                 f"our mistake, not yours ({type(error).__name__}: {error})",
                 where=self._name,

@@ -1,6 +1,6 @@
-"""The server of the page: on this machine alone, for this session alone.
+"""The HTTP server of the page, for this machine and this session only.
 
-It listens on 127.0.0.1. A request that names another host, or that a page of elsewhere makes, is
+It listens on 127.0.0.1. A request that names another host, or comes from another site's page, is
 refused, so that no site can reach it through the browser (DNS rebinding, cross-site requests). Its
 address holds a random word, so that other users of the machine cannot read the logs.
 
@@ -24,7 +24,7 @@ from sim.io.entries.entry import NEEDED
 from sim.io.format import LARGEST_FILE
 
 PAGE = Path(__file__).with_name("page")
-ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # of the page, too
+ENGINE = Path(__file__).parents[2] / "physics" / "engine" / "simulate.js"  # the page uses it, too
 KINDS = {
     ".html": "text/html; charset=utf-8",
     ".css": "text/css; charset=utf-8",
@@ -39,9 +39,9 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
-RAW = ("summary", "entries", "samples")  # what a page may ask that shows the data alone
-PIECE = 2**20  # [bytes] that are read at a time
-PATIENCE = 30.0  # [s] for the rest of a request that has begun
+RAW = ("summary", "entries", "samples")  # requests allowed with --raw, which shows the data alone
+PIECE = 2**20  # [bytes] read at a time
+TIMEOUT = 30.0  # [s] to wait for the rest of a request
 
 
 class PageServer(ThreadingHTTPServer):
@@ -49,7 +49,7 @@ class PageServer(ThreadingHTTPServer):
 
     Args:
         session: the logs that are open.
-        port: on this machine; 0 takes a free one.
+        port: port on this machine; 0 takes a free one.
 
     Raises:
         BadRequest: the port is taken.
@@ -90,7 +90,7 @@ class PageRequest(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     server_version = "sysid"
     sys_version = ""
-    timeout = PATIENCE
+    timeout = TIMEOUT
 
     def do_GET(self) -> None:
         """Send a file of the page, or data about a log."""
@@ -108,7 +108,7 @@ class PageRequest(BaseHTTPRequestHandler):
         """Print nothing: the terminal is for the address."""
 
     def _answer(self, method: Callable[[list[str], Mapping[str, str]], None]) -> None:
-        """Answer a request; whatever goes wrong is said to the page, and the server goes on."""
+        """Answer a request; an error is sent to the page, and the server keeps running."""
         try:
             address = urlsplit(self.path)
             steps = address.path.strip("/").split("/")
@@ -131,7 +131,7 @@ class PageRequest(BaseHTTPRequestHandler):
             self._send_json({"refusal": said}, HTTPStatus.INTERNAL_SERVER_ERROR)
 
     def _is_ours(self) -> bool:
-        """Whether our own page asks, by our own name."""
+        """Whether the Host and Origin headers are those of our own page."""
         hosts = self.server.hosts
         origin = self.headers.get("Origin")
         return self.headers.get("Host") in hosts and (
@@ -181,7 +181,11 @@ class PageRequest(BaseHTTPRequestHandler):
         return self.server.session.find(int(number) if number.isdecimal() else 0)
 
     def _send_of_log(self, one: OpenLog, what: str, query: Mapping[str, str]) -> None:
-        """What the page asks about one log."""
+        """Answer a request about one log.
+
+        Raises:
+            Refusal: the log cannot be read or fitted, or the page shows the data alone.
+        """
         session = self.server.session
         chosen = tuple((one, query[one]) for one in (*NEEDED, "state") if query.get(one))
         reading = Reading(query.get("units") or None, query.get("type") or None, chosen)
@@ -197,7 +201,7 @@ class PageRequest(BaseHTTPRequestHandler):
             self._send_findings(one, reading, what, query)
 
     def _send_data(self, one: OpenLog, reading: Reading, what: str) -> None:
-        """The data of a log."""
+        """Send the summary, the entries or the samples of a log."""
         if what == "summary":
             doubts = not self.server.session.view.raw
             self._send_json(page_data.describe_log(one, reading, doubts=doubts))
@@ -210,7 +214,7 @@ class PageRequest(BaseHTTPRequestHandler):
     def _send_findings(
         self, one: OpenLog, reading: Reading, what: str, query: Mapping[str, str]
     ) -> None:
-        """What is found out of a log."""
+        """Send the results computed from a log: faults, gains, effects, code or report."""
         match what:
             case "faults":
                 found = page_data.describe_faults(one.inspect(reading), one)
@@ -232,7 +236,8 @@ class PageRequest(BaseHTTPRequestHandler):
         """Write the body of a request into a file.
 
         Raises:
-            BadRequest: it has no length, or is too large.
+            BadRequest: the body has no length, or is too large.
+            ConnectionAbortedError: the body ends early.
         """
         length = self.headers.get("Content-Length", "")
         if not length.isdecimal():
@@ -263,7 +268,7 @@ class PageRequest(BaseHTTPRequestHandler):
             self.close_connection = True
 
     def _send_file(self, name: str) -> None:
-        """A file of the page; the folder is listed, so no path leads out of it."""
+        """Send a file of the page; only names of files in its folder are accepted."""
         files = {path.name: path for path in [*PAGE.iterdir(), ENGINE] if path.suffix in KINDS}
         if name in files:
             self._send(files[name].read_bytes(), KINDS[files[name].suffix])
@@ -275,14 +280,14 @@ class PageRequest(BaseHTTPRequestHandler):
         self._send(content, "application/json", status=status)
 
     def _refuse(self, status: HTTPStatus, what: str) -> None:
-        self.close_connection = True  # a body that came along is not read
+        self.close_connection = True  # the request's body, if any, is not read
         said = {"what": what, "where": "", "advice": "Open the address that sysid open printed."}
         self._send_json({"refusal": said}, status)
 
     def _send(
         self, content: bytes, kind: str, *, status: HTTPStatus = HTTPStatus.OK, page: bool = False
     ) -> None:
-        """Send a whole answer; ``page`` is one of our reports, which brings a policy of its own."""
+        """Send a whole answer; a report (``page``) has a Content-Security-Policy of its own."""
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(content)))

@@ -1,4 +1,4 @@
-"""The logs that are open on the page: read, inspected and fitted, each once."""
+"""The logs that are open on the page, with cached results of reading, inspecting and fitting."""
 
 import re
 import shutil
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 Result = TypeVar("Result")
 
-MOST_LOGS = 64  # open at a time: more of them nobody compares
+MOST_LOGS = 64  # open at a time
 LONGEST_NAME = 120  # [characters] of a file's name
 
 
@@ -31,9 +31,9 @@ class Reading:
     """Options with which a log is read.
 
     Args:
-        units: of its positions; None believes the file.
-        type: of the mechanism; None believes the file.
-        entries: signal and the entry that a person chose for it; others are looked for by name.
+        units: unit of its positions; None takes the one in the file.
+        type: type of the mechanism; None takes the one in the file.
+        entries: (signal, entry) for each entry that the user chose; the others are found by name.
     """
 
     units: str | None = None
@@ -52,7 +52,7 @@ class LiveView:
     """Status and logs of a source that ``sysid watch`` follows on the page.
 
     Args:
-        status: what it follows, or waits for.
+        status: what the command follows, or waits for.
         counts: each of the four tests -> how many runs of it there are.
         advice: what to do next; empty before the first test has ended.
     """
@@ -66,14 +66,14 @@ class LiveView:
 class OpenLog:
     """One file that is open on the page.
 
-    What is computed is kept, and computed once even where several requests ask at a time.
+    Each result is computed once, even if several requests need it at the same time.
 
     Args:
-        number: from 1.
-        name: of the file, as it is shown.
-        path: where it lies.
-        revision: how many times tests have ended in it while it grew; 0 for a file at rest.
-        finished: the logs of the tests that have ended in it; None for a file at rest.
+        number: identifies the log in the session, from 1.
+        name: name of the file, as the page shows it.
+        path: path of the file.
+        revision: number of updates of a file that grows; 0 for a file that does not.
+        finished: the logs of the tests that have ended in it; None for a file that does not grow.
     """
 
     number: int
@@ -81,14 +81,14 @@ class OpenLog:
     path: Path
     revision: int = 0
     finished: "Mapping[str, Log] | None" = None
-    _kept: dict[Hashable, Any] = field(default_factory=dict)
+    _results: dict[Hashable, Any] = field(default_factory=dict)
     _locks: dict[Hashable, threading.Lock] = field(default_factory=dict)
 
     def read_parts(self, reading: Reading) -> "dict[str, Log]":
         """The log of each mechanism, side or motor by its name.
 
         Raises:
-            Refusal: the file cannot be read in this way.
+            Refusal: the file cannot be read with these options.
         """
 
         def read() -> "dict[str, Log]":
@@ -104,7 +104,7 @@ class OpenLog:
             )
             return dict(reader.read([self.path]))
 
-        return self._once(("parts", reading), read)
+        return self._compute_once(("parts", reading), read)
 
     def combine_runs(self, reading: Reading) -> "Log":
         """All runs of all mechanisms in the file as one log.
@@ -114,17 +114,17 @@ class OpenLog:
         """
         from sim.cli.fit.parts import join_parts  # noqa: PLC0415 - with the formats
 
-        return self._once(("log", reading), lambda: join_parts(self.read_parts(reading)))
+        return self._compute_once(("log", reading), lambda: join_parts(self.read_parts(reading)))
 
     def list_entries(self) -> "list[Entry]":
-        """The entries of the file, for a person who chooses signals.
+        """The entries of the file, for choosing signals.
 
         Raises:
-            Refusal: it cannot be read, or has no entries with names.
+            Refusal: the file cannot be read, or has no entries with names.
         """
         from sim.io import list_entries  # noqa: PLC0415 - reads formats
 
-        return self._once("entries", lambda: list_entries(self.path))
+        return self._compute_once("entries", lambda: list_entries(self.path))
 
     def inspect(self, reading: Reading) -> "Inspection":
         """The faults and warnings found in the log.
@@ -134,7 +134,7 @@ class OpenLog:
         """
         from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - once it is needed
 
-        return self._once(("faults", reading), lambda: inspect(self.combine_runs(reading)))
+        return self._compute_once(("faults", reading), lambda: inspect(self.combine_runs(reading)))
 
     def fit(self, reading: Reading) -> "PooledParts":
         """The gains, in the unit of the log.
@@ -149,7 +149,7 @@ class OpenLog:
 
             return fit_parts(self.read_parts(reading), partial(fit, type=reading.type or ""))
 
-        return self._once(("fit", reading), find)
+        return self._compute_once(("fit", reading), find)
 
     def reconcile(self, reading: Reading) -> "ReconcileJob":
         """The search for missing effects; the first call starts it."""
@@ -161,7 +161,7 @@ class OpenLog:
             entries = dict(reading.entries)
             return read(self.path, units=reading.units, type=reading.type, entries=entries)
 
-        return self._once(
+        return self._compute_once(
             ("reconcile", reading),
             lambda: ReconcileJob(read_file, name=self.name, type=reading.type),
         )
@@ -169,18 +169,22 @@ class OpenLog:
     def renew(self, finished: "Mapping[str, Log]", path: Path) -> None:
         """Replace the finished tests; results computed from fewer tests are dropped."""
         self.finished, self.path, self.revision = finished, path, self.revision + 1
-        self._kept = {}
+        self._results = {}
 
-    def _once(self, what: Hashable, make: Callable[[], Result]) -> Result:
-        """What was made before under this key, or what is made now; a refusal is kept, too."""
+    def _compute_once(self, what: Hashable, make: Callable[[], Result]) -> Result:
+        """The cached result of this key, computed if there is none; a refusal is cached, too.
+
+        Raises:
+            Refusal: ``make`` raised it, now or before.
+        """
         key = (self.revision, what)
         with self._locks.setdefault(key, threading.Lock()):
-            if key not in self._kept:
+            if key not in self._results:
                 try:
-                    self._kept[key] = make()
+                    self._results[key] = make()
                 except Refusal as refusal:
-                    self._kept[key] = refusal
-            found = self._kept[key]
+                    self._results[key] = refusal
+            found = self._results[key]
         if isinstance(found, Refusal):
             raise found
         kept: Result = found
@@ -191,8 +195,8 @@ class Session:
     """All files that are open, those named on the command line first.
 
     Args:
-        folder: of this session alone, where dropped files are written.
-        files: named on the command line.
+        folder: folder of this session, where dropped files are written.
+        files: the files named on the command line.
         view: what the page shows of them.
     """
 
@@ -220,11 +224,11 @@ class Session:
         """Open a file in this session.
 
         Args:
-            name: to show.
-            path: where it lies.
+            name: name that the page shows.
+            path: path of the file.
 
         Raises:
-            BadRequest: too many are open.
+            BadRequest: too many logs are open.
         """
         with self._lock:
             if len(self._logs) >= MOST_LOGS:
@@ -234,15 +238,15 @@ class Session:
             return one
 
     def renew(self, key: Hashable, path: Path, finished: "Mapping[str, Log]") -> None:
-        """Show what has been recorded of a log that grows; one that was closed stays closed.
+        """Show the finished tests of a log that grows; a log that was closed stays closed.
 
         Args:
-            key: what it is known by, whatever its name.
-            path: where it lies now.
+            key: identifies the log, also when its file is renamed.
+            path: path of the file now.
             finished: the logs of the tests that have ended in it.
 
         Raises:
-            BadRequest: too many are open.
+            BadRequest: too many logs are open.
         """
         if key not in self._growing:
             self._growing[key] = self.add(path.name, path).number
@@ -263,7 +267,7 @@ class Session:
         """Look up an open log by its number.
 
         Raises:
-            BadRequest: it is not open.
+            BadRequest: no log of this number is open.
         """
         with self._lock:
             found = self._logs.get(number)
@@ -272,7 +276,7 @@ class Session:
         return found
 
     def close(self, number: int) -> None:
-        """Forget a log, and remove its file if it was dropped."""
+        """Close a log, and remove its file if it was dropped on the page."""
         with self._lock:
             one = self._logs.pop(number, None)
         if one is not None and one.path.is_relative_to(self.folder):
@@ -290,18 +294,18 @@ class Session:
 
         rng = np.random.default_rng(4)
         log = simulate(MECHANISMS["drivetrain"], Routine(), rng=rng)
-        spoiled = contaminate(
+        contaminated = contaminate(
             log, "encoder-slip", severity=1.0, test="quasistatic-forward", at=5.5, rng=rng
         )
         name, path = self.choose_place("example drivetrain.wpilog")
-        write(spoiled.log, path)
+        write(contaminated.log, path)
         return self.add(name, path)
 
     def import_reading(self) -> None:
         """Import the modules that read logs, once and in one thread.
 
-        Requests run in threads, and two threads that import modules which import one another can
-        find one of them half made.
+        Requests run in threads. If two threads import modules that import one another, one of them
+        can see a module that is only partly initialized.
         """
         with self._imports:
             import sim.cli.fit.parts  # noqa: PLC0415 - so that the address is printed at once

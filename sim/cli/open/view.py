@@ -1,4 +1,4 @@
-"""What the page shows of every log, and how spans that a person marks are written."""
+"""What the page shows of every log, and how marked time spans are written."""
 
 from dataclasses import dataclass, field
 
@@ -11,11 +11,11 @@ class SpanText:
     test with ``_`` for ``-``, ``{begin}`` and ``{end}`` in seconds since the test began.
 
     Args:
-        before: what comes first.
-        span: a span; those of several tests come one after another.
-        between: what stands between two of them.
-        after: what comes last.
-        hint: what to do with it, for the person.
+        before: text before the first span.
+        span: text of one span.
+        between: text between two spans.
+        after: text after the last span.
+        hint: tells the user what to do with the text.
     """
 
     before: str = ""
@@ -27,10 +27,10 @@ class SpanText:
 
 @dataclass(frozen=True)
 class PageView:
-    """Options of what the page shows of every log.
+    """What the page shows of every log.
 
     Args:
-        raw: the data alone: nothing is detected or fitted.
+        raw: show the data alone, without faults and fit.
         span_text: how marked spans are written.
     """
 

@@ -1,4 +1,4 @@
-"""``sysid watch``: the gains of a robot whose tests are still being run."""
+"""``sysid watch``: fit a log while the robot's tests are still running."""
 
 import json
 import sys
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from sim.cli.watch.live_fit import LiveFit, WatchUpdate
     from sim.cli.watch.recordings import Source
 
-PAUSE = 0.2  # [s] between looks; a program of WPILib writes its log out four times a second
+PAUSE = 0.2  # [s] between polls; a WPILib program writes its log to disk four times a second
 
 
 @click.command()
@@ -76,10 +76,10 @@ def watch(
     reader = PartReader(
         units, type_, motor, entries, None if ignore_velocity else velocity_scale, pick
     )
-    with ExitStack() as ends:
-        source = _open_source(place, nt=nt, save=save, state=entries["state"], ends=ends)
+    with ExitStack() as stack:
+        source = _open_source(place, nt=nt, save=save, state=entries["state"], stack=stack)
         live = LiveFit(source, reader.read_file, type=type_ or "")
-        session = _open_page(port, ends=ends, no_browser=no_browser) if page else None
+        session = _open_page(port, stack=stack, no_browser=no_browser) if page else None
         if not as_json:
             click.echo(f"Run {', '.join(FOUR_TESTS)}, in any order.\nCtrl-C here ends it.")
             sys.stdout.flush()
@@ -92,12 +92,12 @@ def watch(
 
 
 def _open_source(
-    place: Path | None, *, nt: str | None, save: Path | None, state: str | None, ends: ExitStack
+    place: Path | None, *, nt: str | None, save: Path | None, state: str | None, stack: ExitStack
 ) -> "Source":
-    """What is to be followed; it is closed with the stack.
+    """The source to follow: a file, a folder or NetworkTables; the stack closes it.
 
     Raises:
-        Refusal: it is not there, or needs a package that is not.
+        Refusal: the source does not exist, or needs a package that is not installed.
     """
     if place is not None:
         from sim.cli.watch.recordings import FileSource  # noqa: PLC0415 - reads formats
@@ -105,13 +105,13 @@ def _open_source(
         return FileSource(place, state=state)
     from sim.cli.watch.network_tables import NetworkTablesSource  # noqa: PLC0415 - only with --nt
 
-    folder = save or _make_temporary_folder("sysid-watch-", ends)
+    folder = save or _make_temporary_folder("sysid-watch-", stack)
     source = NetworkTablesSource(nt or "", folder=folder, state=state)
-    ends.callback(source.close)
+    stack.callback(source.close)
     return source
 
 
-def _open_page(port: int, *, ends: ExitStack, no_browser: bool) -> "Session":
+def _open_page(port: int, *, stack: ExitStack, no_browser: bool) -> "Session":
     """Serve the page of `sysid open` until the stack is closed.
 
     Raises:
@@ -120,11 +120,11 @@ def _open_page(port: int, *, ends: ExitStack, no_browser: bool) -> "Session":
     from sim.cli.open.server import PageServer  # noqa: PLC0415 - only with --page
     from sim.cli.open.session import LiveView, Session  # noqa: PLC0415 - the same
 
-    session = Session(_make_temporary_folder("sysid-open-", ends))
+    session = Session(_make_temporary_folder("sysid-open-", stack))
     session.live = LiveView("starting", dict.fromkeys(FOUR_TESTS, 0))
-    server = ends.enter_context(PageServer(session, port=port))
+    server = stack.enter_context(PageServer(session, port=port))
     threading.Thread(target=server.serve_forever, daemon=True).start()
-    ends.callback(server.shutdown)
+    stack.callback(server.shutdown)
     click.echo(f"The page is at {server.address}", err=True)
     session.import_everything()
     if not no_browser:
@@ -132,13 +132,13 @@ def _open_page(port: int, *, ends: ExitStack, no_browser: bool) -> "Session":
     return session
 
 
-def _make_temporary_folder(prefix: str, ends: ExitStack) -> Path:
+def _make_temporary_folder(prefix: str, stack: ExitStack) -> Path:
     temporary = tempfile.TemporaryDirectory(prefix=prefix, ignore_cleanup_errors=True)
-    return Path(ends.enter_context(temporary))
+    return Path(stack.enter_context(temporary))
 
 
 def _load_fit() -> None:
-    """Load what the first fit needs, the compiled engine meanwhile."""
+    """Import the modules of the first fit, and load the compiled engine in a thread."""
     import sim.fit.output_error  # noqa: PLC0415 - that is the point of it
     import sim.inspect.detect_faults  # noqa: PLC0415 - the same
     import sim.report.next_test  # noqa: F401, PLC0415 - the same
@@ -148,7 +148,7 @@ def _load_fit() -> None:
 
 
 def _follow(live: "LiveFit", session: "Session | None", *, as_json: bool) -> None:
-    """Look again and again; only an exception ends it."""
+    """Poll the source and show each update, until an exception ends it."""
     status = ""
     while True:
         update = live.poll()
@@ -167,7 +167,7 @@ def _follow(live: "LiveFit", session: "Session | None", *, as_json: bool) -> Non
 
 
 def _renew_page(session: "Session", live: "LiveFit") -> None:
-    """Show on the page what has ended since, and what to do next."""
+    """Show on the page the tests that have ended since the last call, and the advice."""
     from sim.cli.open.session import LiveView  # noqa: PLC0415 - only with --page
 
     for one in live.take_changed():
@@ -211,7 +211,7 @@ def _show_end(live: "LiveFit") -> None:
 
     preset = PRESETS["default"]
     found, _ = check_against_physics(update.pooled.found, update.log, parts=None)
-    found, notes = compare_directions_alone(found, update.log, patient=False)
+    found, notes = compare_directions_alone(found, update.log, include_long=False)
     tried = try_feedback_gains(found := found.in_log_units(), preset, own=None)
     found = replace(found, doubts=(*found.doubts, *warn_of_bad_suggestions(found, tried)))
     show_fit(

@@ -1,4 +1,4 @@
-"""The fit of a robot whose tests are still being run, renewed after each of them."""
+"""Fits the log of a robot while its tests are still running, again after each test."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from sim.core.log import Log
 if TYPE_CHECKING:
     from sim.cli.fit.parts import PooledParts
 
-GROWING = ("truncated", "unfinished-run")  # doubts that say no more than that a file still grows
+GROWING = ("truncated", "unfinished-run")  # doubts that only mean that the file still grows
 
 Reader = Callable[[Path], Mapping[str, Log]]
 
@@ -26,10 +26,10 @@ class WatchUpdate:
     Args:
         tests: those that have ended since the last update, in their order.
         parts: the logs of all parts so far, by name; empty where none can be read.
-        pooled: their fit, in the unit of the log; None where there is none yet.
-        refusal: why there is none; None if there is one.
+        pooled: their fit, in the unit of the log; None if there is none yet.
+        refusal: why there is no fit; None if there is one.
         advice: what to do next.
-        paths: the files they come from.
+        paths: the files that the logs come from.
     """
 
     tests: tuple[str, ...]
@@ -41,15 +41,15 @@ class WatchUpdate:
 
     @property
     def log(self) -> Log | None:
-        """All runs of all parts."""
+        """All runs of all parts as one log; None if there are none."""
         return join_parts(self.parts) if self.parts else None
 
     def to_json(self) -> dict[str, Any]:
-        """As ``sysid watch --json`` prints it."""
+        """The update as plain data, as ``sysid watch --json`` prints it."""
         from sim.report.gain_verdicts import write_gain_verdict  # noqa: PLC0415 - once it is needed
 
         log = self.log
-        said: dict[str, Any] = {
+        data: dict[str, Any] = {
             "tests": list(self.tests),
             "recorded": [] if log is None else [run.test for run in log.runs],
             "files": [str(path) for path in self.paths],
@@ -59,9 +59,9 @@ class WatchUpdate:
             "fit": None,
         }
         if self.pooled is not None:
-            said["fit"] = self.pooled.found.to_json()
-            said["verdict"] = write_gain_verdict(self.pooled.found, log)
-        return said
+            data["fit"] = self.pooled.found.to_json()
+            data["verdict"] = write_gain_verdict(self.pooled.found, log)
+        return data
 
 
 class LiveFit:
@@ -69,8 +69,8 @@ class LiveFit:
 
     Args:
         source: where the recordings come from.
-        read: reads a file, a log for each motor.
-        type: of the mechanism; empty takes what the log says.
+        read: reads a file; returns a log for each motor.
+        type: type of the mechanism; empty takes the one in the log.
     """
 
     def __init__(self, source: Source, read: Reader, *, type: str = "") -> None:  # noqa: A002 - the field's own word
@@ -89,7 +89,7 @@ class LiveFit:
         """The update since the last call; None if no test has ended.
 
         Raises:
-            Refusal: what is followed is no log, or several entries name the same tests.
+            Refusal: a file is not a log, or several entries name the same tests.
         """
         recordings = tuple(self.source.poll())
         refusals: list[Refusal] = []
@@ -100,7 +100,7 @@ class LiveFit:
         return self.last
 
     def _follow(self, one: Recording, refusals: list[Refusal]) -> list[str]:
-        """Read a recording anew if tests in it have ended; their names."""
+        """Read a recording again if tests in it have ended; the names of these tests."""
         try:
             tests = one.growing.list_tests()
         except FileNotFoundError:  # it is being renamed, or was removed
@@ -119,8 +119,8 @@ class LiveFit:
     def _renew(
         self, recordings: Sequence[Recording], ended: tuple[str, ...], refusals: Sequence[Refusal]
     ) -> WatchUpdate:
-        """Fit and inspect all that is there."""
-        from sim.fit import fit  # noqa: PLC0415 - the command says where it is before it loads this
+        """Fit and inspect all recordings, and write the advice."""
+        from sim.fit import fit  # noqa: PLC0415 - the command prints its status before it loads this
         from sim.inspect.detect_faults import inspect  # noqa: PLC0415 - the same
         from sim.report.next_test import advise_next  # noqa: PLC0415 - the same
 
@@ -146,11 +146,11 @@ class LiveFit:
 
 
 def _drop_running(logs: Mapping[str, Log], *, since: float) -> dict[str, Log]:
-    """The logs without the run that goes on, and without doubts that only say so.
+    """The logs without the test that is still running, and without doubts that only say so.
 
     Args:
         logs: the log of each motor.
-        since: [s] when that run began; infinite if none goes on.
+        since: start of that test [s]; infinite if no test is running.
     """
     kept = {
         name: replace(

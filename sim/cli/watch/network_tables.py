@@ -1,7 +1,7 @@
-"""NetworkTables of a robot or a simulation, written down as logs while they come in.
+"""Records the NetworkTables of a robot or a simulation in log files while they arrive.
 
-What is followed is a file in the end, whoever writes it: every value that arrives is recorded with
-the robot's own time, counted from the beginning of the recording. So `sysid fit` reads the same
+The command follows these files, as it follows those of a robot: every value is recorded with the
+robot's own time, counted from the beginning of the recording. So `sysid fit` reads the same
 numbers from the same file later.
 
 NetworkTables sends a value when it changes, so a constant voltage comes once. Logs that hold only
@@ -23,27 +23,27 @@ from sim.io.entries.state import FILLERS
 from sim.io.formats.wpilog.signals import SignalRecorder
 
 TYPES = {"double": "double", "float": "float", "int": "int64", "boolean": "boolean", STRING: STRING}
-"""Type of a topic -> of an entry; arrays and structures hold no signal."""
-PORT = 5810  # of NetworkTables 4
-CUT = "interrupted"  # stands where a test began whose end nobody saw, and names no test
+"""Type of a topic -> type of its log entry; arrays and structures hold no signal."""
+PORT = 5810  # default port of NetworkTables 4
+CUT = "interrupted"  # replaces the name of a test whose end was not recorded
 LARGEST_TEAM = 25599  # 10.255.99.2
-"""The last team number that an address has room for."""
+"""The largest team number that fits into an address."""
 
 
 class NetworkTablesSource:
-    """Follows NetworkTables 4, a recording for each connection.
+    """Follows NetworkTables 4, and writes a recording for each connection.
 
-    A connection that was lost and a robot program that started again, which loses it too, begin a
-    new recording. The one before stays as it is. A test that was running then is not in it: its
-    first moment is marked as no test, and its samples stay in the file.
+    A lost connection, also by a restart of the robot program, ends a recording; the next connection
+    begins a new one. A test that was running then does not count: its name is replaced by one that
+    is no test, but its samples stay in the file.
 
     Args:
         address: ``localhost``, ``10.12.34.2``, either with ``:PORT``, or the number of a team.
-        folder: where the recordings are written; it is made.
-        state: the entry that names the tests; None looks for it.
+        folder: where the recordings are written; created if it does not exist.
+        state: the entry that names the tests; None finds it by name.
 
     Raises:
-        BadRequest: no pyntcore, or the folder or the address cannot be used.
+        BadRequest: pyntcore is not installed, or the folder or the address cannot be used.
     """
 
     def __init__(self, address: str, *, folder: Path, state: str | None = None) -> None:
@@ -54,7 +54,7 @@ class NetworkTablesSource:
         self._recordings: list[Recording] = []
         self._recorder: _TopicRecorder | None = None
         self._connected = False
-        self._since = 0  # [µs] of the robot's clock, when the connection began
+        self._since = 0  # [µs] robot's clock when the connection began
         self._client = _Client(self._ntcore, *self._server)
 
     @property
@@ -66,7 +66,7 @@ class NetworkTablesSource:
         return f"waiting for NetworkTables of {self._address}{again}"
 
     def poll(self) -> Sequence[Recording]:
-        """All recordings so far, with what has arrived since the last look."""
+        """All recordings so far, with the values that have arrived since the last call."""
         flags, lost = self._ntcore.EventFlags, False
         for event in self._client.poller.readQueue():
             if event.is_(flags.kConnected):
@@ -75,11 +75,11 @@ class NetworkTablesSource:
                 self._connected, lost = False, True
                 self._end_recording()
             elif isinstance(event.data, self._ntcore.TimeSyncEventData):
-                self._note_begin(event.data)
+                self._store_start(event.data)
             elif isinstance(event.data, self._ntcore.ValueEventData):
                 self._record(event.data.topic, event.data.value)
         if lost and not self._connected:
-            # a client drops values that are older than what it has, and a robot's clock begins anew
+            # a client drops values older than its latest, and a robot's clock restarts at zero
             self._client.close()
             self._client = _Client(self._ntcore, *self._server)
         if self._recorder is not None:
@@ -91,8 +91,8 @@ class NetworkTablesSource:
         self._end_recording()
         self._client.close()
 
-    def _note_begin(self, sync: Any) -> None:  # noqa: ANN401 - ntcore ships no types
-        """Note what the robot's clock said when the connection began."""
+    def _store_start(self, sync: Any) -> None:  # noqa: ANN401 - ntcore ships no types
+        """Store the robot's time at which the connection began."""
         if sync.valid and self._recorder is None:
             now = int(self._ntcore.Value.makeDouble(0.0).time())
             self._since = now + int(sync.serverTimeOffset)
@@ -103,7 +103,7 @@ class NetworkTablesSource:
             return
         name, time = topic.getName(), int(value.server_time())
         if self._recorder is None:
-            path = _free_path(self._folder)
+            path = _find_unused_path(self._folder)
             self._recorder = _TopicRecorder(path, since=self._since or time)
             self._recordings.append(Recording(path, state=self._state))
         self._recorder.record(name, kind, time, value.value(), topic.getProperties())
@@ -116,12 +116,12 @@ class NetworkTablesSource:
 
 
 class _Client:
-    """A client of NetworkTables that is sent every value of every topic.
+    """A client of NetworkTables that subscribes to every value of every topic.
 
     Args:
-        ntcore: the binding.
-        host: the server, or the number of a team.
-        port: of the server.
+        ntcore: the Python module of NetworkTables.
+        host: the server, or a team number.
+        port: port of the server.
     """
 
     def __init__(self, ntcore: Any, host: str, port: int) -> None:  # noqa: ANN401 - it ships no types
@@ -153,17 +153,16 @@ class _TopicRecorder:
 
     Args:
         path: the file.
-        since: [µs] of the robot's clock, when the recording begins; what was there before is
-            recorded as of then.
+        since: start of the recording by the robot's clock [µs]; older values get this time.
     """
 
     def __init__(self, path: Path, *, since: int) -> None:
         self._file = SignalRecorder(path)
         self._since = since
-        self._tests: dict[str, tuple[int, str]] = {}  # topic -> since when it names which test
+        self._tests: dict[str, tuple[int, str]] = {}  # topic -> (start [µs], test that it names)
 
     def record(self, name: str, kind: str, time: int, value: float | str, properties: Any) -> None:  # noqa: ANN401 - ntcore ships no types
-        """Write a value down, unless it names a test whose beginning nobody saw."""
+        """Write a value, unless it names a test that began before the recording."""
         if isinstance(value, str):
             test = find_test_name(value, fillers=FILLERS) or value
             if test in TESTS and time < self._since:
@@ -174,15 +173,15 @@ class _TopicRecorder:
         self._file.record(_entry_name(name), kind, self._count(time), value, metadata=metadata)
 
     def _count(self, time: int) -> int:
-        """[µs] since the recording began."""
+        """The time since the recording began [µs]."""
         return max(time - self._since, 0)
 
     def flush(self) -> None:
-        """Let others read what was recorded so far."""
+        """Write buffered values to the file, so that it can be read."""
         self._file.flush()
 
     def close(self) -> None:
-        """End the file, and mark the beginning of a test that was cut off."""
+        """Close the file, and replace the name of a test that was still running."""
         for name, (since, test) in self._tests.items():
             if test in TESTS:
                 self._file.record(_entry_name(name), STRING, since, CUT)
@@ -190,15 +189,15 @@ class _TopicRecorder:
 
 
 def _entry_name(topic: str) -> str:
-    """As WPILib's DataLogManager names a topic in a log."""
+    """The name that WPILib's DataLogManager gives to a topic in a log."""
     return f"NT:{topic}"
 
 
 def _import_ntcore() -> Any:  # noqa: ANN401 - ntcore ships no types
-    """The binding of NetworkTables.
+    """The Python module of NetworkTables.
 
     Raises:
-        BadRequest: it is not installed.
+        BadRequest: pyntcore is not installed.
     """
     try:
         import ntcore  # noqa: PLC0415 - an extra
@@ -212,10 +211,10 @@ def _import_ntcore() -> Any:  # noqa: ANN401 - ntcore ships no types
 
 
 def _split_address(address: str) -> tuple[str, int]:
-    """Host or team, and port.
+    """The host or team number, and the port, of an address.
 
     Raises:
-        BadRequest: it is none.
+        BadRequest: the text is not an address.
     """
     host, _, port = address.partition(":")
     if not re.fullmatch(r"[\w.-]+", host) or (port and not port.isdecimal()):
@@ -241,8 +240,8 @@ def _make_folder(folder: Path) -> None:
         ) from None
 
 
-def _free_path(folder: Path) -> Path:
-    """A name that no file in the folder has, the first of which is ``networktables-1.wpilog``."""
+def _find_unused_path(folder: Path) -> Path:
+    """The first path ``networktables-1.wpilog``, ``networktables-2.wpilog``, … without a file."""
     number = 1
     while (path := folder / f"networktables-{number}.wpilog").exists():
         number += 1

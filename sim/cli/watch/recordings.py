@@ -1,4 +1,4 @@
-"""Where tests come from while they are recorded: files that grow, one after another."""
+"""Sources of logs that are still being recorded: files that grow, one after another."""
 
 import math
 from collections.abc import Sequence
@@ -19,17 +19,17 @@ SECOND = 1e6  # [µs]
 
 
 class Recording:
-    """One file, from the start of a robot program or of a connection to its end.
+    """One file that grows, from the start of a robot program or of a connection to its end.
 
     Args:
-        path: of the file.
-        state: the entry that names the tests; None looks for it.
+        path: path of the file.
+        state: the entry that names the tests; None finds it by name.
     """
 
     def __init__(self, path: Path, *, state: str | None = None) -> None:
         self.growing = GrowingLog(path, state=state)
-        self.finished: tuple[RunInterval, ...] = ()  # its tests that have ended ...
-        self.logs: Mapping[str, Log] = {}  # ... and what was read of them, motor by motor
+        self.finished: tuple[RunInterval, ...] = ()  # the tests that have ended
+        self.logs: Mapping[str, Log] = {}  # the log of each motor with these tests
 
     @property
     def path(self) -> Path:
@@ -52,18 +52,18 @@ class Source(Protocol):
 
 
 class FileSource:
-    """A log that grows, or those that grow in a folder.
+    """A log that grows, or all logs that grow in a folder.
 
-    A program of WPILib begins a file when it starts, and renames it once a Driver Station tells it
-    the time, so a file is known by its number on the disk. In a folder only files count that grow
-    or appear after the first look: what lies there already is of another day.
+    A WPILib program creates a file when it starts, and renames it once a Driver Station sends the
+    time, so a file is identified by its device and inode number. In a folder, only files that
+    grow or appear after the start are followed; the others are from an earlier day.
 
     Args:
         place: a file or a folder.
-        state: the entry that names the tests; None looks for it.
+        state: the entry that names the tests; None finds it by name.
 
     Raises:
-        UnreadableFile: there is neither.
+        UnreadableFile: there is no such file or folder.
     """
 
     def __init__(self, place: Path, *, state: str | None = None) -> None:
@@ -94,7 +94,7 @@ class FileSource:
         for path, key, size in self._list():
             if key in self._known:
                 self._known[key].growing.path = path
-            elif self._sizes.get(key, -1) != size and self._counts(path):
+            elif self._sizes.get(key, -1) != size and self._is_followed(path):
                 self._begin(path, key)
         if self._recordings and self._recordings[-1].path.exists():
             last = self._recordings[-1]
@@ -103,10 +103,10 @@ class FileSource:
         return self._recordings
 
     def close(self) -> None:
-        """Do nothing: no file is kept open."""
+        """Do nothing: no file stays open."""
 
-    def _counts(self, path: Path) -> bool:
-        """Whether a file that is new to us goes on where the one before it ended."""
+    def _is_followed(self, path: Path) -> bool:
+        """Whether a new file is to be followed."""
         return self.place.is_dir() or path == self.place
 
     def _begin(self, path: Path, key: tuple[int, int]) -> None:
@@ -115,15 +115,15 @@ class FileSource:
         self._known[key] = recording
 
     def _list(self) -> list[tuple[Path, tuple[int, int], int]]:
-        """The logs beside one another: path, number on the disk, and size, the oldest first."""
+        """Path, identity and size [bytes] of each log in the folder, the oldest first."""
         folder = self.place if self.place.is_dir() else self.place.parent
         found = []
         for path in filter(_is_log, folder.iterdir()):
             try:
-                told = path.stat()
+                stat = path.stat()
             except OSError:  # it was renamed or removed since
                 continue
-            found.append((told.st_mtime_ns, path, (told.st_dev, told.st_ino), told.st_size))
+            found.append((stat.st_mtime_ns, path, (stat.st_dev, stat.st_ino), stat.st_size))
         return [(path, key, size) for _, path, key, size in sorted(found)]
 
 
@@ -132,15 +132,15 @@ def _is_log(path: Path) -> bool:
 
 
 def _identify(path: Path) -> tuple[int, int]:
-    """The number of a file on its disk, which a new name does not change."""
-    told = path.stat()
-    return told.st_dev, told.st_ino
+    """The device and inode number of a file, which stay the same when it is renamed."""
+    stat = path.stat()
+    return stat.st_dev, stat.st_ino
 
 
 def split_finished_tests(
     tests: Sequence[RunInterval],
 ) -> tuple[tuple[RunInterval, ...], float]:
-    """The tests that have ended, and when the one that runs began [s]; infinite if none runs."""
+    """The tests that have ended, and the start [s] of the running one; infinite if none runs."""
     finished = tuple(one for one in tests if one.end != FOREVER)
     running = [one.begin for one in tests if one.end == FOREVER]
     return finished, min(running) / SECOND if running else math.inf
