@@ -3,7 +3,7 @@
     write_page(report, "drive.html")
     write_picture(report, "drive.png")
 
-On the page every figure has its words and its numbers, and what is doubted stands above them all.
+On the page, every figure has a caption and a table of its numbers, and the doubts come first.
 """
 
 import os
@@ -39,12 +39,12 @@ class Report:
     """The content of a report: a fit, its log and its feedback trials.
 
     Args:
-        title: where the log came from.
+        title: names of the files.
         found: the fit, in the unit to show, with the doubts to show.
         log: what it was fitted to.
         preset: the motor controller that ``tried`` is for.
-        tried: feedback gains on trial; empty if there are none.
-        notes: what is well, a sentence each.
+        tried: simulated trials of feedback gains; empty if there are none.
+        notes: sentences about checks that passed.
     """
 
     title: str
@@ -61,7 +61,7 @@ class Report:
 
     @cached_property
     def runs(self) -> tuple[RunReplay, ...]:
-        """Every run, measured and simulated; none where these gains move nothing."""
+        """Every run, measured and simulated; empty if these gains cannot be simulated."""
         try:
             return replay_fit(self.found, self.log)
         except BadRequest:  # the doubts about the gains say why
@@ -69,27 +69,27 @@ class Report:
 
 
 def write_page(report: Report, path: str | os.PathLike[str]) -> None:
-    """Write the page, whole or not at all.
+    """Write the page as one file; if that fails, an existing file stays as it was.
 
     Raises:
-        BadRequest: its name does not end as a page's, or it cannot be written.
+        BadRequest: the name does not end in .html, or the file cannot be written.
     """
     target = choose_page_path(path)
     write_page_file(render_page(report), target)
 
 
 def write_picture(report: Report, path: str | os.PathLike[str]) -> None:
-    """Write all runs and the loops' step responses as one picture, whole or not at all.
+    """Write all runs and the loops' step responses as one picture.
 
     Raises:
-        BadRequest: its name ends in no kind of picture, it cannot be written, or there is nothing
-            to draw.
+        BadRequest: the file's name does not end in .png, .svg or .pdf, the file cannot be written,
+            or there is nothing to draw.
     """
     plot_fit_overview(report.runs, report.tried, per=report.position_unit).save(path)
 
 
 def render_page(report: Report) -> str:
-    """The page as text; the same fit always gives the same."""
+    """The page as HTML; the same report always gives the same text."""
     return (
         load_templates()
         .get_template("page.html.jinja")
@@ -123,4 +123,4 @@ def _messages(doubts: Sequence[Doubt], *, grave: bool) -> list[str]:
 
 
 def _html(picture: Picture) -> Markup:
-    return Markup(picture.html)  # noqa: S704 - a picture escapes what it says
+    return Markup(picture.html)  # noqa: S704 - a picture escapes its texts

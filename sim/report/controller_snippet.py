@@ -1,9 +1,9 @@
-"""Java for gains that a motor controller or a swerve library holds: Phoenix 6, REVLib, YAGSL.
+"""Java code with gains for a motor controller or a swerve library: Phoenix 6, REVLib, YAGSL.
 
     from sim.report.controller_snippet import write_controller_code
     print(write_controller_code(found, target="phoenix6", radius=0.0508))
 
-Each counts in a unit of its own, so kV and kA are converted where they are written down. Sources:
+Each target has its own unit of position, so the code converts kV and kA. Sources:
 the documentation of ``Slot0Configs`` in Phoenix 6 26.3 and of ``FeedForwardConfig`` in REVLib
 2026.0; for YAGSL, ``SwerveDrive.replaceSwerveModuleFeedforward``, which takes WPILib's class.
 """
@@ -35,7 +35,7 @@ class Conversion:
     Args:
         name: the Java constant that holds it.
         factor: its value; 1 needs no constant.
-        per: symbol of the target's unit.
+        per: symbol of the target's unit of position.
     """
 
     name: str
@@ -48,11 +48,11 @@ class Target:
     """A motor controller or a library that takes gains.
 
     Args:
-        name: as people say it, with the release it was checked against.
-        unit: ``rotations`` or ``meters`` that it counts in; empty takes the unit of the log.
-        imports: the Java classes that its lines need.
-        notes: what has to be set beside the gains, a line each.
-        build: the lines that hand the gains over.
+        name: its name, with the release it was checked against.
+        unit: its unit of position, ``rotations`` or ``meters``; empty takes the unit of the log.
+        imports: the Java classes that the code needs, from fit and season.
+        notes: comment lines about other settings that are needed.
+        build: the lines that set the gains.
     """
 
     name: str
@@ -70,17 +70,17 @@ def write_controller_code(
     Args:
         found: the fit, in the unit of its log.
         target: ``phoenix6``, ``revlib`` or ``yagsl``.
-        radius: [m] of wheel or drum; what lies between a length and a rotation.
+        radius: radius of wheel or drum [m], to convert between a length and a rotation.
         season: 2026 or 2027; only YAGSL's lines, which name a class of WPILib, depend on it.
-        name: what the mechanism is called; empty takes its type.
+        name: name of the mechanism; empty takes its type.
 
     Returns:
         The text, with a line break at its end. A gain is written as in the fit, times a constant
         that converts it.
 
     Raises:
-        BadRequest: an unknown target or season, a radius that is missing, a mechanism that the
-            target has no gains for, or gains that cannot be right.
+        BadRequest: an unknown target or season, a missing radius, a mechanism that the target has
+            no gains for, or gains that are physically impossible.
     """
     if target not in TARGETS:
         raise BadRequest(
@@ -129,10 +129,10 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
     Args:
         found: the fit.
         unit: ``rotations``, ``meters``, or empty for the unit of the fit.
-        radius: [m] of wheel or drum, or None.
+        radius: radius of wheel or drum [m], or None.
 
     Raises:
-        BadRequest: a radius is needed and missing, or is none.
+        BadRequest: a radius is needed, and is missing or not a positive number.
     """
     given = find_unit(found.units)
     if not unit:
@@ -146,12 +146,12 @@ def convert_units(found: Fit, unit: str, *, radius: float | None) -> Conversion:
             f"no radius between {given.name} and {wanted.name}",
             advice="Add --radius: the radius of the wheel or drum, in meters.",
         )
-    between = radius if wanted.angular else 1.0 / radius  # meters per radian, or the other way
+    between = radius if wanted.angular else 1.0 / radius  # [m/rad], or its inverse
     return Conversion(name, wanted.si * between / given.si, wanted.symbol)
 
 
 def _constants(found: Fit, converted: Conversion) -> Iterator[str]:
-    """The gains, each with its unit and its error in that unit."""
+    """The lines of the Java constants: the gains, each with its unit and standard error."""
     times = ""
     if converted.factor != 1.0:
         yield f"public static final double {converted.name} = {converted.factor!r};"

@@ -14,7 +14,7 @@ from sim.fit.feedback_trial import OWN, FeedbackTrial, format_gain_pair
 from sim.fit.result import Fit, format_gain_unit
 from sim.report.gain_verdicts import write_gain_verdict
 
-FINEST = 1e-4  # [share of a gain] carpet, battery and heat change it by more
+FINEST = 1e-4  # [1] relative error; carpet, battery and heat change a gain by more
 
 
 def show_fit(
@@ -26,15 +26,15 @@ def show_fit(
     tried: Sequence[FeedbackTrial] = (),
     notes: Sequence[str] = (),
 ) -> None:
-    """Print what is wrong, a verdict, gains with errors and units, feedback gains, and doubts.
+    """Print grave doubts, the verdict, gains with errors, feedback gains, notes and other doubts.
 
     Args:
         found: the fit, in the units to show.
         preset: the motor controller the feedback gains are for.
         title: the files it came from.
         log: what it was fitted to, for the advice in the verdict.
-        tried: feedback gains on trial, with their doubts among the fit's.
-        notes: what is well, a sentence each.
+        tried: simulated trials of feedback gains, whose doubts are among those of the fit.
+        notes: sentences about checks that passed.
     """
     console = Console(soft_wrap=True, highlight=False)
     per = find_unit(found.units)
@@ -79,7 +79,7 @@ def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
     return [
         (
             "angle" if name == "offset_rad" else name,
-            _digits(value, found.errors.get(name, math.nan)),
+            _round_to_error(value, found.errors.get(name, math.nan)),
             format_error(value, found.errors.get(name, math.nan)),
             format_gain_unit(name, per),
         )
@@ -88,7 +88,7 @@ def format_gains(found: Fit) -> list[tuple[str, str, str, str]]:
 
 
 def _show_trials(tried: Sequence[FeedbackTrial], per: Unit, console: Console) -> None:
-    """Print what feedback gains do in simulation, a line each."""
+    """Print the step response of each pair of feedback gains, a line each."""
     for trial in tried:
         step = f"{trial.response.target:.4g} {per.symbol}{'/s' * (trial.loop == 'velocity')}"
         if trial.owner != OWN and not trial.is_good:
@@ -109,8 +109,8 @@ def format_error(value: float, error: float) -> str:
     return f"< {FINEST:.2%} of it" if error < FINEST * abs(value) else f"{error:.2g}"
 
 
-def _digits(value: float, error: float) -> str:
-    """The value to the second digit of its error, three to six of its own."""
+def _round_to_error(value: float, error: float) -> str:
+    """The value, rounded to the second digit of its error, with three to six digits."""
     if not (math.isfinite(error) and error > 0.0 and value):
         return f"{value:.4g}"
     error = max(error, FINEST * abs(value))

@@ -1,4 +1,4 @@
-"""One sentence about which gains can be used, how sure they are, and what to record for the others.
+"""A sentence about which gains can be used, their errors, and what to record for the others.
 
 kV usable (± 0.3 %), kS usable (± 0.01 V), kA not usable (± 40 %): add a dynamic test.
 """
@@ -13,16 +13,16 @@ from sim.core.vocabulary import DIRECTIONS
 from sim.fit.result import Fit
 
 SHARES = {"kV": 0.05, "kA": 0.20}
-"""[share of the gain] one standard error up to which a gain can be used.
+"""Largest relative standard error [1] with which a gain can be used.
 
 A feedforward that is off by a twentieth leaves a twentieth of the speed to feedback; kA matters
 only while the speed changes.
 """
-VOLTS = 0.05  # [V] the same for kS and kG: less than what carpet and temperature change
-ANGLE = 0.05  # [rad] the same for an arm's angle
-STRAYS = {"model-strays", "low-simulated-r2"}  # doubts about all gains
+VOLTS = 0.05  # [V] largest standard error of a usable kS or kG; carpet and heat change them more
+ANGLE = 0.05  # [rad] largest standard error of a usable angle of an arm
+POOR_FIT = {"model-strays", "low-simulated-r2"}  # codes of doubts about all gains
 UNSURE_KA = {"fast-mechanism", "low-acceleration-r2", "slow-measurement", "stale-velocity"}
-SMALL_STEP = 3.0  # [V] a dynamic test below it hardly rises above friction
+SMALL_STEP = 3.0  # [V] in smaller dynamic tests, friction is large compared with the voltage
 
 
 def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
@@ -30,16 +30,16 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
 
     Args:
         found: the fit, in the unit to show.
-        log: what it was fitted to, for advice; None gives none.
+        log: what it was fitted to, for advice; None leaves the advice out.
     """
     if any(doubt.grave for doubt in found.doubts):
         return "Do not use these gains: something is wrong."
     usable: list[str] = []
     others: dict[str, list[str]] = {}
-    for name in sorted(found.gains, key=lambda name: name != "kV"):  # the surest first
-        said = _said(name, found.gains[name], found.errors.get(name, math.nan))
+    for name in sorted(found.gains, key=lambda name: name != "kV"):  # kV first
+        said = _format_error(name, found.gains[name], found.errors.get(name, math.nan))
         label = "angle" if name == "offset_rad" else name
-        if _usable(name, found.gains[name], found.errors.get(name, math.nan)):
+        if _is_usable(name, found.gains[name], found.errors.get(name, math.nan)):
             usable.append(f"{label} usable ({said})")
         else:
             advice = _advice(name, log) if log is not None else ""
@@ -48,13 +48,13 @@ def write_gain_verdict(found: Fit, log: Log | None = None) -> str:
         ", ".join(several) + (f": {what}" if what else "") for what, several in others.items()
     ]
     said = "; ".join([", ".join(usable), *groups] if usable else groups) + "."
-    return f"{said}{_caution(found, usable)}"
+    return f"{said}{_write_caution(found, usable)}"
 
 
-def _caution(found: Fit, usable: Sequence[str]) -> str:
+def _write_caution(found: Fit, usable: Sequence[str]) -> str:
     """A sentence if a warning says that usable gains may be wrong by more than their errors."""
     codes = {doubt.code for doubt in found.doubts}
-    if usable and codes & STRAYS:
+    if usable and codes & POOR_FIT:
         return " But a simulation with these gains does not follow the log well; read the warnings."
     if codes & UNSURE_KA and any(one.startswith("kA") for one in usable):
         return " But kA may be wrong by more than that; read the warnings."
@@ -71,12 +71,12 @@ def list_gain_advice(found: Fit, log: Log) -> tuple[str, ...]:
     unusable = [
         name
         for name, value in found.gains.items()
-        if not _usable(name, value, found.errors.get(name, math.nan))
+        if not _is_usable(name, value, found.errors.get(name, math.nan))
     ]
     return tuple(dict.fromkeys(_advice(name, log) for name in unusable))
 
 
-def _usable(name: str, value: float, error: float) -> bool:
+def _is_usable(name: str, value: float, error: float) -> bool:
     if not math.isfinite(error):
         return False
     if name in SHARES:
@@ -84,8 +84,8 @@ def _usable(name: str, value: float, error: float) -> bool:
     return error <= (ANGLE if name == "offset_rad" else VOLTS)
 
 
-def _said(name: str, value: float, error: float) -> str:
-    """One standard error, as a share where the gain has a size of its own."""
+def _format_error(name: str, value: float, error: float) -> str:
+    """One standard error: relative for kV and kA, else in V or rad."""
     if not math.isfinite(error):
         return "its error is not known"
     if name in SHARES:
@@ -98,7 +98,7 @@ def _said(name: str, value: float, error: float) -> str:
 
 
 def _one_digit(number: float) -> str:
-    """A number to its first digit, never with an exponent: 40, 3, 0.02."""
+    """A number rounded to one digit, without an exponent: 40, 3, 0.02."""
     return f"{float(f'{number:.1g}'):g}"
 
 

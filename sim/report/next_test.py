@@ -1,8 +1,8 @@
 """One sentence about what to do after a test: repeat it, run another one, or stop.
 
-What is wrong with the last run goes first, as it is repeated while the robot still stands there.
-Then come the tests that are missing, and then what the gains need. The faults are those of
-``sysid inspect``, the rest is that of the verdict.
+A fault of the last run comes first, because the test can be repeated at once. Then come missing
+tests, and then what the gains need. The faults are those of ``sysid inspect``; the advice about
+gains is that of the verdict.
 """
 
 import math
@@ -18,10 +18,10 @@ from sim.inspect.fault import Damage
 from sim.inspect.launch import find_step_start
 from sim.report.gain_verdicts import list_gain_advice
 
-SETTLES = 3.0  # [timescales] in which a step has almost reached its speed, as the lessons plan it
-FEWEST = 2  # [samples] for which a limit holds a voltage down
-FINE = 0.1  # [V] to which a step is advised
-TOO_SHORT = ("little-motion", "short-rise")  # what inspect doubts in a run, by code
+SETTLES = 3.0  # [time constants] after which a step has almost reached its final speed
+FEWEST = 2  # [samples] at reduced voltage that are taken as a limit
+FINE = 0.1  # [V] resolution of an advised step
+TOO_SHORT = ("little-motion", "short-rise")  # codes of doubts about a run
 ENOUGH = "Enough: every gain is usable."
 
 
@@ -30,17 +30,17 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
 
     Args:
         log: all runs so far, in the order they were recorded.
-        found: the fit of them; None where they cannot be fitted yet.
-        inspection: what is wrong with the log.
-        last: the tests that have ended since the advice before.
+        found: the fit of the log; None if it cannot be fitted yet.
+        inspection: faults and doubts of the log.
+        last: the tests that have ended since the last advice.
     """
     for test in last:
         index = max((k for k, run in enumerate(log.runs) if run.test == test), default=None)
         if index is None:
             return f"Repeat {test}: its log contains no motion."
-        said = _judge_run(index, log, found=found, inspection=inspection)
-        if said:
-            return said
+        problem = _judge_run(index, log, found=found, inspection=inspection)
+        if problem:
+            return problem
     missing = list_missing_tests(log)
     if missing:
         return f"{_enumerate(missing)} {'is' if len(missing) == 1 else 'are'} missing."
@@ -54,12 +54,12 @@ def advise_next(log: Log, *, found: Fit | None, inspection: Inspection, last: Se
 
 
 def list_missing_tests(log: Log) -> tuple[str, ...]:
-    """The tests of SysId's four of which a log has no run."""
+    """Those of SysId's four tests of which the log has no run."""
     return tuple(test for test in FOUR_TESTS if not log.list_runs_of_test(test))
 
 
 def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspection) -> str:
-    """Why a run has to be repeated, and how; empty if it need not."""
+    """Why and how a run has to be repeated; empty if it does not."""
     run = log.runs[index]
     faults = [one for one in inspection.faults if one.where.run == index]
     stop = next((one for one in faults if one.fault == "hard-stop"), None)
@@ -74,7 +74,7 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
         return (
             f"{run.test} met a current limit or a weak battery: for {lasts * 1000.0:.0f} ms the "
             f"motor got less than the step, {volts:.1f} V at first. Repeat it with "
-            f"{_below(volts):g} V."
+            f"{_round_down(volts):g} V."
         )
     for doubt in inspection.doubts:
         if doubt.code in TOO_SHORT and f"{run.test} " in doubt.message:
@@ -83,14 +83,14 @@ def _judge_run(index: int, log: Log, *, found: Fit | None, inspection: Inspectio
 
 
 def find_voltage_limit(run: Run) -> tuple[float, float] | None:
-    """Duration and first voltage of a limit at the start of a step; None without one.
+    """Duration and lowest voltage of a voltage limit at the start of a step; None without one.
 
-    The command of a step is constant. Where the voltage at the motor is lower at first, by as much
-    as would make a step of the command (``LEAST_STEP``), the current was limited or the battery
-    gave way. One low reading alone may have been taken while the step came on.
+    The command of a step is constant. If the voltage at the motor is lower at first, by at least
+    the share ``LEAST_STEP``, then the current was limited or the battery voltage dropped. A single
+    low reading does not count: it may have been taken while the voltage rose.
 
     Returns:
-        [s] and [V]; None where nothing held it down, or the run is no step.
+        Duration [s] and lowest voltage in it [V]; None without a limit, or if the run is no step.
     """
     if run.kind != "dynamic" or not len(run):
         return None
@@ -104,7 +104,7 @@ def find_voltage_limit(run: Run) -> tuple[float, float] | None:
 
 
 def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
-    """Advice for a step that ended at a stop: how soon, and a step that settles before it."""
+    """Advice for a step that ended at a hard stop: a smaller step that settles before it."""
     first = find_step_start(run)
     after = max(stop.where.start - float(run.time[first]), 0.0)
     most = float(np.abs(run.voltage).max())
@@ -113,19 +113,22 @@ def _repeat_within_travel(run: Run, stop: Damage, *, found: Fit | None) -> str:
     volts = min(volts, 0.5 * most) if not 0.0 < volts < most else volts
     return (
         f"{run.test} reached its end after {after * 1000.0:.0f} ms. Repeat it with "
-        f"{_below(volts):g} V, or let go earlier."
+        f"{_round_down(volts):g} V, or let go earlier."
     )
 
 
 def find_settled_step(gains: Mapping[str, float], way: float) -> float:
-    """[V] largest step that almost reaches its speed within a distance.
+    """The largest step [V] that almost reaches its final speed within a distance.
 
     From rest, x(t) = v·(t - τ·(1 - exp(-t/τ))) with τ = kA/kV and v = (V - kS)/kV, solved for V at
     t = ``SETTLES``·τ.
 
     Args:
-        gains: in SI.
-        way: [m or rad].
+        gains: kS, kV and kA in SI.
+        way: the distance [m or rad].
+
+    Returns:
+        The step; 0 if kV or kA is not positive.
     """
     kv, ka = gains["kV"], gains["kA"]
     if not (kv > 0.0 and ka > 0.0):
@@ -134,13 +137,13 @@ def find_settled_step(gains: Mapping[str, float], way: float) -> float:
     return max(gains["kS"], 0.0) + kv * way / reach
 
 
-def _below(volts: float) -> float:
-    """[V] the next lower step that one would type."""
+def _round_down(volts: float) -> float:
+    """The voltage [V] rounded down to a multiple of ``FINE``, at least ``FINE``."""
     return max(math.floor(volts / FINE + 1e-9) * FINE, FINE)
 
 
 def _enumerate(names: Sequence[str]) -> str:
-    """Names as a sentence lists them."""
+    """The names as a list in a sentence: ``a, b and c``."""
     return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 

@@ -16,23 +16,23 @@ FOLDER = Path(__file__).parent
 
 @cache
 def load_templates(folder: Path | None = None) -> Environment:
-    """The templates of this folder; what they are filled with is escaped.
+    """The page templates of this folder, with automatic escaping.
 
     Args:
-        folder: another one with more of them.
+        folder: a further folder with templates, which is searched first.
     """
     return Environment(
         loader=FileSystemLoader([folder or FOLDER, FOLDER], encoding="utf-8"),
         autoescape=True,
         undefined=StrictUndefined,
-        finalize=_shown,
+        finalize=_escape_control_characters,
         trim_blocks=True,
         lstrip_blocks=True,
     )
 
 
-def _shown(value: object) -> object:
-    """What a template shows; our own HTML, which is marked as such, stays as it is."""
+def _escape_control_characters(value: object) -> object:
+    """A value with control characters made visible; HTML marked as safe stays as it is."""
     return make_printable(value) if type(value) is str else value
 
 
@@ -40,7 +40,7 @@ def choose_page_path(path: str | os.PathLike[str]) -> Path:
     """The path that a page is written to.
 
     Raises:
-        BadRequest: its name does not end as a page's.
+        BadRequest: the name does not end in .html or .htm.
     """
     target = Path(path)
     if target.suffix.lower() not in PAGES:
@@ -53,7 +53,7 @@ def choose_page_path(path: str | os.PathLike[str]) -> Path:
 
 
 def write_page_file(text: str, target: Path, *, private: bool = False) -> None:
-    """Write a file, whole or not at all.
+    """Write a file; if that fails, an existing file stays as it was.
 
     Args:
         text: its content.
@@ -61,7 +61,7 @@ def write_page_file(text: str, target: Path, *, private: bool = False) -> None:
         private: whether only its owner may read it.
 
     Raises:
-        BadRequest: it cannot be written.
+        BadRequest: the file cannot be written.
     """
     try:
         write_atomically(target, text, private=private)

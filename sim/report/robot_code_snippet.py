@@ -1,9 +1,9 @@
 """Robot code for a fit's gains: constants, and WPILib's feedforward object.
 
-    from sim.report.robot_code_snippet import robot_code_snippet
-    print(robot_code_snippet(found.in_log_units(), language="java", season=2026, name="left drive"))
+    from sim.report.robot_code_snippet import write_robot_code
+    print(write_robot_code(found.in_log_units(), language="java", season=2026, name="left drive"))
 
-What differs between languages and seasons is data below; the text is put together in one way.
+Differences between languages and seasons are data below; one function assembles the text.
 An arm's numbers are always per radian, because WPILib takes the cosine of the angle it is given.
 """
 
@@ -18,15 +18,15 @@ from sim.feedback import PRESETS
 from sim.fit import Fit
 from sim.fit.feedback_trial import try_feedback_gains
 
-DIGITS = 5  # a robot's gain deserves no more: what the model leaves out is larger than its noise
-FINEST = 1e-3  # [share of a gain] smaller errors are noise alone, and no gain is known so well
-FEWEST = 3  # ... and no fewer: a rounded kA of zero would be another model
+DIGITS = 5  # significant digits at most: errors of the model are larger than the next digit
+FINEST = 1e-3  # [1] relative error; no gain is really known better than this
+FEWEST = 3  # significant digits at least: a kA rounded to zero would be another model
 PERIOD = 1e3 * PRESETS["default"].period  # [ms] between the two velocities, WPILib's default
 
 
 @dataclass(frozen=True)
 class Language:
-    """Templates of one language; the words in braces are filled in."""
+    """Templates of one language; names in braces are replaced."""
 
     comment: str
     indent: str
@@ -35,8 +35,8 @@ class Language:
     constant: str
     build: str
     closes: str
-    linear: str  # the class for a simple mechanism counted in lengths
-    angular: str  # ... and in angles
+    linear: str  # feedforward class of a simple mechanism in units of length
+    angular: str  # feedforward class of a simple mechanism in units of angle
 
 
 @dataclass(frozen=True)
@@ -44,9 +44,9 @@ class Spelling:
     """The names in one season's WPILib.
 
     Args:
-        module: where the feedforward classes are.
-        method: takes the velocity now and the one a period later (an arm: the angle before both).
-        notes: what is not certain about it, a line each.
+        module: package or module of the feedforward classes.
+        method: method with the velocity now and a period later; for an arm, the angle comes first.
+        notes: comment lines about what is not certain.
     """
 
     module: str
@@ -81,9 +81,9 @@ LANGUAGES = {
 
 # Sources. 2026: WPILib 2026.2.2; Java's calculate(velocity, acceleration) is deprecated there, and
 # Python's calculate has always taken the next velocity. 2027: allwpilib's development branch, where
-# Java's calculate takes the next velocity and calculateWithVelocities is gone, and where RobotPy's
-# own tests and examples import from wpimath itself. Its early alphas still had wpimath.controller;
-# no 2027 release was there to try either against.
+# Java's calculate takes the next velocity and calculateWithVelocities no longer exists, and where
+# RobotPy's own tests and examples import from wpimath itself. Its early alphas still had
+# wpimath.controller. Neither was tested, because 2027 is not released.
 _ALPHA = "WPILib 2027 is not released: names as on its development branch."
 SPELLINGS = {
     ("java", 2026): Spelling("edu.wpi.first.math.controller", "calculateWithVelocities"),
@@ -101,7 +101,7 @@ SPELLINGS = {
 }
 SEASONS = tuple(sorted({season for _, season in SPELLINGS}))
 
-ORDER = {  # of the constructor's arguments
+ORDER = {  # order of the constructor's arguments
     "simple": ("kS", "kV", "kA"),
     "elevator": ("kS", "kG", "kV", "kA"),
     "arm": ("kS", "kG", "kV", "kA"),
@@ -110,22 +110,22 @@ CLASSES = {"elevator": "ElevatorFeedforward", "arm": "ArmFeedforward"}
 
 
 def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str = "") -> str:
-    """Robot code with the gains of a fit, rounded to the digits that their errors deserve.
+    """Robot code with the gains of a fit, rounded to the precision that their errors allow.
 
     Args:
-        found: the fit, in the unit the code shall count in; an arm's is turned into radians.
+        found: the fit, in the unit for the code; gains of an arm are converted to radians.
         language: ``java`` or ``python``.
         season: 2026 or 2027.
-        name: what the mechanism is called; empty takes its type.
+        name: name of the mechanism; empty takes its type.
 
     Returns:
         The text, with a line break at its end.
 
     Raises:
-        BadRequest: an unknown language or season, a name without a letter in front, or gains that
-            cannot be right.
+        BadRequest: an unknown language or season, a name that does not begin with a letter, or
+            gains that are physically impossible.
     """
-    spelling = _spelling(language, season)
+    spelling = _find_spelling(language, season)
     refuse_impossible_gains(found)
     write = LANGUAGES[language]
     class_ = make_class_name(name or found.type)
@@ -150,20 +150,20 @@ def write_robot_code(found: Fit, *, language: str, season: int = 2026, name: str
 
 
 def round_to_error(value: float, error: float) -> str:
-    """A number as code, to the second digit of its error, with three to five digits of its own."""
+    """A number as code, rounded to the second digit of its error, with three to five digits."""
     if not value:
         return "0.0"
     first = math.floor(math.log10(abs(value)))
     places = DIGITS - 1 - first
     if math.isfinite(error) and error > 0.0:
-        deserved = 1 - math.floor(math.log10(error))
-        places = min(places, max(deserved, FEWEST - 1 - first))
+        second = 1 - math.floor(math.log10(error))
+        places = min(places, max(second, FEWEST - 1 - first))
     text = f"{round(value, places):.{max(places, 1)}f}"
     whole, _, fraction = text.partition(".")
     return f"{whole}.{fraction.rstrip('0') or '0'}"
 
 
-def _spelling(language: str, season: int) -> Spelling:
+def _find_spelling(language: str, season: int) -> Spelling:
     if language not in LANGUAGES:
         raise BadRequest(
             f"unknown language {language!r}", advice=f"Choose one of: {', '.join(LANGUAGES)}."
@@ -175,10 +175,10 @@ def _spelling(language: str, season: int) -> Spelling:
 
 
 def refuse_impossible_gains(found: Fit) -> None:
-    """Refuse gains that no robot should run on.
+    """Refuse gains that no robot should use.
 
     Raises:
-        BadRequest: a grave doubt, a gain that is no number, or a negative kV or kA.
+        BadRequest: a grave doubt, a gain that is not finite, or a negative kV or kA.
     """
     for doubt in found.doubts:
         if doubt.grave:
@@ -195,10 +195,10 @@ def refuse_impossible_gains(found: Fit) -> None:
 
 
 def make_class_name(name: str) -> str:
-    """The class name for a mechanism's gains: ``LeftDriveGains`` of ``left drive``.
+    """The class name for a mechanism's gains: ``LeftDriveGains`` for ``left drive``.
 
     Raises:
-        BadRequest: the name has no letter in front.
+        BadRequest: the name does not begin with a letter.
     """
     words = re.findall(r"[^\W_]+", name)
     joined = "".join(word[0].upper() + word[1:] for word in words) + "Gains"
@@ -220,10 +220,10 @@ def _heading(found: Fit, spelling: Spelling, *, season: int) -> Iterator[str]:
 
 
 def _constants(found: Fit, write: Language) -> Iterator[str]:
-    """The gains, and for an arm what makes the sensor's reading the angle from horizontal."""
+    """The lines of the gains, and for an arm the offset from the sensor to the horizontal."""
     given = find_unit(found.units)
-    turned = found.type == "arm" and given.name != "radians"
-    if turned:
+    converted = found.type == "arm" and given.name != "radians"
+    if converted:
         yield f"{write.comment} Gains per {given.symbol} in the fit, per radian here."
     shown = found.in_units("radians") if found.type == "arm" else found
     for gain in ORDER[found.type]:
@@ -232,7 +232,7 @@ def _constants(found: Fit, write: Language) -> Iterator[str]:
     if found.type != "arm":
         return
     reading = "measured"
-    if turned:
+    if converted:
         yield write.constant.format(name="kRadiansPerUnit", value=repr(given.si)) + (
             f"  {write.comment} [rad/{given.symbol}]"
         )
@@ -243,7 +243,7 @@ def _constants(found: Fit, write: Language) -> Iterator[str]:
 
 
 def _feedforward(found: Fit, write: Language, spelling: Spelling, *, cls: str) -> Iterator[str]:
-    per = _counts_in(found)
+    per = _code_unit(found)
     angle = "angle, " if found.type == "arm" else ""
     yield ""
     yield f"{write.comment} Volts: FEEDFORWARD.{spelling.method}({angle}velocity, nextVelocity)"
@@ -255,8 +255,8 @@ def _feedforward(found: Fit, write: Language, spelling: Spelling, *, cls: str) -
 
 
 def _feedback(found: Fit, write: Language) -> Iterator[str]:
-    """The gains the fit suggests; an arm's are brought to radians, so the loop stays the same."""
-    per = _counts_in(found)
+    """The lines of the suggested feedback gains; those of an arm are converted to radians."""
+    per = _code_unit(found)
     factor = per.si / find_unit(found.units).si
     yield ""
     loops = found.feedback()
@@ -285,20 +285,20 @@ def _feedback(found: Fit, write: Language) -> Iterator[str]:
             yield _line(write, f"k{word}{letter}", start, math.nan, f"{top}/{held}")
 
 
-def _counts_in(found: Fit) -> Unit:
-    """The unit of position that the code counts in."""
+def _code_unit(found: Fit) -> Unit:
+    """The unit of position in the code."""
     return find_unit("radians" if found.type == "arm" else found.units)
 
 
 def format_code_error(value: float, error: float) -> str:
-    """One standard error as the end of a comment; empty if it is not known."""
+    """One standard error as the end of a comment: `` ± 0.01``; empty if it is not known."""
     if not math.isfinite(error):
         return ""
     return f" ± {error:.2g}" if error >= FINEST * abs(value) else f" ± less than {FINEST:.1%}"
 
 
 def _line(write: Language, name: str, value: float, error: float, per: str) -> str:
-    """One constant with its unit, and its error where it has one."""
+    """The line of one constant, with its unit, and its standard error if it has one."""
     known = format_code_error(value, error)
     constant = write.constant.format(name=name, value=round_to_error(value, error))
     return f"{constant}  {write.comment} [{per}]{known}"

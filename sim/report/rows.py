@@ -18,7 +18,7 @@ from sim.plot.table import to_text
 from sim.report.fit_terminal import format_error
 from sim.report.robot_code_snippet import LANGUAGES, SEASONS, round_to_error, write_robot_code
 
-SURE = 1.96  # [standard errors] that hold the truth 95 times of a hundred
+SURE = 1.96  # [standard errors] half width of a 95 % confidence interval
 MEANS = {
     "kS": "friction: the volts before the mechanism moves",
     "kV": "the volts for a steady speed, for each unit of speed",
@@ -54,7 +54,7 @@ class ControllerRow:
 
 @dataclass(frozen=True)
 class Snippet:
-    """Code to paste, or why there is none."""
+    """Code to paste, or the reason why there is none."""
 
     language: str
     season: int
@@ -63,7 +63,7 @@ class Snippet:
 
 
 def make_gain_rows(found: Fit) -> list[Gain]:
-    """The gains with their errors and what they mean."""
+    """The rows of the gains, with their errors, confidence intervals and meanings."""
     rows = []
     for name, value in found.gains.items():
         error = found.errors.get(name, math.nan)
@@ -72,9 +72,9 @@ def make_gain_rows(found: Fit) -> list[Gain]:
         rows.append(
             Gain(
                 "angle" if name == "offset_rad" else name,
-                _minus(round_to_error(value, error)),
+                _use_minus_signs(round_to_error(value, error)),
                 format_error(value, error),
-                _minus(between),
+                _use_minus_signs(between),
                 found.format_gain_unit(name),
                 MEANS[name],
             )
@@ -120,7 +120,7 @@ def make_measure_rows(found: Fit) -> list[tuple[str, str, str]]:
 
 
 def make_controller_rows(found: Fit) -> list[ControllerRow]:
-    """Feedback gains for every motor controller; empty where the model allows none."""
+    """The rows of feedback gains, one for each motor controller; empty if there are no gains."""
     rows = []
     for preset in PRESETS.values():
         tried = {
@@ -133,7 +133,7 @@ def make_controller_rows(found: Fit) -> list[ControllerRow]:
             rows.append(
                 ControllerRow(
                     preset.name,
-                    _counts(preset),
+                    _describe_units(preset),
                     " and ".join(f"{delay:.3g}" for delay in sorted(delays)),
                     _loop(tried["velocity"]),
                     _loop(tried["position"]),
@@ -142,8 +142,8 @@ def make_controller_rows(found: Fit) -> list[ControllerRow]:
     return rows
 
 
-def _counts(preset: Preset) -> str:
-    """In what units a controller thinks."""
+def _describe_units(preset: Preset) -> str:
+    """The units in which a controller takes its gains."""
     full = 12.0 * preset.output
     output = "volts" if preset.output == 1.0 else f"{full:.4g} for 12 V"
     speeds = {1.0: "second", 60.0: "minute", 0.1: "100 ms"}
@@ -152,13 +152,13 @@ def _counts(preset: Preset) -> str:
 
 
 def _loop(trial: FeedbackTrial) -> tuple[str, str, str, bool]:
-    """kP, kD, what they do in simulation, and whether to begin with them."""
-    numbers = (_four(trial.gains.kp), _four(trial.gains.kd))
+    """kP, kD, the simulated step response in words, and whether they are a good start."""
+    numbers = (_format_four_digits(trial.gains.kp), _format_four_digits(trial.gains.kd))
     return (*numbers, trial.verdict.description, trial.is_good)
 
 
 def make_snippet_rows(found: Fit) -> list[Snippet]:
-    """Code for every language and season."""
+    """The code of every language and season."""
     made = []
     for language in LANGUAGES:
         for season in SEASONS:
@@ -171,12 +171,12 @@ def make_snippet_rows(found: Fit) -> list[Snippet]:
     return made
 
 
-def _four(value: float) -> str:
-    return _minus(f"{value:.4g}")
+def _format_four_digits(value: float) -> str:
+    return _use_minus_signs(f"{value:.4g}")
 
 
-def _minus(text: str) -> str:
-    """The same with true minus signs; exponents keep theirs."""
+def _use_minus_signs(text: str) -> str:
+    """The text with minus signs (−) for hyphens, except in exponents."""
     return re.sub(r"(?<![e\d])-", "−", text)
 
 

@@ -42,15 +42,15 @@ class FindingText:
     """The texts of a finding on the page.
 
     Args:
-        name: with its look-alikes.
-        summary: what it is, in a few words.
-        leads: whether it is more than a minor effect.
+        name: name of the effect, or of several that cannot be distinguished.
+        summary: the effect in a few words.
+        leads: whether it is a fault or a major effect.
         size: ``major`` or ``minor`` and how likely it is, or ``damage to the log``.
         sentence: what it does.
-        parameters: name, value, error, unit, what it means.
-        gap: from where to where it brings the gap; empty for damage.
-        looks: what to look at on the robot, or to do, each with a head.
-        separating_test: which test tells it from its look-alikes.
+        parameters: name, value, error, unit and meaning of each parameter.
+        gap: the gap before and after the effect is added; empty for damage.
+        looks: title and text of what to inspect on the robot, or to do.
+        separating_test: the test that distinguishes it from the effects it may be confused with.
     """
 
     name: str
@@ -65,30 +65,30 @@ class FindingText:
 
 
 def write_story(story: Story, path: str | os.PathLike[str], *, title: str) -> None:
-    """Write the page, whole or not at all.
+    """Write the page as one file; if that fails, an existing file stays as it was.
 
     Args:
-        story: what was found.
-        path: of the page.
-        title: where the log came from.
+        story: result of ``reconcile``.
+        path: path of the page.
+        title: names of the files.
 
     Raises:
-        BadRequest: its name does not end as a page's, or it cannot be written.
+        BadRequest: the name does not end in .html, or the file cannot be written.
     """
     target = choose_page_path(path)
     write_page_file(render_story(story, title=title), target)
 
 
 def render_story(story: Story, *, title: str) -> str:
-    """The page as text; the same story always gives the same.
+    """The page as HTML; the same story always gives the same text.
 
     Args:
-        story: what was found.
-        title: where the log came from.
+        story: result of ``reconcile``.
+        title: names of the files.
     """
     last = len(story.chapters) - 1
     tried = [number for number, chapter in enumerate(story.chapters) if chapter.tried]
-    told = range(1, last + 1) or (0,)  # the base alone has no before
+    overlaid = range(1, last + 1) or (0,)  # chapter 0 only if there is no other
     return (
         load_templates()
         .get_template("story.html.jinja")
@@ -99,40 +99,40 @@ def render_story(story: Story, *, title: str) -> str:
             headline=write_headline(story),
             unsure=story.remainder or story.verdict in {AMBIGUOUS, UNEXPLAINED},
             beside=list_remarks(story),
-            findings=[_told(one, story) for one in story.findings],
+            findings=[_describe_finding(one, story) for one in story.findings],
             overview=_html(make_findings_table(story)),
             tests=list_next_tests(story),
             shrinking=_html(plot_gap_by_round(story)),
             places=[(place.sentence, f"{place.sure:.0f}") for place in story.where],
-            gaps=_gaps(story),
-            rounds=[(_base(story, n), _lineup(story, n)) for n in tried],
-            overlays=[(_base(story, n), _html(plot_overlays(story, n))) for n in told],
+            gaps=_draw_maps(story),
+            rounds=[(_name_model(story, n), _draw_candidates(story, n)) for n in tried],
+            overlays=[(_name_model(story, n), _html(plot_overlays(story, n))) for n in overlaid],
         )
     )  # fmt: skip
 
 
-def _gaps(story: Story) -> Markup:
-    """The map, or why there is none."""
+def _draw_maps(story: Story) -> Markup:
+    """The residual maps, or the reason why there are none."""
     try:
         return _html(plot_residual_maps(story))
     except BadRequest as refusal:
         return Markup("<p>{}</p>").format(str(refusal))
 
 
-def _lineup(story: Story, chapter: int) -> Markup:
-    """The suspects of a round; where none explains anything, bars would show nothing."""
+def _draw_candidates(story: Story, chapter: int) -> Markup:
+    """The candidates of a round: bars, or a table if no candidate improves the model."""
     if max(one.improvement for one in story.chapters[chapter].tried) < 1.0:
         return _html(make_candidate_table(story, chapter))
     return _html(plot_candidate_bars(story, chapter))
 
 
-def _base(story: Story, chapter: int) -> str:
-    """What a chapter's model is called."""
+def _name_model(story: Story, chapter: int) -> str:
+    """The name of a chapter's model: the base model and the effects added to it."""
     added = [one.added for one in story.chapters[1 : chapter + 1]]
     return " + ".join(["base model", *added])
 
 
-def _told(one: Finding, story: Story) -> FindingText:
+def _describe_finding(one: Finding, story: Story) -> FindingText:
     fault = one.kind == FAULT
     before, after = (format_gap(gap, story) for gap in (one.gap_before, one.gap_after))
     return FindingText(
@@ -157,4 +157,4 @@ def _told(one: Finding, story: Story) -> FindingText:
 
 
 def _html(shown: Picture | Table) -> Markup:
-    return Markup(shown.html)  # noqa: S704 - both escape what they say
+    return Markup(shown.html)  # noqa: S704 - both escape their texts

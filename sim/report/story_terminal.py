@@ -22,7 +22,7 @@ from sim.reconcile.story_text import (
 )
 
 COLUMNS, BAR = 80, 40  # [characters] of a line, and of the longest bar
-PLACES = 5  # that are told
+PLACES = 5  # places listed where the base model disagrees most
 
 ShowStep = Callable[[str, float], None]
 
@@ -31,7 +31,7 @@ ShowStep = Callable[[str, float], None]
 def show_progress() -> Iterator[ShowStep]:
     """A progress bar on the terminal; yields a function of a step's text and the share done.
 
-    Where nobody watches it is not drawn.
+    If standard error is not a terminal, nothing is drawn.
     """
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -47,18 +47,18 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
     """Print the verdict, then the findings and gaps behind it.
 
     Args:
-        story: what was found.
-        title: the files it came from.
+        story: result of ``reconcile``.
+        title: names of the files.
         console: where to print; standard output if None.
     """
-    console = console or _console()
-    say = _Sayer(console)
+    console = console or _make_console()
+    say = _WrappedPrinter(console)
     say(title)
     say(write_headline(story), style="bold")
     for one in story.findings:
-        _finding(say, one, story)
+        _print_finding(say, one, story)
     say("")
-    _gaps(say, story)
+    _print_gaps(say, story)
     if story.where:
         say("")
         say("Where the base model disagrees most:")
@@ -72,8 +72,8 @@ def show_story(story: Story, *, title: str, console: Console | None = None) -> N
         say(f"warning: {message}", style="bold")
 
 
-class _Sayer:
-    """Prints wrapped text, which may hold brackets that mean themselves."""
+class _WrappedPrinter:
+    """Prints wrapped text; brackets in it are printed as they are, not read as markup."""
 
     def __init__(self, console: Console) -> None:
         self.console = console
@@ -88,13 +88,13 @@ class _Sayer:
             self.console.print(Text(line, style=style), soft_wrap=True)
 
 
-def _console() -> Console:
-    """As wide as the terminal, eighty columns at most: longer lines are hard to read."""
+def _make_console() -> Console:
+    """A console as wide as the terminal, at most 80 columns: longer lines are hard to read."""
     console = Console(highlight=False, file=sys.stdout)
     return Console(highlight=False, file=sys.stdout, width=min(console.width, COLUMNS))
 
 
-def _finding(say: _Sayer, one: Finding, story: Story) -> None:
+def _print_finding(say: _WrappedPrinter, one: Finding, story: Story) -> None:
     say("")
     name = " or ".join([one.effect, *one.ambiguous_with])
     say(f"{name} ({describe_size(one)})", style="bold")
@@ -108,8 +108,8 @@ def _finding(say: _Sayer, one: Finding, story: Story) -> None:
         say(f"{head}: {text}", indent=2)
 
 
-def _gaps(say: _Sayer, story: Story) -> None:
-    """The shrinking gap as bars of characters that every terminal has."""
+def _print_gaps(say: _WrappedPrinter, story: Story) -> None:
+    """Print the gap of each model as a bar of ASCII characters."""
     say("The gap is the simulation error divided by the sensor noise (1 means only noise):")
     names = ["base model", *(f"+ {one.added}" for one in story.chapters[1:])]
     wide = max(map(len, names))
